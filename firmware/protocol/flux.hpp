@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Exact integer arithmetic on flux: fractions of it are rounded once, and what is left over is never lost.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/protocol/records.hpp"
+
+namespace torolux::protocol {
+
+/// Fraction of 2^32, rounded down: floor(amount * numerator / 2^32). amount in 0..2^62, numerator in 0..2^32.
+constexpr std::int64_t scale_down(std::int64_t amount, std::uint64_t numerator) {
+  if (numerator > 0xFFFF'FFFFU) return amount;
+  const auto value = static_cast<std::uint64_t>(amount);
+  const auto part = static_cast<std::uint32_t>(numerator);
+  const std::uint64_t low = (value & 0xFFFF'FFFFU) * part;
+  const std::uint64_t high = (value >> 32U) * part;
+  return static_cast<std::int64_t>(high + (low >> 32U));
+}
+
+/// Reflectances and the like in flux arithmetic: 2^32 is one, rounded to nearest in `to_fraction`.
+using Fraction = std::uint64_t;  ///< 0..2^32
+inline constexpr Fraction kOne = Fraction{1} << 32U;
+
+constexpr Fraction to_fraction(double value) {
+  if (!(value > 0.0)) return 0;
+  if (value >= 1.0) return kOne;
+  return static_cast<Fraction>(value * 4294967296.0 + 0.5);
+}
+
+/// The share of part `index` of `parts` equal ones, so that the shares add up to `amount` exactly.
+/// amount >= 0, parts in 1..2^16.
+constexpr std::int64_t equal_share(std::int64_t amount, std::uint32_t index, std::uint32_t parts) {
+  const std::int64_t quotient = amount / parts;
+  const std::int64_t rest = amount % parts;
+  return quotient + (rest * (index + 1) / parts - rest * index / parts);
+}
+
+}  // namespace torolux::protocol

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The one instruction by which processor and NIU meet: `slti x0, x0, imm`, a HINT that RISC-V leaves to custom use.
+#pragma once
+
+#include <cstdint>
+
+namespace torolux::protocol {
+
+/// The immediate of the HINT, -2048..2047. Arguments and results lie in the NIU window.
+/// Local memory changes from outside only inside `send_*` (slots and buffers are read) and `receive*`.
+enum class Hint : std::int32_t {
+  /// Send `window.send` as a packet of records over the torus. Waits while the outgoing queue is full.
+  /// The slots listed are read and, where they belong to the NIU, freed, before the HINT ends.
+  send_records = 1,
+  /// Send `window.send` as a message over the bus to the host or the FBC. Waits while the outgoing queue is full.
+  send_message = 2,
+  /// Sleep until a packet or message has come, then bring it in: fills `window.arrival`.
+  receive = 3,
+  /// As `receive`, but where nothing has come by now, `window.arrival.kind` is `none` and the processor goes on.
+  receive_if_any = 4,
+  /// Write the PE's clock to `window.clock`.
+  clock = 5,
+  /// Tell the NIU where the record slots are: `window.slots`. All slots must be free. Once before each stage.
+  set_slots = 6,
+  /// The program has ended. Does not return.
+  halt = 7,
+  /// The program has failed: as halt, but ends the run; `window.fault` says why.
+  fail = 8,
+  /// enter_phase + p and leave_phase + p, p in 0..kPhases-1: markers for the profile. They cost no cycles and may nest.
+  enter_phase = 64,
+  leave_phase = 128,
+};
+
+/// Phases of the profile: where a PE's cycles go.
+enum class Phase : std::uint8_t { load, shoot, traverse, shade, deposit, flush, control, count };
+inline constexpr std::uint32_t kPhases = 16;
+static_assert(static_cast<std::uint32_t>(Phase::count) <= kPhases);
+
+/// `slti x0, x0, imm`: opcode 0x13, funct3 2, rd = rs1 = x0. Always a 4-byte instruction.
+constexpr std::uint32_t hint_instruction(std::int32_t immediate) {
+  return (static_cast<std::uint32_t>(immediate) << 20U) | 0x0000'2013U;
+}
+constexpr bool is_hint(std::uint32_t instruction) {
+  return (instruction & 0x000F'FFFFU) == 0x0000'2013U;
+}
+constexpr std::int32_t hint_immediate(std::uint32_t instruction) {
+  return static_cast<std::int32_t>(instruction) >> 20;
+}
+static_assert(hint_immediate(hint_instruction(-5)) == -5 && is_hint(hint_instruction(-5)));
+
+}  // namespace torolux::protocol

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Bus messages between the host and the Torolux firmware (pe.elf). Each is a MessageHeader and one of these structs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/protocol/niu_window.hpp"
+#include "firmware/protocol/records.hpp"
+#include "firmware/protocol/stores.hpp"
+
+namespace torolux::protocol {
+
+enum class MessageKind : std::uint16_t {
+  // host -> PE
+  configure = kFirstProgramMessage,  ///< StageLayout; the PE checks it and fails the run where it does not hold
+  load,                              ///< LoadBlock, then its bytes
+  begin,                             ///< nothing follows; answer: ready
+  select,                            ///< Select; answer: candidates, one or more messages
+  shoot,                             ///< Shoot; answer, when its last record has been created: shot_done
+  grant,                             ///< Grant: credits for the shot in progress
+  read,                              ///< Read; answer: data
+  report,                            ///< nothing follows; answer: tally
+  stop,                              ///< nothing follows; the PE halts
+  // PE -> host
+  ready,       ///< nothing follows
+  candidates,  ///< Candidates
+  shot_done,   ///< nothing follows; grants not used up come back in a `credits` message before it
+  credits,     ///< Credits that have come home
+  data,        ///< LoadBlock, then its bytes
+  tally,       ///< Tally
+};
+
+struct LoadBlock {
+  std::uint32_t address;  ///< multiple of 4, inside the PE's free memory
+  std::uint32_t bytes;    ///< 1..kMostLoadBytes, multiple of 4
+};
+inline constexpr std::uint32_t kMostLoadBytes = kMostMessageBytes - sizeof(LoadBlock);
+using Read = LoadBlock;
+
+/// The S best sides by unshot flux. S is a function of the scene alone.
+struct Select {
+  std::uint32_t count;  ///< S, 1..kMostShooters
+  std::uint32_t unused;
+  std::int64_t threshold;  ///< [quanta, R + G + B] only sides with more than this
+};
+inline constexpr std::uint32_t kMostShooters = 256;
+
+enum class ShotKind : std::uint32_t { reflected = 0, emitted = 1 };
+
+/// One possible shot. Order: more unshot first; then lower patch number, front before back, emitted before reflected.
+struct Candidate {
+  Flux amount;           ///< reflected: incident flux to turn into a shot; emitted: flux to shoot
+  std::int64_t unshot;   ///< R + G + B of the flux that the shot would carry
+  std::uint32_t number;  ///< global patch
+  std::uint32_t patch;   ///< local patch
+  std::uint32_t side;    ///< 0 front, 1 back
+  ShotKind kind;
+};
+static_assert(sizeof(Candidate) == 48);
+inline constexpr std::uint32_t kMostCandidatesPerMessage = 20;
+
+struct Candidates {
+  std::uint32_t count;                                         ///< in this message
+  std::uint32_t last;                                          ///< 1: no more follow
+  std::array<Candidate, kMostCandidatesPerMessage> candidate;  ///< only `count` of them are sent
+};
+static_assert(sizeof(Candidates) <= kMostMessageBytes);
+
+/// The owner subtracts exactly `amount` and shoots `amount` times reflectance (reflected) or `amount` (emitted).
+struct Shoot {
+  Flux amount;
+  std::uint32_t patch;  ///< local
+  std::uint32_t side;
+  ShotKind kind;
+  std::uint32_t number;  ///< of the shot, counted by the host over the stage; seeds the random numbers
+};
+static_assert(sizeof(Shoot) == 40);
+
+struct Grant {
+  std::uint32_t credits;
+};
+
+struct Credits {
+  std::uint32_t count;
+};
+
+/// Reasons for Hint::fail, from pe.elf and from start.S.
+enum class FaultCode : std::uint32_t {
+  trap = 1,             ///< detail: mcause, mepc, mtval
+  protocol_version,     ///< detail: image, emulator
+  bad_layout,           ///< detail: StoreName or field, address, count
+  outside_store,        ///< detail: which index, value, limit
+  unknown_message,      ///< detail: kind
+  unexpected_message,   ///< detail: kind, state
+  bad_record,           ///< detail: field, value
+  own_slots_exhausted,  ///< detail: slots
+};
+
+}  // namespace torolux::protocol

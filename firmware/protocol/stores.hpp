@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// The stores: what the host lays out in a PE's local memory before a stage. All addresses are absolute.
+// Scene space is normalised so that the longest edge of the object space is 1 and its lowest corner the origin.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/machine.hpp"
+#include "firmware/protocol/records.hpp"
+
+namespace torolux::protocol {
+
+/// How far beyond a subspace's box a polygon still stands in it, so that rounding never hides a hit.
+inline constexpr float kSubspaceMargin = 0x1p-13F;
+
+/// Faces of a subspace: 2 * axis + (1 for the upper one).
+inline constexpr std::uint32_t kFaces = 6;
+
+struct Subspace {
+  std::array<std::uint32_t, kFaces> neighbour;  ///< local number at the PE named next
+  std::array<PeNumber, kFaces> neighbour_pe;    ///< kNobody: outside the object space
+  std::array<std::uint16_t, 3> cell;            ///< x, y, z, counted from 0
+  std::uint16_t unused;
+  std::uint32_t first_polygon;  ///< index into the polygon list
+  std::uint32_t polygon_count;
+};
+static_assert(sizeof(Subspace) == 52);
+
+/// Which sides of a polygon have elements (or, in the ray tracing stage, lattice values).
+inline constexpr std::uint8_t kFrontPresent = 1;
+inline constexpr std::uint8_t kBackPresent = 2;
+
+/// One per PE and polygon, shared by all its subspaces that the polygon touches.
+struct Polygon {
+  std::array<Vec3f, 3> corner;  ///< counter-clockwise seen from the front
+  std::uint32_t number;         ///< global
+  std::uint32_t surface;  ///< radiosity: index of its first PatchReference. Ray tracing: of its first lattice value
+                          ///< (front lattice first, then back, as present)
+  std::uint32_t normals;  ///< index of its first of three corner normals, or kNoPolygon: flat
+  std::uint16_t material;
+  std::uint8_t sides;          ///< kFrontPresent | kBackPresent
+  std::uint8_t patch_level;    ///< 4^patch_level patches
+  std::uint8_t element_level;  ///< 4^element_level elements, >= patch_level; lattice of this level
+  std::uint8_t unused[3];
+};
+static_assert(sizeof(Polygon) == 56);
+
+enum class MaterialKind : std::uint32_t { diffuse, mirror, glass };
+
+struct Material {
+  MaterialKind kind;
+  Vec3f diffuse;                  ///< reflectance, 0..0.99
+  Vec3f specular;                 ///< mirror: reflectance
+  Vec3f transmittance;            ///< glass: at each crossing, 0..1
+  float refractive_index;         ///< glass: inside over outside
+  Vec3f emission;                 ///< radiance from the front, in units of the scene's greatest
+  std::uint32_t emits_from_back;  ///< 0 or 1 (--two-sided-lights)
+  std::uint32_t unused;
+  std::array<Fraction, 3> diffuse_fraction;  ///< the same as `diffuse`, `specular`, `transmittance`: flux is exact
+  std::array<Fraction, 3> specular_fraction;
+  std::array<Fraction, 3> transmittance_fraction;
+};
+static_assert(sizeof(Material) == 136);
+
+// ---- Radiosity stage only ----
+
+/// Where the owner keeps a patch.
+struct PatchReference {
+  std::uint32_t patch;  ///< local number at `pe`
+  PeNumber pe;
+  std::uint16_t unused;
+};
+static_assert(sizeof(PatchReference) == 8);
+
+inline constexpr std::uint32_t kNoSide = 0xFFFF'FFFFU;
+
+struct Patch {
+  std::uint32_t number;               ///< global: ties are broken by it
+  std::uint32_t polygon;              ///< index into the PE's polygons
+  std::uint32_t path;                 ///< of level patch_level
+  std::uint32_t subspace;             ///< local number of the subspace that holds its centre
+  std::array<std::uint32_t, 2> side;  ///< front, back: index into the patch sides, or kNoSide
+};
+static_assert(sizeof(Patch) == 24);
+
+/// One lit side of a patch.
+struct PatchSide {
+  Flux incident;                ///< all that has come, emitters' light included
+  Flux shot;                    ///< the part of `incident` that has been turned into shots
+  Flux emission;                ///< emitted flux that has not been shot
+  std::uint32_t first_element;  ///< index into the elements; 4^(element_level - patch_level) of them
+  std::uint32_t unused;
+};
+static_assert(sizeof(PatchSide) == 80);
+
+struct Element {
+  Flux flux;    ///< incident, `direct` included
+  Flux direct;  ///< incident straight from emitters: apart, so that shadow rays can take its place
+};
+static_assert(sizeof(Element) == 48);
+
+/// Sums of one PE over the radiosity stage.
+struct Tally {
+  Flux absorbed_specular;  ///< lost at mirrors and glass
+  Flux escaped;            ///< left the object space
+  Flux cut_off;            ///< bounce limit
+  Flux back_side;          ///< fell on a side that has no elements
+  std::uint64_t rays;      ///< records created
+};
+static_assert(sizeof(Tally) == 104);
+
+/// Hemi-cube weights: exact delta form factors as fractions of 2^32. Half faces by symmetry, N = pixels across the top:
+/// the top's quadrant [j][i], i, j in 0..N/2-1 counted from the axis outwards, then a side's half
+/// [j][i]: i in 0..N/2-1 from its middle outwards, j in 0..N/2-1 from the surface up.
+/// 4 * sum(top) + 8 * sum(side) == 2^32 exactly.
+constexpr std::uint32_t hemicube_weights(std::uint32_t n) {
+  return 2U * (n / 2U) * (n / 2U);
+}
+/// Pixels are numbered: top, row by row (N*N), then the four sides, row by row from the surface up (N * N/2 each).
+constexpr std::uint32_t hemicube_pixels(std::uint32_t n) {
+  return 3U * n * n;
+}
+
+// ---- Ray tracing stage only ----
+
+/// Irradiance / pi at a lattice vertex, in units of the scene's greatest emitted radiance; times reflectance =
+/// radiance.
+struct LatticeValue {
+  Vec3f irradiance_over_pi;
+};
+static_assert(sizeof(LatticeValue) == 12);
+
+// ---- Layout ----
+
+struct Store {
+  std::uint32_t address;
+  std::uint32_t count;
+};
+
+enum class Stage : std::uint32_t { radiosity = 1, ray_tracing = 2 };
+
+/// What the host tells a PE before a stage. The PE checks it: stores inside its free memory, aligned to 8, apart from
+/// each other.
+struct StageLayout {
+  Stage stage;
+  std::uint32_t seed;
+  std::array<std::uint32_t, 3> cells;  ///< Gx, Gy, Gz
+  Vec3f cell_size;                     ///< plane i of an axis lies at float(i) * cell_size
+  Store subspaces;                     ///< Subspace[]
+  Store polygon_list;                  ///< uint32_t[]: indices into polygons, ascending global number per subspace
+  Store polygons;                      ///< Polygon[]
+  Store materials;                     ///< Material[]
+  Store normals;                       ///< Vec3f[]
+  Store record_slots;                  ///< RadiosityRecord[] or RayRecord[]: own_slots, then the NIU's
+  std::uint32_t own_slots;
+  std::uint32_t bounces;  ///< path segments after which light is cut off
+  // Radiosity stage (counts 0 in the other).
+  Store patch_references;         ///< PatchReference[]
+  Store patches;                  ///< Patch[]
+  Store patch_sides;              ///< PatchSide[]
+  Store elements;                 ///< Element[]
+  Store hemicube;                 ///< uint32_t[hemicube_weights(hemicube_size)]
+  std::uint32_t hemicube_size;    ///< N, even
+  std::uint32_t shot_points;      ///< k: k * k points per patch, reflected light
+  std::uint32_t emission_points;  ///< k for emitted light
+  // Ray tracing stage.
+  Store lattice;       ///< LatticeValue[]
+  float pixel_scale;   ///< quanta per unit of radiance
+  float least_weight;  ///< a ray whose weights are all below dies
+};
+static_assert(sizeof(StageLayout) == 156);
+
+}  // namespace torolux::protocol
