@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What runs the PEs' processors. The scheduler does not know which engine it is: they meet in the NIU channels alone.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "emulator/engines/image.hpp"
+#include "emulator/engines/shared_memory.hpp"
+#include "emulator/machine/description.hpp"
+#include "firmware/protocol/machine.hpp"
+
+namespace torolux {
+
+/// One PE as engine and emulator share it: local memory with the image loaded and the NIU window filled in.
+struct PeMemory {
+  SharedMemory channel;  ///< a NiuChannel
+  SharedMemory local;    ///< local memory, from kLocalMemoryBase; may be mapped larger than the PE's size
+  std::uint32_t local_memory_bytes;
+};
+
+struct EngineSetup {
+  const MachineDescription& machine;
+  const Image& image;
+  std::vector<PeMemory>& pes;
+  unsigned threads;  ///< host threads to use, >= 1
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;  ///< leaves no process, thread or file behind
+  virtual std::string_view name() const = 0;
+  /// Lets every PE begin at `_start`. Returns at once.
+  virtual void start() = 0;
+  /// Throws MachineFailure (PE, reason, log) if a PE can no longer go on. Cheap; called at least five times a second.
+  virtual void check() = 0;
+  /// Ends all PEs that still run. Called once, after the channels have been told to stop.
+  virtual void stop() = 0;
+};
+
+using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>;
+
+/// Engines by name. `qemu` is always there; others register before main's work (tests add `native`).
+void register_engine(std::string_view name, EngineFactory factory);
+/// Throws UsageError with the known names.
+const EngineFactory& engine_named(std::string_view name);
+std::vector<std::string_view> engine_names();
+
+}  // namespace torolux

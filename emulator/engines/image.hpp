@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// A firmware image: an ELF file for rv32imafc, checked against what the machine asks of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace torolux {
+
+struct ImageSymbol {
+  std::uint32_t address;
+  std::uint32_t bytes;
+  std::string name;
+};
+
+struct ImageSegment {
+  std::uint32_t address;
+  std::uint32_t memory_bytes;  ///< >= contents.size(); the rest is zero
+  std::vector<std::byte> contents;
+  bool executable;
+  bool writable;
+};
+
+struct Image {
+  std::filesystem::path file;
+  std::vector<ImageSegment> segments;
+  std::vector<ImageSymbol> symbols;  ///< functions and objects, ascending address
+  std::uint32_t entry;               ///< = kLocalMemoryBase
+  std::uint32_t niu_window;          ///< symbol __niu_window
+  std::uint32_t stores_begin;        ///< symbol __stores_begin: first byte that the image leaves free
+
+  /// "name+0x12", or the bare address where no symbol is near.
+  std::string describe(std::uint32_t address) const;
+  /// Copies all segments to local memory. Throws InputError where they do not fit (needed, available).
+  void load_into(std::span<std::byte> local_memory) const;
+};
+
+/// Throws InputError: not an ELF, wrong machine, entry not at kLocalMemoryBase, symbols missing, segments out of place.
+Image load_image(const std::filesystem::path& file);
+
+}  // namespace torolux

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Anonymous memory that processes can share by file descriptor; gone when the last of them ends, however it ends.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace torolux {
+
+class SharedMemory {
+ public:
+  SharedMemory() = default;
+  /// Zeroed. name: for /proc only. Throws MachineFailure.
+  SharedMemory(const std::string& name, std::size_t bytes);
+  SharedMemory(SharedMemory&& other) noexcept;
+  SharedMemory& operator=(SharedMemory&& other) noexcept;
+  ~SharedMemory();
+
+  std::span<std::byte> bytes() const { return {data_, size_}; }
+  int descriptor() const { return descriptor_; }  ///< close-on-exec
+
+ private:
+  std::byte* data_ = nullptr;
+  std::size_t size_ = 0;
+  int descriptor_ = -1;
+};
+
+}  // namespace torolux

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The host as the machine sees it: a program that reacts to messages in virtual time. Host tools write programs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "firmware/protocol/machine.hpp"
+
+namespace torolux {
+
+using protocol::PeNumber;
+using Cycles = std::uint64_t;  ///< virtual time
+
+/// What a host program may do. Sends never block: they queue in host memory, in order for each PE, and the bus takes
+/// them as the PE has room (a control buffer, or reserved record slots). Each send costs the host's clock a little.
+class HostPort {
+ public:
+  virtual ~HostPort() = default;
+  virtual Cycles now() const = 0;
+  virtual unsigned pes() const = 0;
+  /// kind: MessageKind. contents: up to kMostMessageBytes, copied.
+  virtual void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) = 0;
+  /// records: count * record_bytes, count 1..kMostRecordsPerPacket. The NIU puts them into its slots.
+  virtual void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) = 0;
+  /// Messages and record packets not yet taken by the bus, to this PE.
+  virtual std::size_t queued(PeNumber pe) const = 0;
+};
+
+class HostProgram {
+ public:
+  virtual ~HostProgram() = default;
+  virtual void start(HostPort& port) = 0;
+  /// Called in order of virtual time. Diverted records do not come here: the machine sends them again by itself.
+  virtual void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) = 0;
+  /// The run ends when this is true, nothing is in flight and the FBC has drained.
+  virtual bool finished() const = 0;
+  /// For the deadlock report: what the program waits for.
+  virtual const char* waiting_for() const = 0;
+};
+
+/// The picture as the frame buffer controller adds it up; row 0 on top.
+struct FrameBuffer {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::array<std::int64_t, 3>> pixels;  ///< quanta
+};
+
+}  // namespace torolux

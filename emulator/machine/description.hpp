@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The machine's parameters. Defaults are built in; a TOML file (`--machine`) overrides them key by key.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace torolux {
+
+/// Classes of instructions that cost the same; the latency table gives each its cycles.
+enum class InstructionClass : std::uint8_t {
+  integer,  ///< add, shift, logic, compare, lui, auipc, fence, csr
+  branch,   ///< conditional, whether taken or not
+  jump,     ///< jal, jalr
+  load,     ///< integer and floating point
+  store,
+  multiply,        ///< mul, mulh*
+  divide,          ///< div*, rem*
+  atomic,          ///< lr, sc, amo*
+  float_simple,    ///< sign injection, min, max, compare, classify, moves
+  float_add,       ///< fadd, fsub, conversions
+  float_multiply,  ///< fmul
+  float_fused,     ///< fmadd and kin
+  float_divide,
+  float_sqrt,
+  hint,  ///< the NIU's instruction: issue only, waiting comes on top. Phase markers cost nothing.
+  count
+};
+inline constexpr std::size_t kInstructionClasses = static_cast<std::size_t>(InstructionClass::count);
+using LatencyTable = std::array<std::uint32_t, kInstructionClasses>;  ///< [cycles], each >= 1
+
+struct MachineDescription {
+  struct Processor {
+    double clock_hertz = 100e6;
+    LatencyTable latency = {1, 2, 2, 2, 1, 3, 20, 4, 1, 4, 4, 5, 16, 20, 2};
+    std::uint64_t most_cycles_between_hints = 2'000'000'000;  ///< more is an endless loop
+  } processor;
+
+  struct Torus {
+    std::uint32_t flit_bytes = 16;
+    std::uint32_t router_cycles = 3;       ///< head of a packet through a router
+    std::uint32_t link_cycles = 1;         ///< and over a link, >= 1
+    std::uint32_t buffer_packets = 4;      ///< slots of the largest packet in each input buffer, >= 2
+    std::uint32_t slot_return_cycles = 1;  ///< until the router upstream knows of a freed slot, >= 1
+    std::uint32_t send_queue_packets = 4;  ///< outgoing queue of a NIU, >= 1
+    bool bubble = true;                    ///< off only to see the deadlock that it prevents
+    double link_error_rate = 0;            ///< chance that a packet's CRC fails on a link, 0..0.5
+    std::uint32_t retry_cycles = 8;        ///< from a failed CRC to the start of the next try
+  } torus;
+
+  struct Bus {
+    std::uint32_t bytes_per_cycle = 8;
+    std::uint32_t arbitration_cycles = 4;   ///< >= 1
+    std::uint32_t send_queue_messages = 4;  ///< outgoing queue of a NIU, >= 1
+    std::uint32_t control_buffers = 2;      ///< messages that wait in a NIU for the processor, >= 1
+  } bus;
+
+  struct FrameBuffer {
+    std::uint32_t cycles_per_pixel = 2;  ///< one addition
+    std::uint32_t queue_messages = 16;
+  } frame_buffer;
+
+  struct Host {
+    std::uint32_t cycles_per_message = 50;  ///< to take one in or make one, >= 1
+  } host;
+
+  struct Records {
+    std::uint32_t credits_per_pe = 256;  ///< W = this * PEs, >= 1
+    std::uint32_t niu_slots = 256;       ///< record slots of a NIU, >= kMostRecordsPerPacket
+  } records;
+
+  /// Delay added to link traversals by a hash of (seed, packet, hop), 0..this [cycles]: shakes the order of events.
+  std::uint32_t injected_delay_cycles = 0;
+};
+
+/// Reads a machine file. Unknown keys, wrong types and values out of range throw InputError with file and line.
+MachineDescription load_machine_description(const std::filesystem::path& file);
+
+/// Name of a class in the machine file's table [processor.latency].
+std::string_view name_of(InstructionClass instruction_class);
+
+}  // namespace torolux

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A scene as the host tools hand it on: triangles, materials and a camera, checked, in the user's units.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace torolux {
+
+using Vec3d = std::array<double, 3>;
+
+enum class SurfaceKind : std::uint8_t { diffuse, mirror, glass };
+
+struct SceneMaterial {
+  std::string name;
+  SurfaceKind kind = SurfaceKind::diffuse;
+  Vec3d diffuse{0, 0, 0};         ///< Kd, reflectance, each 0..0.99 after checking; 0 for glass
+  Vec3d specular{0, 0, 0};        ///< Ks of a mirror, reflectance, 0..0.99
+  Vec3d transmittance{1, 1, 1};   ///< Tf of glass, at each crossing, 0..1
+  double refractive_index = 1.5;  ///< Ni of glass
+  Vec3d emission{0, 0, 0};        ///< Ke, radiance [W/(m^2 sr)] from the front
+};
+
+struct SceneTriangle {
+  std::array<std::uint32_t, 3> position;  ///< into Scene::positions; equal positions have one index
+  std::array<std::uint32_t, 3> normal;    ///< into Scene::normals, or kNoNormal: flat. Only kept for mirror and glass
+  std::uint32_t material;
+};
+inline constexpr std::uint32_t kNoNormal = 0xFFFF'FFFFU;
+
+struct Camera {
+  Vec3d eye{0, 0, 0};
+  Vec3d look_at{0, 0, -1};
+  Vec3d up{0, 1, 0};
+  double field_of_view_degrees = 40;  ///< vertical
+};
+
+/// Values that a scene.toml suggests for options the user did not give.
+struct SceneDefaults {
+  std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, max_shots, bounces;
+  std::optional<double> exposure_ev, patch_length, element_length, unshot;
+  std::optional<std::string> subspaces, allocation;
+  std::optional<std::uint64_t> seed;
+};
+
+struct Scene {
+  std::string name;  ///< of the folder or file, for output names
+  std::vector<Vec3d> positions;
+  std::vector<Vec3d> normals;  ///< unit
+  std::vector<SceneTriangle> triangles;
+  std::vector<SceneMaterial> materials;
+  std::optional<Camera> camera;
+  SceneDefaults defaults;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace torolux
