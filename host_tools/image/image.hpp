@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// A picture of linear radiance, and its files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace torolux {
+
+struct Image {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::array<float, 3>> pixels;  ///< row 0 on top; linear radiance [W/(m^2 sr)]
+};
+
+/// By extension: .png (exposure in EV, tone-mapped, sRGB, 8 bits), .exr, .pfm (linear radiance).
+/// Written to a temporary file beside it and renamed. Throws InputError where it cannot be written.
+void write_image(const Image& image, const std::filesystem::path& file, double exposure_ev);
+
+/// Throws UsageError for an extension that write_image does not know, InputError where nothing can be written there.
+/// For calling before hours of work.
+void check_writable(const std::filesystem::path& file);
+
+/// .pfm or .exr. Throws InputError.
+Image read_image(const std::filesystem::path& file);
+
+}  // namespace torolux

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// One render: scene and settings in; picture, figures and, on request, the saved radiosities out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/machine/machine.hpp"
+#include "host_tools/image/image.hpp"
+#include "host_tools/scene/scene.hpp"
+
+namespace torolux {
+
+/// Everything that determines the picture, and nothing that does not.
+struct Quality {
+  std::uint32_t width = 256, height = 256;
+  std::uint32_t samples = 4;           ///< per pixel
+  std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
+  std::optional<double> element_length;
+  std::uint32_t hemicube = 16;    ///< pixels across the top, even, 4..256
+  std::uint32_t shot_points = 2;  ///< k: k * k points per patch
+  double unshot = 0.01;           ///< fraction of the emitted flux at which the radiosity stage ends
+  std::uint32_t max_shots = 0;    ///< patches shot in all; 0: no limit
+  std::uint32_t bounces = 32;     ///< path segments
+  bool two_sided_lights = false;
+  std::uint64_t seed = 1;
+};
+
+/// The machine that makes it.
+struct MachineChoice {
+  MachineDescription description;
+  unsigned columns = 4, rows = 4;
+  std::optional<std::uint32_t> pe_memory;                 ///< bytes; absent: smallest power of two from 1 MiB that fits
+  std::optional<std::array<std::uint32_t, 3>> subspaces;  ///< absent: auto
+  std::string allocation = "skewed";
+  std::string engine = "qemu";
+  unsigned threads = 0;
+};
+
+enum class RenderStage { load, radiosity, ray_tracing };
+
+struct RenderProgress {
+  RenderStage stage;
+  double fraction;         ///< of the stage, estimated, 0..1
+  double unshot_fraction;  ///< of the emitted flux
+  std::uint64_t credits_home, credits_total;
+  Cycles virtual_time;
+};
+
+/// [W], R G B.
+struct EnergyBalance {
+  std::array<double, 3> emitted{}, absorbed{}, absorbed_specular{}, unshot{}, escaped{}, cut_off{}, back_side{};
+};
+
+struct RenderFigures {
+  Cycles load_cycles = 0, radiosity_cycles = 0, ray_tracing_cycles = 0;  ///< of each stage
+  MachineFigures machine;
+  EnergyBalance energy;
+  std::uint64_t shots = 0;  ///< patches shot
+  std::uint64_t radiosity_records = 0;
+  std::uint64_t rays = 0;                             ///< camera rays
+  std::uint64_t credits_total = 0, credits_home = 0;  ///< at the end
+  double wall_seconds = 0;
+  std::uint32_t local_memory_bytes = 0;  ///< per PE, as chosen
+  std::array<std::uint32_t, 3> subspaces{};
+};
+
+struct RenderResult {
+  Image picture;  ///< linear radiance
+  RenderFigures figures;
+  std::vector<std::string> notes;  ///< for the user: memory chosen, warnings
+};
+
+struct RenderFiles {
+  std::optional<std::filesystem::path> save_radiosity;
+  std::optional<std::filesystem::path> radiosity;  ///< skip the radiosity stage
+};
+
+/// What `torolux info` tells: nothing is run.
+struct RenderPlan {
+  std::uint64_t triangles, patches, elements;
+  std::array<std::uint32_t, 3> subspaces;
+  std::uint64_t filled_subspaces;
+  std::uint32_t local_memory_needed;    ///< of the fullest PE, both stages
+  std::uint32_t local_memory_bytes;     ///< chosen or given
+  std::vector<std::uint64_t> pe_bytes;  ///< needed, by PE
+  double predicted_cycles;              ///< rough, all stages
+  double mean_neighbour_hops;           ///< torus distance between face-adjacent subspaces
+  std::vector<std::string> refusals;    ///< empty: it would run
+  std::vector<std::string> notes;
+};
+
+/// pe_image: pe.elf. Throws InputError (does not fit, ...), MachineFailure. progress returns false: stop (Ctrl-C).
+RenderResult render(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+                    const RenderFiles& files, const std::filesystem::path& pe_image,
+                    const std::function<bool(const RenderProgress&)>& progress);
+
+RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice& machine,
+                const std::filesystem::path& pe_image);
+
+}  // namespace torolux
