@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
-#include "host_tools/image/image.hpp"
+#include "host_tools/picture/picture.hpp"
 #include "host_tools/scene/scene.hpp"
 
 namespace torolux {
@@ -71,7 +71,7 @@ struct RenderFigures {
 };
 
 struct RenderResult {
-  Image picture;  ///< linear radiance
+  Picture picture;  ///< linear radiance
   RenderFigures figures;
   std::vector<std::string> notes;  ///< for the user: memory chosen, warnings
 };

@@ -9,7 +9,7 @@
 
 namespace torolux {
 
-struct Image {
+struct Picture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::array<float, 3>> pixels;  ///< row 0 on top; linear radiance [W/(m^2 sr)]
@@ -17,13 +17,13 @@ struct Image {
 
 /// By extension: .png (exposure in EV, tone-mapped, sRGB, 8 bits), .exr, .pfm (linear radiance).
 /// Written to a temporary file beside it and renamed. Throws InputError where it cannot be written.
-void write_image(const Image& image, const std::filesystem::path& file, double exposure_ev);
+void write_picture(const Picture& picture, const std::filesystem::path& file, double exposure_ev);
 
-/// Throws UsageError for an extension that write_image does not know, InputError where nothing can be written there.
+/// Throws UsageError for an extension that write_picture does not know, InputError where nothing can be written there.
 /// For calling before hours of work.
 void check_writable(const std::filesystem::path& file);
 
 /// .pfm or .exr. Throws InputError.
-Image read_image(const std::filesystem::path& file);
+Picture read_picture(const std::filesystem::path& file);
 
 }  // namespace torolux
