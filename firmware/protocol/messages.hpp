@@ -95,6 +95,8 @@ enum class FaultCode : std::uint32_t {
   unexpected_message,   ///< detail: kind, state
   bad_record,           ///< detail: field, value
   own_slots_exhausted,  ///< detail: slots
+  release_list_full,    ///< detail: slots released since the last send or receive
+  short_message,        ///< detail: kind, bytes, bytes expected
 };
 
 }  // namespace torolux::protocol
