@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Bytes enter, a whole file leaves; or a path enters and its bytes leave.
+#include "host_tools/files/write_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "emulator/errors.hpp"
+
+namespace torolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& file, const char* what, int error) {
+  throw InputError(file.string() + ": " + what + ": " + std::strerror(error));
+}
+
+/// An open file descriptor, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  bool open() const { return descriptor_ >= 0; }
+  int get() const { return descriptor_; }
+  /// False, with errno set, where the last bytes could not be written.
+  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
+
+ private:
+  int descriptor_;
+};
+
+/// A new file in the folder of the target; removed at the end unless it has been renamed. Its name does not contain the
+/// target's, which may be as long as names may be.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target) : name_(unused_name(target)), descriptor_(create(name_)) {
+    if (!descriptor_.open()) refuse(target, "cannot be written", errno);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+
+  Descriptor& descriptor() { return descriptor_; }
+  bool rename_to(const fs::path& target) {
+    if (std::rename(name_.c_str(), target.c_str()) != 0) return false;
+    name_.clear();
+    return true;
+  }
+
+ private:
+  static fs::path unused_name(const fs::path& target) {
+    static std::atomic<unsigned> counter = 0;
+    return target.parent_path() /
+           (".torolux-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part");
+  }
+  static int create(const fs::path& name) {
+    return ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  }
+
+  fs::path name_;
+  Descriptor descriptor_;
+};
+
+bool write_all(int descriptor, std::span<const std::byte> contents) {
+  while (!contents.empty()) {
+    const ssize_t written = ::write(descriptor, contents.data(), contents.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    contents = contents.subspan(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// Where the bytes are to go: links followed, so that the link stays and what it names is replaced.
+fs::path followed(const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::canonical(file, error);
+  return error ? file : whole;
+}
+
+/// A device or pipe, which must not be replaced by a file.
+bool is_device(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void refuse_folder(const fs::path& file) {
+  std::error_code error;
+  if (file.filename().empty() || fs::is_directory(file, error))
+    throw InputError(file.string() + ": is a folder; name a file in it");
+}
+
+}  // namespace
+
+void write_file(const fs::path& file, std::span<const std::byte> contents) {
+  refuse_folder(file);
+  if (is_device(file)) {
+    Descriptor device(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+    if (!device.open() || !write_all(device.get(), contents)) refuse(file, "cannot be written", errno);
+    return;
+  }
+  const fs::path target = followed(file);
+  TemporaryFile temporary(target);
+  if (!write_all(temporary.descriptor().get(), contents) || !temporary.descriptor().close() ||
+      !temporary.rename_to(target))
+    refuse(file, "cannot be written", errno);
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+  write_file(file, std::as_bytes(std::span(text)));
+}
+
+void check_file_writable(const fs::path& file) {
+  refuse_folder(file);
+  if (is_device(file)) {
+    if (::access(file.c_str(), W_OK) != 0) refuse(file, "cannot be written", errno);
+    return;
+  }
+  const TemporaryFile temporary(followed(file));
+}
+
+std::vector<std::byte> read_file(const fs::path& file, std::size_t most_bytes) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) throw InputError(file.string() + ": is a folder, not a file");
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!descriptor.open()) refuse(file, "cannot be read", errno);
+  std::vector<std::byte> contents;
+  std::vector<std::byte> piece(1U << 16U);
+  for (;;) {
+    const ssize_t count = ::read(descriptor.get(), piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse(file, "cannot be read", errno);
+    if (count == 0) return contents;
+    contents.insert(contents.end(), piece.begin(), piece.begin() + count);
+    if (contents.size() > most_bytes)
+      throw InputError(file.string() + ": larger than " + std::to_string(most_bytes) + " bytes");
+  }
+}
+
+}  // namespace torolux

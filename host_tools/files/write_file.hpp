@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Files of the user: written whole or not at all, and read with a limit.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace torolux {
+
+/// Writes `contents` to a temporary file in the same folder and renames it, so that `file` is never seen half written.
+/// A link is followed; devices and pipes (/dev/stdout) are written to directly. Throws InputError; leaves nothing then.
+void write_file(const std::filesystem::path& file, std::span<const std::byte> contents);
+void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// Throws InputError where write_file would fail: no such folder, no right, `file` is a folder. For calling before
+/// hours of work. Leaves nothing behind.
+void check_file_writable(const std::filesystem::path& file);
+
+/// The whole file. Throws InputError: not found, not readable, a folder, larger than `most_bytes`.
+std::vector<std::byte> read_file(const std::filesystem::path& file, std::size_t most_bytes);
+
+}  // namespace torolux
