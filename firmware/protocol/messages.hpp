@@ -61,8 +61,9 @@ static_assert(sizeof(Candidate) == 48);
 inline constexpr std::uint32_t kMostCandidatesPerMessage = 20;
 
 struct Candidates {
-  std::uint32_t count;                                         ///< in this message
-  std::uint32_t last;                                          ///< 1: no more follow
+  std::uint32_t count;  ///< in this message
+  std::uint32_t last;   ///< 1: no more follow
+  Flux unshot;  ///< of all sides of the PE, below the threshold too: reflected and emitted (in each message alike)
   std::array<Candidate, kMostCandidatesPerMessage> candidate;  ///< only `count` of them are sent
 };
 static_assert(sizeof(Candidates) <= kMostMessageBytes);
