@@ -15,7 +15,11 @@ struct Picture {
   std::vector<std::array<float, 3>> pixels;  ///< row 0 on top; linear radiance [W/(m^2 sr)]
 };
 
-/// By extension: .png (exposure in EV, tone-mapped, sRGB, 8 bits), .exr, .pfm (linear radiance).
+/// Pictures beyond these are refused, read or written.
+inline constexpr std::uint32_t kMostPictureEdge = 32768;
+inline constexpr std::uint64_t kMostPicturePixels = std::uint64_t{1} << 27U;
+
+/// By extension: .png (exposure in EV, tone-mapped, sRGB, 8 bits; see tone_map.hpp), .exr, .pfm (linear radiance).
 /// Written to a temporary file beside it and renamed. Throws InputError where it cannot be written.
 void write_picture(const Picture& picture, const std::filesystem::path& file, double exposure_ev);
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// A picture and a path enter; by the path's extension a file of one format leaves, or is read.
+#include "host_tools/picture/picture.hpp"
+
+#include <cctype>
+#include <string>
+
+#include "emulator/errors.hpp"
+#include "host_tools/files/write_file.hpp"
+#include "host_tools/picture/formats.hpp"
+
+namespace torolux {
+namespace {
+
+constexpr std::size_t kMostFileBytes = std::size_t{1} << 32U;
+
+/// In lower case, with the dot.
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+void check_extension(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  if (extension != ".png" && extension != ".exr" && extension != ".pfm")
+    throw UsageError(file.string() + ": pictures end in .png, .exr or .pfm");
+}
+
+}  // namespace
+
+void check_picture_size(std::uint64_t width, std::uint64_t height, const std::string& name) {
+  const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  if (width == 0 || height == 0) throw InputError(name + ": has " + size);
+  if (width > kMostPictureEdge || height > kMostPictureEdge || width * height > kMostPicturePixels)
+    throw InputError(name + ": " + size + " are too many; at most " + std::to_string(kMostPictureEdge) +
+                     " on an edge and " + std::to_string(kMostPicturePixels) + " in all");
+}
+
+void write_picture(const Picture& picture, const std::filesystem::path& file, double exposure_ev) {
+  check_extension(file);
+  check_picture_size(picture.width, picture.height, file.string());
+  const std::string extension = extension_of(file);
+  if (extension == ".png")
+    write_file(file, encode_png(picture, exposure_ev));
+  else if (extension == ".exr")
+    write_file(file, encode_exr(picture));
+  else
+    write_file(file, encode_pfm(picture));
+}
+
+void check_writable(const std::filesystem::path& file) {
+  check_extension(file);
+  check_file_writable(file);
+}
+
+Picture read_picture(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  if (extension == ".pfm") return decode_pfm(read_file(file, kMostFileBytes), file.string());
+  if (extension == ".exr") return decode_exr(read_file(file, kMostFileBytes), file.string());
+  throw InputError(file.string() + ": only .pfm and .exr can be read, as they hold radiance");
+}
+
+}  // namespace torolux
