@@ -27,6 +27,10 @@ enum class RecordKind : std::uint8_t {
 inline constexpr std::uint8_t kDirect = 1;    ///< straight from an emitter, no specular event yet
 inline constexpr std::uint8_t kFirst = 2;     ///< still in the subspace where the path segment began
 inline constexpr std::uint8_t kBackSide = 4;  ///< deposit: on the back of the element
+/// light, without kFirst: the axis (0..2) of the face through which it entered its subspace. The interval of the
+/// subspace begins at exactly that plane, so the next PE must know which one it was.
+inline constexpr std::uint32_t kEntryAxisShift = 4;
+inline constexpr std::uint8_t kEntryAxisMask = 0x30;
 
 /// Radiosity stage: one hemi-cube pixel's flux.
 struct RadiosityRecord {

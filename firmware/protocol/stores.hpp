@@ -141,6 +141,30 @@ struct Store {
 
 enum class Stage : std::uint32_t { radiosity = 1, ray_tracing = 2 };
 
+/// Bytes of one record slot.
+constexpr std::uint32_t slot_bytes(Stage stage) {
+  return stage == Stage::radiosity ? sizeof(RadiosityRecord) : sizeof(RayRecord);
+}
+/// The most records of a stage that one packet holds.
+constexpr std::uint32_t records_per_packet(Stage stage) {
+  const std::uint32_t fit = kMostPacketBytes / slot_bytes(stage);
+  return fit < kMostRecordsPerPacket ? fit : kMostRecordsPerPacket;
+}
+/// Packets that a PE fills at a time, each for another PE.
+inline constexpr std::uint32_t kOpenBatches = 8;
+/// Slots of its own that a PE needs: created records wait in open batches, and one is in the making. In the ray tracing
+/// stage it creates none.
+constexpr std::uint32_t own_slots(Stage stage) {
+  return stage == Stage::radiosity ? kOpenBatches * records_per_packet(stage) + 1U : 0U;
+}
+inline constexpr std::uint32_t kOwnSlots = own_slots(Stage::radiosity);
+
+/// Path segments are counted in a byte of the record.
+inline constexpr std::uint32_t kMostBounces = 255;
+/// Hemi-cube pixels across the top; shot points are k * k.
+inline constexpr std::uint32_t kMostHemicubeSize = 256;
+inline constexpr std::uint32_t kMostShotPoints = 16;
+
 /// What the host tells a PE before a stage. The PE checks it: stores inside its free memory, aligned to 8, apart from
 /// each other.
 struct StageLayout {

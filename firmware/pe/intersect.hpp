@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Ray against triangle, watertight: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", Journal of
+// Computer Graphics Techniques 2(1), 2013. Edges are inclusive: a ray at an edge meets both neighbours, and none is lost.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "firmware/pe/vectors.hpp"
+#include "firmware/pe/walk.hpp"
+#include "firmware/protocol/stores.hpp"
+
+namespace torolux::pe {
+
+/// What the test needs of a ray, computed once: axes permuted so that z is the longest, and the shear that lays the ray
+/// on it.
+struct Shear {
+  Shear(const glm::vec3& o, const glm::vec3& d, const Inverse& inverse) {
+    const auto size = [&](int a) { return bits(d[a]) & 0x7FFF'FFFF; };
+    z = size(1) > size(0) ? 1 : 0;
+    if (size(2) > size(z)) z = 2;
+    x = z == 2 ? 0 : z + 1;
+    y = x == 2 ? 0 : x + 1;
+    if (bits(d[z]) < 0) std::swap(x, y);  // keeps the triangle's winding
+    scale = inverse.axis[static_cast<std::size_t>(z)];
+    shear_x = d[x] * scale;
+    shear_y = d[y] * scale;
+    origin_x = o[x];
+    origin_y = o[y];
+    origin_z = o[z];
+  }
+  int x, y, z;
+  float origin_x, origin_y, origin_z;
+  float shear_x, shear_y, scale;
+};
+
+/// Where a ray's line meets a triangle: weights of corners 0, 1, 2 times `sum`, and the distance. Front: sum > 0.
+struct Crossing {
+  float u, v, w, sum;
+  float t;
+};
+
+/// The edge functions where one of them is zero in float: their exact signs. Returns false if they differ.
+inline bool resolve_edges(float ax, float ay, float bx, float by, float cx, float cy, Crossing& out) {
+  const auto edge = [](float px, float qy, float py, float qx) {
+    return static_cast<float>(static_cast<double>(px) * static_cast<double>(qy) -
+                              static_cast<double>(py) * static_cast<double>(qx));
+  };
+  out.u = edge(cx, by, cy, bx);
+  out.v = edge(ax, cy, ay, cx);
+  out.w = edge(bx, ay, by, ax);
+  const bool below = out.u < 0.0F || out.v < 0.0F || out.w < 0.0F;
+  const bool above = out.u > 0.0F || out.v > 0.0F || out.w > 0.0F;
+  return below != above;
+}
+
+/// The test. Most triangles are missed: what can be told from signs comes first.
+inline bool cross_triangle(const Shear& ray, const protocol::Polygon& polygon, Crossing& out) {
+  const auto& a = polygon.corner[0];
+  const auto& b = polygon.corner[1];
+  const auto& c = polygon.corner[2];
+  const auto x = static_cast<std::size_t>(ray.x);
+  const auto y = static_cast<std::size_t>(ray.y);
+  const auto z = static_cast<std::size_t>(ray.z);
+  const float az = a[z] - ray.origin_z;
+  const float bz = b[z] - ray.origin_z;
+  const float cz = c[z] - ray.origin_z;
+  const float ax = (a[x] - ray.origin_x) - ray.shear_x * az;
+  const float bx = (b[x] - ray.origin_x) - ray.shear_x * bz;
+  const float cx = (c[x] - ray.origin_x) - ray.shear_x * cz;
+  if (strictly_one_side(bits(ax), bits(bx), bits(cx))) return false;
+  const float ay = (a[y] - ray.origin_y) - ray.shear_y * az;
+  const float by = (b[y] - ray.origin_y) - ray.shear_y * bz;
+  const float cy = (c[y] - ray.origin_y) - ray.shear_y * cz;
+  if (strictly_one_side(bits(ay), bits(by), bits(cy))) return false;
+
+  out.u = cx * by - cy * bx;
+  out.v = ax * cy - ay * cx;
+  out.w = bx * ay - by * ax;
+  const std::int32_t u = bits(out.u);
+  const std::int32_t v = bits(out.v);
+  const std::int32_t w = bits(out.w);
+  if ((u << 1) == 0 || (v << 1) == 0 || (w << 1) == 0) {
+    if (!resolve_edges(ax, ay, bx, by, cx, cy, out)) return false;
+  } else if (((u ^ v) | (u ^ w)) < 0) {
+    return false;
+  }
+  out.sum = (out.u + out.v) + out.w;
+  if ((bits(out.sum) << 1) == 0) return false;
+  out.t = ((out.u * az + out.v * bz) + out.w * cz) * ray.scale / out.sum;
+  return true;
+}
+
+/// The box of the part of a ray that lies in one subspace, grown by the margin, its bounds as integers. A hit that
+/// counts lies in it (to some 1e-6 of rounding; the margin is a hundred times that), so a triangle beside it is passed over at
+/// the price of a few integer comparisons.
+class Reach {
+ public:
+  Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse)
+      : low_(origin - protocol::kSubspaceMargin),
+        high_(origin + protocol::kSubspaceMargin),
+        direction_(direction),
+        inverse_(inverse) {}
+
+  void set_interval(float t_in, float t_out) {
+    for (int a = 0; a < 3; ++a) {
+      const bool upward = inverse_.upward[static_cast<std::size_t>(a)];
+      const std::int32_t low = bits(low_[a] + direction_[a] * (upward ? t_in : t_out));
+      lowest_[a] = low > 0 ? low : INT32_MIN;  // object space begins at 0: all corners are above
+      highest_[a] = bits(high_[a] + direction_[a] * (upward ? t_out : t_in));
+    }
+  }
+  bool misses(const protocol::Polygon& polygon) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t p = bits(polygon.corner[0][i]);
+      const std::int32_t q = bits(polygon.corner[1][i]);
+      const std::int32_t r = bits(polygon.corner[2][i]);
+      if (p < lowest_[i] && q < lowest_[i] && r < lowest_[i]) return true;
+      if (p > highest_[i] && q > highest_[i] && r > highest_[i]) return true;
+    }
+    return false;
+  }
+
+ private:
+  glm::vec3 low_, high_, direction_;
+  const Inverse& inverse_;
+  std::int32_t lowest_[3];
+  std::int32_t highest_[3];
+};
+
+}  // namespace torolux::pe

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The stores of a stage as spans: what a PE knows of the scene. Checked once (layout.cpp, verify.cpp), then trusted.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/niu/memory.hpp"
+#include "firmware/protocol/stores.hpp"
+
+namespace torolux::pe {
+
+struct Scene {
+  protocol::StageLayout layout;
+  std::span<const protocol::Subspace> subspaces;
+  std::span<const std::uint32_t> polygon_list;
+  std::span<const protocol::Polygon> polygons;
+  std::span<const protocol::Material> materials;
+  std::span<const protocol::Vec3f> normals;
+  // Radiosity stage.
+  std::span<const protocol::PatchReference> patch_references;
+  std::span<const protocol::Patch> patches;
+  std::span<protocol::PatchSide> patch_sides;
+  std::span<protocol::Element> elements;
+  std::span<const std::uint32_t> hemicube;
+  // Ray tracing stage.
+  std::span<const protocol::LatticeValue> lattice;
+
+  void set(const Memory& memory, const protocol::StageLayout& from) {
+    layout = from;
+    subspaces = memory.store<const protocol::Subspace>(layout.subspaces);
+    polygon_list = memory.store<const std::uint32_t>(layout.polygon_list);
+    polygons = memory.store<const protocol::Polygon>(layout.polygons);
+    materials = memory.store<const protocol::Material>(layout.materials);
+    normals = memory.store<const protocol::Vec3f>(layout.normals);
+    patch_references = memory.store<const protocol::PatchReference>(layout.patch_references);
+    patches = memory.store<const protocol::Patch>(layout.patches);
+    patch_sides = memory.store<protocol::PatchSide>(layout.patch_sides);
+    elements = memory.store<protocol::Element>(layout.elements);
+    hemicube = memory.store<const std::uint32_t>(layout.hemicube);
+    lattice = memory.store<const protocol::LatticeValue>(layout.lattice);
+  }
+
+  /// Elements of one patch of a polygon.
+  static std::uint32_t elements_per_patch(const protocol::Polygon& polygon) {
+    return 1U << (2U * (std::uint32_t{polygon.element_level} - polygon.patch_level));
+  }
+};
+
+}  // namespace torolux::pe

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Mirror and glass: the law of reflection, Snell's law, Fresnel's equations.
+#include "firmware/pe/specular.hpp"
+
+#include <cmath>
+
+namespace torolux::pe {
+namespace {
+
+/// The normal on the side that the light comes from.
+glm::vec3 towards_light(const glm::vec3& normal, const glm::vec3& direction) {
+  return glm::dot(direction, normal) > 0.0F ? -normal : normal;
+}
+
+glm::vec3 mirrored(const glm::vec3& direction, const glm::vec3& normal) {
+  return glm::normalize(direction - normal * (2.0F * glm::dot(direction, normal)));
+}
+
+Refraction refracted(const glm::vec3& direction, const glm::vec3& normal, float eta) {
+  const float cos_in = -glm::dot(direction, normal);
+  const float sin2_out = eta * eta * (1.0F - cos_in * cos_in);
+  if (!(sin2_out < 1.0F) || !(cos_in > 0.0F)) return {1.0F, direction};
+  const float cos_out = std::sqrt(1.0F - (sin2_out > 0.0F ? sin2_out : 0.0F));
+  const float perpendicular = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
+  const float parallel = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
+  return {0.5F * (perpendicular * perpendicular + parallel * parallel),
+          glm::normalize(direction * eta + normal * (eta * cos_in - cos_out))};
+}
+
+}  // namespace
+
+glm::vec3 reflect(const glm::vec3& direction, const glm::vec3& geometric, const glm::vec3& shading) {
+  const glm::vec3 flat = towards_light(geometric, direction);
+  const glm::vec3 out = mirrored(direction, shading);
+  return glm::dot(out, flat) > 0.0F ? out : mirrored(direction, flat);
+}
+
+Refraction refract(const glm::vec3& direction, const glm::vec3& geometric, const glm::vec3& shading, float eta) {
+  const glm::vec3 flat = towards_light(geometric, direction);
+  glm::vec3 round = glm::dot(shading, flat) < 0.0F ? -shading : shading;
+  if (!(glm::dot(direction, round) < 0.0F)) round = flat;
+  const Refraction out = refracted(direction, round, eta);
+  if (out.reflectance < 1.0F && !(glm::dot(out.direction, flat) < 0.0F)) return refracted(direction, flat, eta);
+  return out;
+}
+
+}  // namespace torolux::pe
