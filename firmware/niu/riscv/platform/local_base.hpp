@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-extern "C" const unsigned char image_stores_begin;  // linker/pe.ld
+extern "C" const unsigned char image_stores_begin[];  // linker/pe.ld
 
 namespace torolux::pe {
 
@@ -14,7 +14,7 @@ class LocalBase {
     return reinterpret_cast<void*>(address);  // NOLINT(performance-no-int-to-ptr): that is what an address is here
   }
   std::uint32_t address(const void* pointer) const { return reinterpret_cast<std::uint32_t>(pointer); }
-  std::uint32_t stores_begin() const { return address(&image_stores_begin); }
+  std::uint32_t stores_begin() const { return address(image_stores_begin); }
 };
 
 }  // namespace torolux::pe

@@ -1,0 +1,132 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Builds the PEs' C library (newlib), the headers of libstdc++ and GLM from Debian's packages into a cache, once, and
+# prints where they are. Enters: newlib-source, gcc-12-source, libglm-dev, the cross compiler. Leaves: one folder,
+# complete or not there at all; two builds at once do no harm.
+set -euo pipefail
+
+target=riscv64-unknown-elf
+arch=(-march=rv32imafc -mabi=ilp32f)
+newlib_flags="-O2 ${arch[*]} -ffp-contract=off -ffunction-sections -fdata-sections"
+
+newlib_archive=$(compgen -G '/usr/src/newlib/newlib-*.tar.xz' | sort | tail -n 1) ||
+  { echo "build_sysroot: Debian package newlib-source is missing" >&2; exit 1; }
+gcc_archive=$(compgen -G '/usr/src/gcc-12/gcc-12*.tar.xz' | sort | tail -n 1) ||
+  { echo "build_sysroot: Debian package gcc-12-source is missing" >&2; exit 1; }
+gcc_version=$("$target-gcc" -dumpfullversion)
+
+cache=${XDG_CACHE_HOME:-${HOME:-/nonexistent}/.cache}/torolux
+if ! mkdir -p "$cache" 2>/dev/null; then
+  cache=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/.cache
+  mkdir -p "$cache"
+fi
+key=$( { cat "${BASH_SOURCE[0]}"; echo "$gcc_version"; stat -L -c '%n %s' "$newlib_archive" "$gcc_archive" \
+  /usr/include/glm/glm.hpp; } | sha256sum | cut -c 1-16)
+sysroot=$cache/sysroot-$key
+if [ -d "$sysroot" ]; then
+  echo "$sysroot"
+  exit 0
+fi
+
+# newlib's and libstdc++'s builds do not work in a path with a space: build in one without, then copy.
+work=$(mktemp -d /tmp/torolux-sysroot.XXXXXX)
+staged=$(mktemp -d "$cache/unfinished.XXXXXX")
+trap 'rm -rf "$work" "$staged"' EXIT
+log=$work/log
+jobs=$(nproc)
+stage=$work/stage
+include=$stage/$target/include
+
+build_newlib() {
+  mkdir "$work/newlib" "$work/newlib-build"
+  tar -xf "$newlib_archive" -C "$work/newlib" --strip-components=1
+  cd "$work/newlib-build"
+  "$work/newlib/configure" --target=$target --prefix="$stage" --disable-multilib \
+    --disable-newlib-supplied-syscalls --disable-nls --disable-libgloss --enable-newlib-nano-formatted-io \
+    --enable-newlib-reent-small --enable-lite-exit CFLAGS_FOR_TARGET="$newlib_flags"
+  make -j"$jobs" all-target-newlib
+  make install-target-newlib
+}
+
+# Headers only: without exceptions, RTTI and streams nothing of the library itself is needed.
+build_libstdcxx_headers() {
+  mkdir "$work/gcc"
+  local part parts=()
+  for part in libstdc++-v3 'config*' libgcc include libiberty install-sh ltmain.sh 'lt*.m4' libtool.m4 mkinstalldirs \
+    missing depcomp compile move-if-change multilib.am symlink-tree gcc/BASE-VER gcc/DATESTAMP; do
+    parts+=("gcc-*/$part")
+  done
+  tar -xf "$gcc_archive" -C "$work/gcc" --strip-components=1 --wildcards --no-wildcards-match-slash "${parts[@]}"
+  mkdir "$work/libstdcxx-build"
+  cd "$work/libstdcxx-build"
+  # newlib has C99's math functions, but configure's test programs would have to be linked to see it.
+  glibcxx_cv_c99_math_tr1=yes "$work/gcc/libstdc++-v3/configure" --host=$target --prefix="$stage" \
+    --with-newlib --with-target-subdir=. --disable-multilib --enable-libstdcxx-backtrace=no --disable-libstdcxx-pch \
+    --disable-libstdcxx-filesystem-ts --disable-nls --with-gxx-include-dir="$stage/c++" \
+    CC="$target-gcc ${arch[*]} -isystem $include" CXX="$target-g++ ${arch[*]} -isystem $include"
+  make -C include install
+  make -C libsupc++ install-stdHEADERS install-bitsHEADERS
+}
+
+# newlib does not declare the C99 functions of long double for RISC-V, but <cmath> names them. They are never called.
+write_math_shim() {
+  local one='acosh asinh atanh cbrt erf erfc exp2 expm1 lgamma log1p log2 logb nearbyint rint round tgamma trunc'
+  local two='copysign fdim fmax fmin nextafter nexttoward remainder' name
+  mkdir "$stage/shim"
+  {
+    echo '#pragma once'
+    echo '#include_next <math.h>'
+    echo '#ifdef __cplusplus'
+    echo 'extern "C" {'
+    for name in $one; do echo "long double ${name}l(long double);"; done
+    for name in $two; do echo "long double ${name}l(long double, long double);"; done
+    echo 'double nexttoward(double, long double);'
+    echo 'float nexttowardf(float, long double);'
+    echo 'int ilogbl(long double);'
+    echo 'long long llrintl(long double);'
+    echo 'long long llroundl(long double);'
+    echo 'long lrintl(long double);'
+    echo 'long lroundl(long double);'
+    echo 'long double fmal(long double, long double, long double);'
+    echo 'long double nanl(const char*);'
+    echo 'long double remquol(long double, long double, int*);'
+    echo 'long double scalblnl(long double, long);'
+    echo 'long double scalbnl(long double, int);'
+    echo '}'
+    echo '#endif'
+  } >"$stage/shim/math.h"
+}
+
+try_a_program() {
+  printf '%s\n' '#include <algorithm>' '#include <array>' '#include <bit>' '#include <cmath>' '#include <cstdint>' \
+    '#include <cstring>' '#include <limits>' '#include <span>' '#include <glm/glm.hpp>' '#include <glm/gtc/quaternion.hpp>' \
+    'float f(float x) { return std::fma(std::round(x), std::log2(x), glm::dot(glm::vec3(x), glm::vec3(1, 2, 3))); }' |
+    "$target-g++" "${arch[@]}" -std=c++20 -fno-exceptions -fno-rtti -isystem "$stage/c++" \
+      -isystem "$stage/c++/$target" -isystem "$stage/shim" -isystem "$include" -isystem "$stage/glm" \
+      -x c++ -c - -o "$work/program.o"
+}
+
+echo "Building the PEs' C library once, about a minute and a half ..." >&2
+# In the background, as `set -e` does not hold inside a condition.
+(
+  build_newlib
+  build_libstdcxx_headers
+  write_math_shim
+  # Only GLM's own folder may be on the path, never the whole of /usr/include.
+  mkdir "$stage/glm"
+  cp -r /usr/include/glm "$stage/glm/glm"
+  mv "$stage/$target/include" "$stage/include"
+  mv "$stage/$target/lib" "$stage/lib"
+  include=$stage/include
+  try_a_program
+) >"$log" 2>&1 &
+if ! wait $!; then
+  tail -n 30 "$log" >&2
+  echo "build_sysroot: the build of newlib or of libstdc++'s headers failed" >&2
+  exit 1
+fi
+cp -r "$stage/include" "$stage/lib" "$stage/shim" "$stage/c++" "$stage/glm" "$staged/"
+chmod 755 "$staged"
+# Complete from one moment to the next. Where another build was first, its result is the same.
+mv -T "$staged" "$sysroot" 2>/dev/null || [ -d "$sysroot" ]
+echo "$sysroot"

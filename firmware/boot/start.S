@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// First instructions of every image. Enters: reset state, NIU window filled in by the emulator; leaves: a stack,
+// cleared bss, floating point ready, traps caught, and a call of boot() (boot.cpp).
+
+  .section .text.start, "ax"
+  .globl _start
+_start:
+  .option push
+  .option norelax
+  la gp, image_global_pointer
+  .option pop
+  la sp, image_stack_end
+  la t0, on_trap
+  csrw mtvec, t0
+
+  // Floating point on (mstatus.FS = initial), round to nearest. The inexact flag stands from here on and nothing ever
+  // clears it: QEMU computes with the host's own floating point only then.
+  li t0, 0x2000
+  csrs mstatus, t0
+  csrwi frm, 0
+  csrwi fflags, 1
+
+  la t0, image_bss_begin
+  la t1, image_bss_end
+  bgeu t0, t1, 2f
+1:
+  sw zero, 0(t0)
+  addi t0, t0, 4
+  bltu t0, t1, 1b
+2:
+  call boot
+3:
+  j 3b
+
+// Any trap ends the run. The stack may be what failed: begin a new one.
+  .balign 4
+on_trap:
+  la sp, image_stack_end
+  csrr a0, mcause
+  csrr a1, mepc
+  csrr a2, mtval
+  call boot_trap
+4:
+  j 4b
