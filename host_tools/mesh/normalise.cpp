@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// See normalise.hpp.
+#include "host_tools/mesh/normalise.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "emulator/errors.hpp"
+#include "host_tools/mesh/vector.hpp"
+
+namespace torolux {
+
+Vec3d SceneSpace::to_normalised(const Vec3d& position) const {
+  return torolux::scale(subtract(position, origin), scale);
+}
+
+SceneSpace scene_space(const Scene& scene) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Vec3d low{infinite, infinite, infinite};
+  Vec3d high{-infinite, -infinite, -infinite};
+  for (const SceneTriangle& triangle : scene.triangles) {
+    for (const std::uint32_t index : triangle.position) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], scene.positions[index][axis]);
+        high[axis] = std::max(high[axis], scene.positions[index][axis]);
+      }
+    }
+  }
+  const Vec3d extent = subtract(high, low);
+  const double longest = std::max({extent[0], extent[1], extent[2]});
+  if (scene.triangles.empty() || !(longest > 0) || !std::isfinite(longest)) {
+    throw InputError("scene '" + scene.name + "' has no surface with an area: at least one triangle is needed");
+  }
+  SceneSpace space;
+  const double margin = longest * kSpaceMargin;
+  space.scale = 1.0 / (longest + 2 * margin);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    space.origin[axis] = low[axis] - margin;
+    space.size[axis] = (extent[axis] + 2 * margin) * space.scale;
+  }
+  return space;
+}
+
+protocol::Vec3f to_float(const Vec3d& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+Vec3d to_double(const protocol::Vec3f& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+}  // namespace torolux
