@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// `torolux info SCENE`: options enter; what the scene holds and what a machine would need for it leaves. Runs nothing.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "emulator/errors.hpp"
+#include "host_tools/cli/command.hpp"
+#include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/settle.hpp"
+#include "host_tools/report/text.hpp"
+#include "host_tools/scene/inspect.hpp"
+
+namespace torolux {
+namespace {
+
+constexpr std::size_t kLabel = 22;
+
+void line(const std::string& label, const std::string& text) {
+  std::cout << left(label, kLabel) << text << "\n";
+}
+
+std::string triple(const std::array<double, 3>& v) {
+  return significant(v[0], 6) + " " + significant(v[1], 6) + " " + significant(v[2], 6);
+}
+
+bool emits(const SceneMaterial& material) {
+  return *std::max_element(material.emission.begin(), material.emission.end()) > 0;
+}
+
+std::string describe(const SceneMaterial& material) {
+  switch (material.kind) {
+    case SurfaceKind::mirror:
+      return "mirror, reflectance " + triple(material.specular);
+    case SurfaceKind::glass:
+      return "glass, refractive index " + significant(material.refractive_index, 4) + ", transmittance " +
+             triple(material.transmittance);
+    case SurfaceKind::diffuse:
+      break;
+  }
+  return "diffuse, reflectance " + triple(material.diffuse) +
+         (emits(material) ? "; emits " + triple(material.emission) + " W/(m^2 sr)" : "");
+}
+
+void print_bounds(const Scene& scene) {
+  if (scene.positions.empty()) return;
+  std::array<double, 3> low = scene.positions.front();
+  std::array<double, 3> high = low;
+  for (const auto& position : scene.positions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], position[axis]);
+      high[axis] = std::max(high[axis], position[axis]);
+    }
+  }
+  line("bounds", triple(low) + " to " + triple(high));
+}
+
+void print_scene(const Scene& scene) {
+  std::vector<std::uint64_t> uses(scene.materials.size());
+  std::uint64_t lights = 0;
+  for (const SceneTriangle& triangle : scene.triangles) {
+    ++uses[triangle.material];
+    if (emits(scene.materials[triangle.material])) ++lights;
+  }
+  line("scene", scene.name);
+  line("triangles", grouped(scene.triangles.size()) + ", " + grouped(lights) + " of them emit light");
+  print_bounds(scene);
+  line("materials", grouped(scene.materials.size()));
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    line("  " + scene.materials[i].name + " ", describe(scene.materials[i]) + "; " + grouped(uses[i]) + " triangles");
+}
+
+void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
+  line("patches", grouped(plan.patches) + ", elements " + grouped(plan.elements));
+  const auto& cells = plan.subspaces;
+  line("subspaces", std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]) +
+                        ", " + grouped(plan.filled_subspaces) + " with anything in them, " + machine.allocation);
+  line("neighbours", fixed(plan.mean_neighbour_hops, 2) + " hops apart on average");
+  line("PEs", std::to_string(machine.columns) + " x " + std::to_string(machine.rows) + " with " +
+                  bytes_text(plan.local_memory_bytes) + " each");
+  if (!plan.pe_bytes.empty()) {
+    const auto [least, most] = std::minmax_element(plan.pe_bytes.begin(), plan.pe_bytes.end());
+    std::uint64_t sum = 0;
+    for (const std::uint64_t bytes : plan.pe_bytes) sum += bytes;
+    line("memory needed per PE", "min " + bytes_text(*least) + ", mean " + bytes_text(sum / plan.pe_bytes.size()) +
+                                     ", max " + bytes_text(*most));
+  }
+  const double hertz = machine.description.processor.clock_hertz;
+  line("predicted time", significant(plan.predicted_cycles, 2) + " cycles, " + duration(plan.predicted_cycles / hertz) +
+                             " of the machine's time (rough)");
+}
+
+int run_info(const RenderOptions& options) {
+  const Scene scene = load_scene(options.scene, scene_options(options));
+  const Settled settled = settle(options, scene);
+  print_scene(scene);
+  std::vector<std::string> refusals;
+  try {
+    check_renderable(scene);
+    const RenderPlan planned = plan(scene, settled.quality, settled.machine, firmware_image());
+    print_plan(planned, settled.machine);
+    for (const std::string& note : planned.notes) line("note", note);
+    refusals = planned.refusals;
+  } catch (const InputError& error) {
+    refusals.emplace_back(error.what());
+  }
+  for (const std::string& warning : scene.warnings) line("note", warning);
+  for (const std::string& finding : inspect(scene)) line("note", finding);
+  for (const std::string& refusal : refusals) line("would be refused", refusal);
+  if (refusals.empty()) line("would be refused", "no");
+  std::cout << std::flush;
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, CommandAction& action) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command =
+      app.add_subcommand("info", "Tell what a scene holds and what a machine needs for it; run nothing");
+  add_scene_options(*command, *options);
+  add_view_options(*command, *options);
+  add_light_options(*command, *options);
+  add_machine_options(*command, *options);
+  command->callback([options, &action] { action = [options] { return run_info(*options); }; });
+}
+
+}  // namespace torolux

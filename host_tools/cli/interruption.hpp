@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Ctrl-C as a flag, so that a run can end its PEs and leave no half-written file.
+#pragma once
+
+#include <array>
+#include <csignal>
+
+namespace torolux {
+
+/// While it lives, SIGINT, SIGTERM and SIGHUP only set the flag that interrupted() reads; a full disk, a file size
+/// limit or a closed pipe is an error of the write, not a death by signal. Puts everything back at the end.
+class InterruptionGuard {
+ public:
+  InterruptionGuard();
+  InterruptionGuard(const InterruptionGuard&) = delete;
+  InterruptionGuard& operator=(const InterruptionGuard&) = delete;
+  ~InterruptionGuard();
+
+ private:
+  static constexpr std::array<int, 5> kSignals = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ, SIGPIPE};
+  std::array<struct sigaction, kSignals.size()> before_{};
+};
+
+}  // namespace torolux

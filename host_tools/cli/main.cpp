@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A command line enters, an exit code leaves; on the way the subcommand's work, or a message of what was wrong.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "emulator/errors.hpp"
+#include "host_tools/cli/command.hpp"
+#include "host_tools/cli/interruption.hpp"
+#include "host_tools/version.hpp"
+
+namespace torolux {
+namespace {
+
+int code(ExitCode exit_code) {
+  return static_cast<int>(exit_code);
+}
+
+/// Runs `work`; what it throws becomes a message and an exit code.
+template <class Work>
+int guarded(Work work) {
+  const auto fail = [](const char* what, ExitCode exit_code) {
+    if (interrupted()) return kInterrupted;
+    std::cerr << "torolux: " << what << std::endl;
+    return code(exit_code);
+  };
+  try {
+    const int result = work();
+    return interrupted() ? kInterrupted : result;
+  } catch (const UsageError& error) {
+    return fail((std::string(error.what()) + " (see --help)").c_str(), ExitCode::usage);
+  } catch (const InputError& error) {
+    return fail(error.what(), ExitCode::bad_input);
+  } catch (const std::bad_alloc&) {
+    return fail("this computer has too little memory for that", ExitCode::machine_failure);
+  } catch (const std::exception& error) {
+    return fail(error.what(), ExitCode::machine_failure);
+  }
+}
+
+int run(CLI::App& app, const CommandAction& action, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? code(ExitCode::done) : code(ExitCode::usage);
+  }
+  return action();
+}
+
+}  // namespace
+
+int torolux_main(int argc, const char* const* argv) {
+  const InterruptionGuard guard;
+  CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
+  app.set_version_flag("--version", std::string("torolux ") + kVersion);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.footer(
+      "Exit codes: 0 done, 1 usage, 2 bad input, 3 machine failure, 130 interrupted.\n"
+      "`torolux COMMAND --help` tells the options of a command.");
+  CommandAction action;
+  add_render_command(app, action);
+  add_info_command(app, action);
+  add_compare_command(app, action);
+  add_run_command(app, action);
+  add_bench_command(app, action);
+  const int result = guarded([&] { return run(app, action, argc, argv); });
+  if (result == kInterrupted) std::cerr << "torolux: interrupted" << std::endl;
+  return result;
+}
+
+}  // namespace torolux

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Text enters, checked values leave.
+#include "host_tools/cli/parse_values.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/machine.hpp"
+#include "host_tools/report/text.hpp"
+
+namespace torolux {
+namespace {
+
+std::string quoted(std::string_view text) {
+  return "\"" + std::string(text) + "\"";
+}
+
+[[noreturn]] void wrong_form(std::string_view text, const std::string& expected) {
+  throw UsageError(quoted(text) + " is not " + expected);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// Digits only. Absent where it is anything else; the largest value where there are too many digits.
+std::optional<std::uint64_t> whole(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  std::uint64_t value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec == std::errc::result_out_of_range) return std::numeric_limits<std::uint64_t>::max();
+  return value;
+}
+
+std::optional<double> real(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || text.empty()) return std::nullopt;
+  if (!std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::uint32_t in_range(std::string_view text, std::uint64_t value, std::uint64_t least, std::uint64_t most) {
+  if (value < least || value > most)
+    throw InputError(quoted(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most) +
+                     " are allowed");
+  return static_cast<std::uint32_t>(value);
+}
+
+template <std::size_t N>
+std::array<std::uint32_t, N> parse_sizes(const std::string& text, const std::string& expected, std::uint64_t least,
+                                         std::uint64_t most) {
+  const auto parts = split(text, 'x');
+  if (parts.size() != N) wrong_form(text, expected);
+  std::array<std::uint64_t, N> values{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto value = whole(parts[i]);
+    if (!value) wrong_form(text, expected);
+    values[i] = *value;
+  }
+  std::array<std::uint32_t, N> result{};
+  for (std::size_t i = 0; i < N; ++i) result[i] = in_range(text, values[i], least, most);
+  return result;
+}
+
+}  // namespace
+
+std::array<std::uint32_t, 2> parse_pair(const std::string& text, std::uint32_t least, std::uint32_t most) {
+  return parse_sizes<2>(text, "two whole numbers like 640x480", least, most);
+}
+
+std::array<std::uint32_t, 2> parse_pes(const std::string& text) {
+  const auto pes = parse_sizes<2>(text, "columns and rows of PEs like 4x4", 1, protocol::kMostPes);
+  const std::uint64_t all = std::uint64_t{pes[0]} * pes[1];
+  if (all > protocol::kMostPes)
+    throw InputError(quoted(text) + " are " + std::to_string(all) + " PEs; at most " +
+                     std::to_string(protocol::kMostPes) + " are allowed");
+  return pes;
+}
+
+std::optional<std::array<std::uint32_t, 3>> parse_subspaces(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  return parse_sizes<3>(text, "three whole numbers like 8x8x8, or auto", 1, kMostSubspacesPerAxis);
+}
+
+std::uint32_t parse_memory(const std::string& text) {
+  std::string_view digits = text;
+  unsigned shift = 0;
+  if (digits.ends_with('K') || digits.ends_with('k')) shift = 10;
+  if (digits.ends_with('M') || digits.ends_with('m')) shift = 20;
+  if (shift > 0) digits.remove_suffix(1);
+  const auto number = whole(digits);
+  if (!number) wrong_form(text, "a size like 512K, 64M or a number of bytes");
+  const bool huge = *number > protocol::kLargestLocalMemory;
+  const std::uint64_t bytes = huge ? *number : *number << shift;
+  if (bytes < protocol::kSmallestLocalMemory || bytes > protocol::kLargestLocalMemory)
+    throw InputError(quoted(text) + " is out of range: " + bytes_text(protocol::kSmallestLocalMemory) + " to " +
+                     bytes_text(protocol::kLargestLocalMemory) + " per PE are allowed");
+  if (bytes % protocol::kPageBytes != 0)
+    throw InputError(quoted(text) + " is not a multiple of " + bytes_text(protocol::kPageBytes));
+  return static_cast<std::uint32_t>(bytes);
+}
+
+std::array<double, 3> parse_vector(const std::string& text) {
+  const auto parts = split(text, ',');
+  if (parts.size() != 3) wrong_form(text, "three numbers like 1,2.5,-3");
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto value = real(parts[i]);
+    if (!value) wrong_form(text, "three numbers like 1,2.5,-3");
+    result[i] = *value;
+  }
+  return result;
+}
+
+std::optional<double> parse_length(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  const auto value = real(text);
+  if (!value) wrong_form(text, "a length in scene units, or auto");
+  if (*value <= 0) throw InputError(quoted(text) + " is out of range: a length is greater than 0");
+  return value;
+}
+
+double parse_number(const std::string& text, double least, double most) {
+  const auto value = real(text);
+  if (!value) wrong_form(text, "a number");
+  if (*value < least || *value > most)
+    throw InputError(quoted(text) + " is out of range: " + significant(least, 6) + " to " + significant(most, 6) +
+                     " are allowed");
+  return *value;
+}
+
+std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uint64_t most) {
+  const bool negative = text.starts_with('-');
+  const auto value = whole(std::string_view(text).substr(negative ? 1 : 0));
+  if (!value) wrong_form(text, "a whole number");
+  if (negative || *value < least || *value > most)
+    throw InputError(quoted(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most) +
+                     " are allowed");
+  return *value;
+}
+
+}  // namespace torolux

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Values as they are written on the command line and in scene.toml: text enters, checked values leave.
+// What has the wrong form throws UsageError; what has the right form and a value that is not allowed, InputError.
+// The messages do not name the option; the caller puts that in front.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace torolux {
+
+/// "WxH", e.g. "640x480". Each least..most.
+std::array<std::uint32_t, 2> parse_pair(const std::string& text, std::uint32_t least, std::uint32_t most);
+
+/// "PxQ": at most kMostPes in all.
+std::array<std::uint32_t, 2> parse_pes(const std::string& text);
+
+/// "GxHxK", or "auto" (absent). Each 1..kMostSubspacesPerAxis.
+inline constexpr std::uint32_t kMostSubspacesPerAxis = 1024;
+std::optional<std::array<std::uint32_t, 3>> parse_subspaces(const std::string& text);
+
+/// Bytes, with K (2^10) or M (2^20): "512K", "64M", "262144". kSmallestLocalMemory..kLargestLocalMemory, whole pages.
+std::uint32_t parse_memory(const std::string& text);
+
+/// "X,Y,Z", finite.
+std::array<double, 3> parse_vector(const std::string& text);
+
+/// A length > 0 in scene units, or "auto" (absent).
+std::optional<double> parse_length(const std::string& text);
+
+/// A finite number within least..most.
+double parse_number(const std::string& text, double least, double most);
+
+/// A whole number within least..most.
+std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uint64_t most);
+
+}  // namespace torolux

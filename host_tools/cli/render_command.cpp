@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// `torolux render SCENE`: options enter; pictures, statistics and a summary leave.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "emulator/errors.hpp"
+#include "host_tools/cli/command.hpp"
+#include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/settle.hpp"
+#include "host_tools/files/write_file.hpp"
+#include "host_tools/report/figures.hpp"
+#include "host_tools/report/progress_line.hpp"
+
+namespace torolux {
+namespace {
+
+/// What cannot be written is better known before the work than after it.
+void check_results_writable(const Settled& settled, const RenderOptions& options) {
+  for (const auto& file : settled.outputs) check_writable(file);
+  if (options.stats) check_file_writable(*options.stats);
+  if (options.save_radiosity) check_file_writable(*options.save_radiosity);
+}
+
+void print_notes(const std::vector<std::string>& notes, bool quiet) {
+  if (quiet) return;
+  for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
+}
+
+RenderResult run_machine(const Scene& scene, const Settled& settled, bool quiet) {
+  ProgressLine line(std::cerr, !quiet && ::isatty(STDERR_FILENO) == 1,
+                    settled.machine.description.processor.clock_hertz);
+  return render(scene, settled.camera, settled.quality, settled.machine, settled.files, firmware_image(),
+                [&line](const RenderProgress& progress) {
+                  if (interrupted()) return false;
+                  line.show(progress);
+                  return true;
+                });
+}
+
+int run_render(const RenderOptions& options) {
+  const Scene scene = load_scene(options.scene, scene_options(options));
+  check_renderable(scene);
+  const Settled settled = settle(options, scene);
+  check_results_writable(settled, options);
+  print_notes(scene.warnings, options.quiet);
+  if (interrupted()) return kInterrupted;
+  const RenderResult result = run_machine(scene, settled, options.quiet);
+  if (interrupted()) return kInterrupted;
+  print_notes(result.notes, options.quiet);
+
+  for (const auto& file : settled.outputs) write_picture(result.picture, file, settled.exposure_ev);
+  const RunDescription run{scene.name, settled.quality, settled.machine, settled.outputs};
+  if (options.stats) write_file(*options.stats, stats_json(run, result.figures));
+  if (!options.quiet) std::cout << summary(run, result.figures) << std::flush;
+  return 0;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, CommandAction& action) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "Render a picture of a scene on the machine");
+  add_scene_options(*command, *options);
+  add_output_options(*command, *options);
+  add_view_options(*command, *options);
+  add_light_options(*command, *options);
+  add_machine_options(*command, *options);
+  command->footer("An option given outweighs the scene's own default, which outweighs the one in [brackets].");
+  command->callback([options, &action] { action = [options] { return run_render(*options); }; });
+}
+
+}  // namespace torolux

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Adds the options to a subcommand: name, form, unit, range, default. The ranges of values stand here and nowhere else.
+#include "host_tools/cli/render_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "emulator/engines/engine.hpp"
+#include "emulator/errors.hpp"
+#include "host_tools/cli/parse_values.hpp"
+#include "host_tools/picture/picture.hpp"
+#include "host_tools/render/render.hpp"
+#include "host_tools/report/text.hpp"
+
+namespace torolux {
+namespace {
+
+constexpr std::array<std::string_view, 5> kAllocations = {"skewed", "skewed-both", "modulo", "block", "balanced"};
+
+/// Adds an option whose text goes through `parse`; errors name the option.
+template <class Parse>
+CLI::Option* add_value(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
+                       Parse parse) {
+  const auto take = [name, parse](const std::string& text) {
+    try {
+      parse(text);
+    } catch (const UsageError& error) {
+      throw UsageError(name + ": " + error.what());
+    } catch (const InputError& error) {
+      throw InputError(name + ": " + error.what());
+    }
+  };
+  return command.add_option_function<std::string>(name, take, help)
+      ->type_name(form)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+/// Adds a whole number that lands in `value`.
+template <class Integer>
+CLI::Option* add_count(CLI::App& command, const std::string& name, const std::string& help,
+                       std::optional<Integer>& value, std::uint64_t least, std::uint64_t most, std::uint64_t built_in) {
+  return add_value(command, name, "N", help,
+                   [&value, least, most](const std::string& text) {
+                     value = static_cast<Integer>(parse_count(text, least, most));
+                   })
+      ->default_str(std::to_string(built_in));
+}
+
+std::string joined(const auto& names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+void take_path(std::optional<std::filesystem::path>& to, const std::string& text) {
+  if (text.empty()) throw UsageError("the name is empty");
+  to = text;
+}
+
+}  // namespace
+
+void check_allocation(const std::string& name) {
+  if (std::find(kAllocations.begin(), kAllocations.end(), name) == kAllocations.end())
+    throw UsageError("\"" + name + "\" is not an allocation; there are: " + joined(kAllocations));
+}
+
+void add_scene_options(CLI::App& command, RenderOptions& options) {
+  command.add_option("SCENE", options.scene, "A folder with scene.toml, a .toml file, or an .obj file")
+      ->required()
+      ->type_name("")
+      ->group("Scene");
+  command.add_flag("--studio", options.studio, "Put the mesh into a room with a lamp, both fitted to it")
+      ->group("Scene");
+}
+
+void add_output_options(CLI::App& command, RenderOptions& options) {
+  const std::string group = "Results";
+  const auto path = [&](const std::string& name, const std::string& help, auto& to) {
+    return add_value(command, name, "FILE", help, [&to](const std::string& text) { take_path(to, text); })
+        ->group(group);
+  };
+  add_value(command, "--output", "FILE",
+            "Picture: .png (8 bits, sRGB, tone-mapped), .exr or .pfm (linear radiance, "
+            "W/(m^2 sr)). May be repeated [the scene's name with .png, in the current folder]",
+            [&options](const std::string& text) {
+              if (text.empty()) throw UsageError("the name is empty");
+              options.outputs.emplace_back(text);
+            })
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->expected(1)
+      ->group(group);
+  add_value(command, "--exposure", "EV",
+            "Exposure of a .png in EV (1 is twice as bright); 0 shows the picture's "
+            "middle luminance as middle grey",
+            [&options](const std::string& text) { options.exposure_ev = parse_number(text, -50, 50); })
+      ->default_str("0")
+      ->group(group);
+  path("--stats", "Statistics of the run, as JSON", options.stats);
+  path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);
+  path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",
+       options.radiosity);
+  command.add_flag("--quiet", options.quiet, "No progress, no notes, no summary; errors only")->group(group);
+}
+
+void add_view_options(CLI::App& command, RenderOptions& options) {
+  const std::string group = "View";
+  const Quality built_in;
+  add_value(command, "--size", "WxH", "Picture size in pixels",
+            [&options](const std::string& text) { options.size = parse_pair(text, 1, kMostPictureEdge); })
+      ->default_str(std::to_string(built_in.width) + "x" + std::to_string(built_in.height))
+      ->group(group);
+  add_count(command, "--samples", "Rays per pixel", options.samples, 1, 65536, built_in.samples)->group(group);
+  const auto vector = [&](const std::string& name, const std::string& help, auto& to) {
+    add_value(command, name, "X,Y,Z", help, [&to](const std::string& text) { to = parse_vector(text); })->group(group);
+  };
+  vector("--eye", "Where the camera is, in scene units [the scene's]", options.eye);
+  vector("--look-at", "A point that it looks at, in scene units [the scene's]", options.look_at);
+  vector("--up", "Direction that is up in the picture [the scene's, else 0,1,0]", options.up);
+  add_value(command, "--fov", "DEGREES", "Vertical field of view, degrees [the scene's, else 40]",
+            [&options](const std::string& text) { options.field_of_view_degrees = parse_number(text, 0.01, 179); })
+      ->group(group);
+}
+
+void add_light_options(CLI::App& command, RenderOptions& options) {
+  const std::string group = "Quality";
+  const Quality built_in;
+  const auto length = [&](const std::string& name, const std::string& help, std::optional<LengthOption>& to) {
+    add_value(command, name, "LENGTH|auto", help,
+              [&to](const std::string& text) { to = LengthOption{parse_length(text)}; })
+        ->default_str("auto")
+        ->group(group);
+  };
+  length("--patches", "Longest edge of a patch (which shoots light), scene units", options.patches);
+  length("--elements", "Longest edge of an element (which receives light), scene units", options.elements);
+  add_value(command, "--hemicube", "N", "Pixels across the top of a hemi-cube, even, 4 to 256",
+            [&options](const std::string& text) {
+              const auto pixels = parse_count(text, 4, 256);
+              if (pixels % 2 != 0) throw InputError("\"" + text + "\" is odd; the number must be even");
+              options.hemicube = static_cast<std::uint32_t>(pixels);
+            })
+      ->default_str(std::to_string(built_in.hemicube))
+      ->group(group);
+  add_value(command, "--shot-points", "K", "K x K points per patch from which it shoots, 1 to 64",
+            [&options](const std::string& text) {
+              options.shot_points = static_cast<std::uint32_t>(parse_count(text, 1, 64));
+            })
+      ->default_str(std::to_string(built_in.shot_points))
+      ->group(group);
+  add_value(command, "--unshot", "FRACTION",
+            "The radiosity stage ends when less than this fraction of the emitted "
+            "flux is unshot",
+            [&options](const std::string& text) { options.unshot = parse_number(text, 1e-9, 1); })
+      ->default_str(significant(built_in.unshot, 6))
+      ->group(group);
+  add_count(command, "--max-shots", "Or after this many patches have shot; 0: no limit", options.max_shots, 0,
+            0xFFFF'FFFFU, built_in.max_shots)
+      ->group(group);
+  add_count(command, "--bounces", "Path segments after which light is cut off, 1 to 255", options.bounces, 1, 255,
+            built_in.bounces)
+      ->group(group);
+  command.add_flag("--two-sided-lights", options.two_sided_lights, "Emitters emit from both sides")->group(group);
+  add_count(command, "--seed", "Seed of all random numbers", options.seed, 0, ~std::uint64_t{0}, built_in.seed)
+      ->group(group);
+}
+
+void add_machine_options(CLI::App& command, RenderOptions& options) {
+  const std::string group = "Machine (does not change the picture)";
+  const MachineChoice built_in;
+  add_value(command, "--pes", "PxQ", "PEs of the torus, columns x rows",
+            [&options](const std::string& text) { options.pes = parse_pes(text); })
+      ->default_str(std::to_string(built_in.columns) + "x" + std::to_string(built_in.rows))
+      ->group(group);
+  add_value(command, "--pe-memory", "SIZE",
+            "Local memory of a PE in bytes, K = 1024, M = 1024 K; 256K to 64M [the "
+            "smallest power of two from 1M that fits]",
+            [&options](const std::string& text) { options.pe_memory = parse_memory(text); })
+      ->group(group);
+  add_value(command, "--subspaces", "GxHxK|auto", "Subspaces along x, y, z",
+            [&options](const std::string& text) { options.subspaces = SubspacesOption{parse_subspaces(text)}; })
+      ->default_str("auto")
+      ->group(group);
+  add_value(command, "--allocation", "NAME", "Which PE holds which subspace: " + joined(kAllocations),
+            [&options](const std::string& text) {
+              check_allocation(text);
+              options.allocation = text;
+            })
+      ->default_str(built_in.allocation)
+      ->group(group);
+  add_value(command, "--machine", "FILE.toml", "Parameters of the machine [built in]",
+            [&options](const std::string& text) { take_path(options.machine, text); })
+      ->group(group);
+  add_value(command, "--engine", "NAME", "What runs the PEs: " + joined(engine_names()),
+            [&options](const std::string& text) {
+              engine_named(text);
+              options.engine = text;
+            })
+      ->default_str(built_in.engine)
+      ->group(group);
+  add_value(
+      command, "--threads", "N", "Threads of this computer that work for the machine [all cores]",
+      [&options](const std::string& text) { options.threads = static_cast<std::uint32_t>(parse_count(text, 1, 4096)); })
+      ->group(group);
+}
+
+}  // namespace torolux

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The options of `torolux render` and `torolux info` as the user gave them; what was not given is absent.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace torolux {
+
+/// A length, or `auto` (absent). An option that was given as `auto` outweighs a scene's own length.
+struct LengthOption {
+  std::optional<double> length;
+};
+struct SubspacesOption {
+  std::optional<std::array<std::uint32_t, 3>> cells;
+};
+
+struct RenderOptions {
+  std::filesystem::path scene;
+  bool studio = false;
+
+  // What comes out.
+  std::vector<std::filesystem::path> outputs;
+  std::optional<double> exposure_ev;
+  std::optional<std::filesystem::path> save_radiosity, radiosity, stats;
+  bool quiet = false;
+
+  // The view.
+  std::optional<std::array<std::uint32_t, 2>> size;
+  std::optional<std::uint32_t> samples;
+  std::optional<std::array<double, 3>> eye, look_at, up;
+  std::optional<double> field_of_view_degrees;
+
+  // The light.
+  std::optional<LengthOption> patches, elements;
+  std::optional<std::uint32_t> hemicube, shot_points, max_shots, bounces;
+  std::optional<double> unshot;
+  std::optional<std::uint64_t> seed;
+  bool two_sided_lights = false;
+
+  // The machine.
+  std::optional<std::array<std::uint32_t, 2>> pes;
+  std::optional<std::uint32_t> pe_memory;
+  std::optional<SubspacesOption> subspaces;
+  std::optional<std::string> allocation, engine;
+  std::optional<std::filesystem::path> machine;
+  std::optional<std::uint32_t> threads;
+};
+
+/// SCENE and --studio.
+void add_scene_options(CLI::App& command, RenderOptions& options);
+/// --output, --exposure, --stats, --save-radiosity, --radiosity, --quiet.
+void add_output_options(CLI::App& command, RenderOptions& options);
+/// --size, --samples, --eye, --look-at, --up, --fov.
+void add_view_options(CLI::App& command, RenderOptions& options);
+/// --patches, --elements, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights, --seed.
+void add_light_options(CLI::App& command, RenderOptions& options);
+/// --pes, --pe-memory, --subspaces, --allocation, --machine, --engine, --threads.
+void add_machine_options(CLI::App& command, RenderOptions& options);
+
+/// Throws UsageError unless `name` is an allocation; the message lists them all.
+void check_allocation(const std::string& name);
+
+}  // namespace torolux

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// From what the user gave and what the scene suggests to what is done. An option given outweighs the scene's own
+// default, which outweighs the built-in one.
+#pragma once
+
+#include "host_tools/cli/render_options.hpp"
+#include "host_tools/render/render.hpp"
+#include "host_tools/scene/load_scene.hpp"
+
+namespace torolux {
+
+struct Settled {
+  Camera camera;
+  Quality quality;
+  MachineChoice machine;
+  double exposure_ev = 0;
+  std::vector<std::filesystem::path> outputs;  ///< never empty
+  RenderFiles files;
+};
+
+/// How the scene is to be loaded. Throws InputError for a camera of the user's that looks nowhere.
+SceneOptions scene_options(const RenderOptions& options);
+
+/// Reads the machine file, if one was named. Throws InputError, UsageError; values from the scene are checked as those
+/// from the command line are, and the message says that they come from the scene.
+Settled settle(const RenderOptions& options, const Scene& scene);
+
+}  // namespace torolux

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What a run is reported by: the summary for people, the statistics for programs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host_tools/render/render.hpp"
+
+namespace torolux {
+
+/// What was asked for, as settled from command line, scene and built-in values.
+struct RunDescription {
+  std::string scene;
+  Quality quality;
+  MachineChoice machine;
+  std::vector<std::filesystem::path> pictures;
+};
+
+/// emitted - (absorbed + absorbed_specular + unshot + escaped + cut_off + back_side), relative to emitted: the channel
+/// where it is greatest. 0 where nothing was emitted.
+double closing_error(const EnergyBalance& energy);
+
+/// busy / (busy + idle), 0..1; 0 for a PE that did not run.
+double busy_share(const PeFigures& pe);
+
+/// Several lines, each ended. Aligned in columns, at most 79 characters wide.
+std::string summary(const RunDescription& run, const RenderFigures& figures);
+
+/// One JSON object, ended by a line end. docs/command_line.md lists its keys. The same for every repetition of a run,
+/// but for the values at wall_seconds and host.
+std::string stats_json(const RunDescription& run, const RenderFigures& figures);
+
+}  // namespace torolux
