@@ -3,20 +3,29 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "host_tools/scene/files.hpp"
 #include "host_tools/scene/scene.hpp"
 
 namespace torolux {
 
 struct SceneOptions {
-  bool studio = false;  ///< add a room and a lamp fitted to the mesh
+  bool studio = false;           ///< add a room and a lamp fitted to the mesh
+  std::optional<Camera> camera;  ///< with studio: the user's own, which the room then holds
 };
 
 /// Throws InputError with file and line: not found, not parsable, NaN, index out of range, no surface with an area, ...
-/// A scene without light is loaded; check_renderable refuses it.
+/// A scene without light is loaded; check_renderable refuses it. The scene always has a camera.
 Scene load_scene(const std::filesystem::path& path, const SceneOptions& options);
+
+/// The same, with files from elsewhere than the disk.
+Scene load_scene_from(SceneFiles& files, const std::filesystem::path& path, const SceneOptions& options);
 
 /// Throws InputError: no light, a camera that looks nowhere.
 void check_renderable(const Scene& scene);
+
+/// Throws InputError: looks nowhere, up along the view, field of view outside 0..180 degrees.
+void check_camera(const Camera& camera);
 
 }  // namespace torolux

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Puts meshes into one space and checks what only the whole can tell.
+#include "host_tools/scene/build_scene.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "host_tools/scene/statements.hpp"
+
+namespace torolux {
+namespace {
+
+using Matrix = std::array<Vec3d, 3>;  // rows
+
+Vec3d times(const Matrix& m, const Vec3d& v) {
+  return {vec::dot(m[0], v), vec::dot(m[1], v), vec::dot(m[2], v)};
+}
+
+/// Rotation about one axis; multiples of 90 degrees are exact.
+Matrix rotation(std::size_t axis, double degrees) {
+  const double turns = degrees / 90.0;
+  double sine = std::sin(degrees * std::numbers::pi / 180.0);
+  double cosine = std::cos(degrees * std::numbers::pi / 180.0);
+  if (turns == std::round(turns)) {
+    sine = std::round(sine);
+    cosine = std::round(cosine);
+  }
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  Matrix m{};
+  m[axis][axis] = 1;
+  m[u][u] = cosine;
+  m[u][v] = -sine;
+  m[v][u] = sine;
+  m[v][v] = cosine;
+  return m;
+}
+
+struct Transform {
+  Matrix rotate;
+  Vec3d scale, translate;
+
+  explicit Transform(const MeshEntry& entry) : rotate{}, scale(entry.scale), translate(entry.translate) {
+    const Matrix x = rotation(0, entry.rotate[0]);
+    const Matrix y = rotation(1, entry.rotate[1]);
+    const Matrix z = rotation(2, entry.rotate[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      Vec3d unit{0, 0, 0};
+      unit[i] = 1;
+      const Vec3d column = times(z, times(y, times(x, unit)));
+      for (std::size_t row = 0; row < 3; ++row) rotate[row][i] = column[row];
+    }
+  }
+  Vec3d position(const Vec3d& p) const {
+    return vec::add(times(rotate, {p[0] * scale[0], p[1] * scale[1], p[2] * scale[2]}), translate);
+  }
+  /// By the inverse transpose; any length.
+  Vec3d normal(const Vec3d& n) const { return times(rotate, {n[0] / scale[0], n[1] / scale[1], n[2] / scale[2]}); }
+  bool mirrors() const { return scale[0] * scale[1] * scale[2] < 0; }
+};
+
+const MaterialOverride* find(const std::vector<MaterialOverride>& overrides, const std::string& name) {
+  for (const MaterialOverride& o : overrides)
+    if (o.name == name) return &o;
+  return nullptr;
+}
+
+void apply(const MaterialOverride& o, SceneMaterial& material) {
+  if (o.diffuse) {
+    material.kind = SurfaceKind::diffuse;
+    material.diffuse = *o.diffuse;
+  }
+  if (o.mirror) {
+    material.kind = SurfaceKind::mirror;
+    material.specular = *o.mirror;
+  }
+  if (o.glass) {
+    material.kind = SurfaceKind::glass;
+    material.refractive_index = *o.glass;
+  }
+  if (o.transmittance) material.transmittance = *o.transmittance;
+  if (o.emission) material.emission = *o.emission;
+  if (material.kind != SurfaceKind::diffuse) material.diffuse = {0, 0, 0};
+  if (material.kind != SurfaceKind::mirror) material.specular = {0, 0, 0};
+}
+
+/// The mesh's material of this number as the scene has it: renamed and overridden.
+MeshMaterial resolved(const Mesh& mesh, std::size_t number, const MeshEntry& entry,
+                      const std::vector<MaterialOverride>& overrides) {
+  MeshMaterial result = mesh.materials[number];
+  std::string name = result.material.name;
+  for (const auto& [from, to] : entry.materials)
+    if (from == name) result.material.name = to;
+  if (entry.material) result.material.name = *entry.material;
+  if (result.material.name != name) {
+    name = result.material.name;
+    const auto own = std::find_if(mesh.materials.begin(), mesh.materials.end(),
+                                  [&name](const MeshMaterial& m) { return m.defined && m.material.name == name; });
+    result.defined = own != mesh.materials.end();
+    result.material = result.defined ? own->material : SceneMaterial{};
+    result.material.name = name;
+    result.place = entry.place;
+  }
+  if (const MaterialOverride* o = find(overrides, name)) {
+    apply(*o, result.material);
+    result.defined = true;
+    result.place = o->place;
+  }
+  return result;
+}
+
+[[noreturn]] void refuse_unknown(const MeshMaterial& material, const Mesh& mesh,
+                                 const std::vector<MaterialOverride>& overrides) {
+  std::vector<std::string> known;
+  for (const MeshMaterial& m : mesh.materials)
+    if (m.defined) known.push_back(m.material.name);
+  for (const MaterialOverride& o : overrides) known.push_back(o.name);
+  const std::string near = nearest_name(material.material.name, known);
+  refuse(material.place, "material " + in_quotes(material.material.name) + " is not defined in any material library" +
+                             (near.empty() ? "; " : "; did you mean " + in_quotes(near) + "? Otherwise ") +
+                             "name the library with mtllib, or define it in scene.toml");
+}
+
+}  // namespace
+
+void SceneBuilder::check_material(SceneMaterial& material, const Place& place) {
+  if (material.kind != SurfaceKind::diffuse && vec::largest(material.emission) > 0)
+    refuse(place, "material " + in_quotes(material.name) +
+                      " is a mirror or glass and emits; only diffuse surfaces can. Give it Ke 0, or illum 2");
+  for (Vec3d* reflectance : {&material.diffuse, &material.specular}) {
+    const double most = vec::largest(*reflectance);
+    if (most < 1) continue;
+    notices_.note("a reflectance of one or more would never lose light: the material is scaled to 0.99", place);
+    *reflectance = vec::scale(*reflectance, 0.99 / most);
+  }
+  if (material.kind != SurfaceKind::glass) return;
+  if (!(material.refractive_index >= 0.2 && material.refractive_index <= 5))
+    refuse(place, "glass " + in_quotes(material.name) + " has a refractive index (Ni) of " +
+                      std::to_string(material.refractive_index) + "; allowed are 0.2 to 5, glass has about 1.5");
+  for (double& t : material.transmittance) {
+    if (t > 1) notices_.note("Tf above one would make light: it is set to 1", place);
+    t = std::min(t, 1.0);
+  }
+}
+
+std::uint32_t SceneBuilder::add_material(SceneMaterial material, const Place& place) {
+  check_material(material, place);
+  materials_.push_back(std::move(material));
+  return static_cast<std::uint32_t>(materials_.size() - 1);
+}
+
+void SceneBuilder::add_triangle(const SceneTriangle& triangle, const Place& place) {
+  if (triangles_.size() >= kMostTriangles)
+    refuse(place, "more than " + std::to_string(kMostTriangles) + " triangles; simplify the mesh or leave parts out");
+  triangles_.push_back(triangle);
+  if (files_.empty() || files_.back() != place.file) files_.push_back(place.file);
+  origins_.push_back({static_cast<std::uint32_t>(files_.size() - 1), static_cast<std::uint32_t>(place.line)});
+}
+
+void SceneBuilder::add_mesh(const Mesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides) {
+  constexpr std::uint32_t not_yet = 0xFFFF'FFFFU;
+  std::vector<std::uint32_t> number(mesh.materials.size(), not_yet);
+  const Transform transform(entry);
+  const auto first_position = static_cast<std::uint32_t>(positions_.size());
+  const auto first_normal = static_cast<std::uint32_t>(normals_.size());
+  for (const Vec3d& p : mesh.positions) {
+    const Vec3d placed = transform.position(p);
+    for (const double x : placed)
+      if (!(std::abs(x) <= kMostCoordinate))
+        refuse(entry.place, "the transform moves the mesh beyond 1e15 in magnitude; use other units");
+    positions_.push_back(vec::add(placed, {0, 0, 0}));
+  }
+  for (const Vec3d& n : mesh.normals) normals_.push_back(vec::scale(transform.normal(n), entry.flip ? -1.0 : 1.0));
+  const bool turn = transform.mirrors() != entry.flip;
+  for (const MeshTriangle& read : mesh.triangles) {
+    if (number[read.material] == not_yet) {
+      const MeshMaterial material = resolved(mesh, read.material, entry, overrides);
+      if (!material.defined) refuse_unknown(material, mesh, overrides);
+      number[read.material] = add_material(material.material, material.place);
+    }
+    SceneTriangle triangle{read.position, read.normal, number[read.material]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.position[i] += first_position;
+      if (triangle.normal[i] != kNoNormal) triangle.normal[i] += first_normal;
+    }
+    if (turn) {
+      std::swap(triangle.position[1], triangle.position[2]);
+      std::swap(triangle.normal[1], triangle.normal[2]);
+    }
+    add_triangle(triangle, {mesh.file, read.line});
+  }
+}
+
+void SceneBuilder::add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material,
+                                 const Place& place) {
+  const std::uint32_t number = add_material(material, place);
+  const auto first = static_cast<std::uint32_t>(positions_.size());
+  positions_.insert(positions_.end(), corners.begin(), corners.end());
+  const std::array<std::uint32_t, 3> flat{kNoNormal, kNoNormal, kNoNormal};
+  add_triangle({{first, first + 1, first + 2}, flat, number}, place);
+  add_triangle({{first, first + 2, first + 3}, flat, number}, place);
+}
+
+vec::Box SceneBuilder::bounds() const {
+  vec::Box box;
+  for (const SceneTriangle& triangle : triangles_)
+    for (const std::uint32_t p : triangle.position) box.include(positions_[p]);
+  return box;
+}
+
+}  // namespace torolux

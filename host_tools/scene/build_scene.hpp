@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Meshes, transforms and materials in; one checked Scene out: equal positions merged, triangles without area and exact
+// duplicates left out, reflectances below one.
+#pragma once
+
+#include <optional>
+
+#include "host_tools/scene/mesh.hpp"
+#include "host_tools/scene/scene_file.hpp"
+
+namespace torolux {
+
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(Notices& notices) : notices_(notices) {}
+
+  /// Overrides by name apply to all meshes. Throws InputError: a material that neither the mesh nor an override
+  /// defines.
+  void add_mesh(const Mesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides);
+  /// Four corners, counter-clockwise seen from the front.
+  void add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material, const Place& place);
+
+  /// Of all that was added so far.
+  vec::Box bounds() const;
+
+  /// Positions, normals, triangles and the materials in use. Throws InputError: no surface with an area.
+  void finish(Scene& scene, const Place& place);
+
+ private:
+  std::uint32_t add_material(SceneMaterial material, const Place& place);
+  void check_material(SceneMaterial& material, const Place& place);
+  void add_triangle(const SceneTriangle& triangle, const Place& place);
+
+  Notices& notices_;
+  std::vector<Vec3d> positions_;
+  std::vector<Vec3d> normals_;
+  std::vector<SceneTriangle> triangles_;
+  std::vector<SceneMaterial> materials_;
+  std::vector<std::string> files_;
+  struct Origin {
+    std::uint32_t file, line;
+  };
+  std::vector<Origin> origins_;  ///< of each triangle
+};
+
+}  // namespace torolux

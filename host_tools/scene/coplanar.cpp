@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Finds overlapping triangles in planes across an axis.
+#include "host_tools/scene/coplanar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+
+namespace torolux {
+namespace {
+
+using Point = std::array<double, 2>;
+
+struct Flat {
+  std::size_t axis;
+  double at;
+  std::array<Point, 3> corners;
+  std::uint32_t material;
+  double low, high;  // along the first of the two other axes
+};
+
+/// Does a line along an edge of `a` part the two? Touching counts as apart.
+bool parted_by_edge(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point& p = a[i];
+    const Point& q = a[(i + 1) % 3];
+    const auto side = [&](const Point& r) { return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]); };
+    const double inner = side(a[(i + 2) % 3]);
+    if (std::all_of(b.begin(), b.end(), [&](const Point& r) { return side(r) * inner <= 0; })) return true;
+  }
+  return false;
+}
+
+std::vector<Flat> flat_triangles(const Scene& scene) {
+  std::vector<Flat> flats;
+  for (const SceneTriangle& triangle : scene.triangles) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double at = scene.positions[triangle.position[0]][axis];
+      if (at != scene.positions[triangle.position[1]][axis] || at != scene.positions[triangle.position[2]][axis])
+        continue;
+      Flat flat{axis, at, {}, triangle.material, 0, 0};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& p = scene.positions[triangle.position[i]];
+        flat.corners[i] = {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+      }
+      flat.low = std::min({flat.corners[0][0], flat.corners[1][0], flat.corners[2][0]});
+      flat.high = std::max({flat.corners[0][0], flat.corners[1][0], flat.corners[2][0]});
+      flats.push_back(flat);
+    }
+  }
+  std::sort(flats.begin(), flats.end(), [](const Flat& a, const Flat& b) {
+    return std::tie(a.axis, a.at, a.low, a.high, a.material) < std::tie(b.axis, b.at, b.low, b.high, b.material);
+  });
+  return flats;
+}
+
+}  // namespace
+
+void inspect_coplanar(const Scene& scene, std::vector<std::string>& found) {
+  const std::vector<Flat> flats = flat_triangles(scene);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> pairs;
+  std::size_t tests_left = 5'000'000;
+  for (std::size_t i = 0; i < flats.size(); ++i) {
+    for (std::size_t k = i + 1; k < flats.size() && flats[k].axis == flats[i].axis && flats[k].at == flats[i].at &&
+                                flats[k].low < flats[i].high;
+         ++k) {
+      if (tests_left == 0) break;
+      --tests_left;
+      if (flats[i].material == flats[k].material) continue;
+      if (parted_by_edge(flats[i].corners, flats[k].corners) || parted_by_edge(flats[k].corners, flats[i].corners))
+        continue;
+      ++pairs[std::minmax(flats[i].material, flats[k].material)];
+    }
+  }
+  constexpr std::size_t most_told = 8;
+  std::size_t told = 0;
+  for (const auto& [pair, count] : pairs) {
+    if (told++ == most_told) {
+      found.push_back(std::to_string(pairs.size() - most_told) + " more pairs of materials overlap in one plane");
+      break;
+    }
+    found.push_back("'" + scene.materials[pair.first].name + "' and '" + scene.materials[pair.second].name +
+                    "' overlap in one plane (" + std::to_string(count) +
+                    " pairs of triangles); seen is the one that comes first in the scene");
+  }
+}
+
+}  // namespace torolux

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Puts the parts of the import together: scene.toml, meshes, studio, checks.
+#include "host_tools/scene/load_scene.hpp"
+
+#include <algorithm>
+
+#include "emulator/errors.hpp"
+#include "host_tools/scene/build_scene.hpp"
+#include "host_tools/scene/camera.hpp"
+#include "host_tools/scene/obj.hpp"
+#include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/studio.hpp"
+
+namespace torolux {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+constexpr const char* kAllowed = "a scene is a folder with scene.toml, a .toml or an .obj";
+
+/// The .toml or .obj that is meant.
+std::filesystem::path scene_path(const std::filesystem::path& path, SceneFiles& files) {
+  std::error_code error;
+  if (path.empty()) refuse({}, std::string("no scene is named; ") + kAllowed);
+  if (!std::filesystem::is_directory(path, error)) return path;
+  const std::filesystem::path inside = path / "scene.toml";
+  if (files.exists(inside)) return inside;
+  std::vector<std::string> meshes;
+  for (const auto& entry : std::filesystem::directory_iterator(path, error))
+    if (lower_extension(entry.path()) == ".obj") meshes.push_back(entry.path().filename().string());
+  std::sort(meshes.begin(), meshes.end());
+  std::string hint = std::string("; ") + kAllowed;
+  if (!meshes.empty()) hint = "; name one of its meshes:";
+  for (const std::string& mesh : meshes) hint += " " + (path / mesh).string();
+  refuse({path.string()}, "there is no scene.toml in this folder" + hint);
+}
+
+SceneFile scene_file_for_mesh(const std::filesystem::path& path) {
+  SceneFile file;
+  MeshEntry entry;
+  entry.file = path.filename().string();
+  file.meshes.push_back(entry);
+  return file;
+}
+
+std::string scene_name(const std::filesystem::path& path) {
+  if (path.filename() != "scene.toml") return path.stem().string();
+  return std::filesystem::absolute(path).lexically_normal().parent_path().filename().string();
+}
+
+void add_lights(const SceneFile& file, SceneBuilder& builder) {
+  for (std::size_t i = 0; i < file.lights.size(); ++i) {
+    SceneMaterial material;
+    material.name = "light " + std::to_string(i + 1);
+    material.emission = file.lights[i].radiance;
+    material.diffuse = file.lights[i].diffuse;
+    builder.add_rectangle(file.lights[i].corners, material, file.lights[i].place);
+  }
+}
+
+void note_unused_overrides(const SceneFile& file, const std::vector<std::string>& used, Notices& notices) {
+  for (const MaterialOverride& material : file.materials)
+    if (std::find(used.begin(), used.end(), material.name) == used.end())
+      notices.note("no face uses material '" + material.name + "'", material.place);
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& path, const SceneOptions& options) {
+  DiskFiles files;
+  return load_scene_from(files, path, options);
+}
+
+Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, const SceneOptions& options) {
+  const std::filesystem::path path = scene_path(named, files);
+  if (!files.exists(path)) refuse({}, "there is no scene '" + path.string() + "'; " + kAllowed);
+  const std::string extension = lower_extension(path);
+  if (extension != ".toml" && extension != ".obj")
+    refuse({path.string()}, "'" + extension + "' is not a kind of scene that is read; " + kAllowed);
+  const Place whole{path.string(), 0};
+  const SceneFile file = extension == ".obj" ? scene_file_for_mesh(path)
+                                             : read_scene_file(files.read(path, whole, kMostTextBytes), path.string());
+  if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
+
+  Notices notices;
+  SceneBuilder builder(notices);
+  for (const MeshEntry& entry : file.meshes) {
+    const std::filesystem::path mesh = path.parent_path() / entry.file;
+    const Place asked_at = entry.place.file.empty() ? whole : entry.place;
+    if (lower_extension(mesh) != ".obj") refuse(asked_at, "'" + entry.file + "' is not an .obj; no other mesh is read");
+    builder.add_mesh(import_obj(mesh, files, asked_at, notices), entry, file.materials);
+  }
+  add_lights(file, builder);
+
+  Scene scene;
+  scene.name = file.name.value_or(scene_name(path));
+  scene.defaults = file.defaults;
+  scene.camera = file.camera;
+  const vec::Box bounds = builder.bounds();
+  if (options.studio) {
+    if (options.camera) scene.camera = options.camera;
+    add_studio(builder, scene.camera);
+  }
+  builder.finish(scene, whole);
+  std::vector<std::string> used;
+  for (const SceneMaterial& material : scene.materials) used.push_back(material.name);
+  note_unused_overrides(file, used, notices);
+  scene.warnings = notices.lines();
+  if (!scene.camera) {
+    scene.camera = front_camera(bounds);
+    scene.warnings.push_back(path.string() + ": names no camera: one looks from the front, along -z");
+  }
+  return scene;
+}
+
+void check_renderable(const Scene& scene) {
+  const bool lit = std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
+    return vec::largest(scene.materials[triangle.material].emission) > 0;
+  });
+  if (!lit)
+    throw InputError("scene '" + scene.name +
+                     "' has no light: no face emits. Give a material Ke, add a [[light]] to scene.toml, or use "
+                     "--studio for a room with a lamp");
+  if (scene.camera) check_camera(*scene.camera);
+}
+
+void check_camera(const Camera& camera) {
+  if (const auto fault = camera_fault(camera)) throw InputError("the camera " + *fault);
+}
+
+}  // namespace torolux

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// A material library (MTL) in, materials of Torolux out. docs/scenes.md says how each statement is read.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "host_tools/scene/mesh.hpp"
+
+namespace torolux {
+
+/// Appends the library's materials. Throws InputError with file and line: a value missing, not a number or negative,
+/// a statement before newmtl, a name given twice.
+void import_mtl(std::string_view text, const std::string& file, std::vector<MeshMaterial>& materials, Notices& notices);
+
+}  // namespace torolux

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The few operations on three doubles that the scene code needs.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/scene/scene.hpp"
+
+namespace torolux::vec {
+
+inline Vec3d add(const Vec3d& a, const Vec3d& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vec3d subtract(const Vec3d& a, const Vec3d& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Vec3d scale(const Vec3d& a, double s) {
+  return {a[0] * s, a[1] * s, a[2] * s};
+}
+inline double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double length(const Vec3d& a) {
+  return std::hypot(a[0], a[1], a[2]);
+}
+/// Length 1; a must not be zero.
+inline Vec3d unit(const Vec3d& a) {
+  return scale(a, 1.0 / length(a));
+}
+inline double largest(const Vec3d& a) {
+  return std::max({a[0], a[1], a[2]});
+}
+
+/// Axis-parallel box around points.
+struct Box {
+  Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  Vec3d high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void include(const Vec3d& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  Vec3d extent() const { return subtract(high, low); }
+  Vec3d centre() const { return scale(add(low, high), 0.5); }
+};
+
+}  // namespace torolux::vec
