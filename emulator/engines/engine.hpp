@@ -2,6 +2,7 @@
 // What runs the PEs' processors. The scheduler does not know which engine it is: they meet in the NIU channels alone.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,6 +23,9 @@ struct PeMemory {
   std::uint32_t local_memory_bytes;
 };
 
+/// Bytes to map as PeMemory::local for a PE with this much local memory: engines may need room behind it.
+std::size_t mapped_bytes_for(std::uint32_t local_memory_bytes);
+
 struct EngineSetup {
   const MachineDescription& machine;
   const Image& image;
@@ -39,6 +43,8 @@ class Engine {
   virtual void check() = 0;
   /// Ends all PEs that still run. Called once, after the channels have been told to stop.
   virtual void stop() = 0;
+  /// Host CPU time that the PEs have used so far [s]; 0 where the engine cannot tell it from the emulator's own.
+  virtual double cpu_seconds() const { return 0; }
 };
 
 using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>;

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace torolux {
 
@@ -36,6 +38,8 @@ struct MachineDescription {
     double clock_hertz = 100e6;
     LatencyTable latency = {1, 2, 2, 2, 1, 3, 20, 4, 1, 4, 4, 5, 16, 20, 2};
     std::uint64_t most_cycles_between_hints = 2'000'000'000;  ///< more is an endless loop
+
+    bool operator==(const Processor&) const = default;
   } processor;
 
   struct Torus {
@@ -48,6 +52,8 @@ struct MachineDescription {
     bool bubble = true;                    ///< off only to see the deadlock that it prevents
     double link_error_rate = 0;            ///< chance that a packet's CRC fails on a link, 0..0.5
     std::uint32_t retry_cycles = 8;        ///< from a failed CRC to the start of the next try
+
+    bool operator==(const Torus&) const = default;
   } torus;
 
   struct Bus {
@@ -55,28 +61,44 @@ struct MachineDescription {
     std::uint32_t arbitration_cycles = 4;   ///< >= 1
     std::uint32_t send_queue_messages = 4;  ///< outgoing queue of a NIU, >= 1
     std::uint32_t control_buffers = 2;      ///< messages that wait in a NIU for the processor, >= 1
+
+    bool operator==(const Bus&) const = default;
   } bus;
 
   struct FrameBuffer {
     std::uint32_t cycles_per_pixel = 2;  ///< one addition
     std::uint32_t queue_messages = 16;
+
+    bool operator==(const FrameBuffer&) const = default;
   } frame_buffer;
 
   struct Host {
     std::uint32_t cycles_per_message = 50;  ///< to take one in or make one, >= 1
+
+    bool operator==(const Host&) const = default;
   } host;
 
   struct Records {
     std::uint32_t credits_per_pe = 256;  ///< W = this * PEs, >= 1
     std::uint32_t niu_slots = 256;       ///< record slots of a NIU, >= kMostRecordsPerPacket
+
+    bool operator==(const Records&) const = default;
   } records;
 
   /// Delay added to link traversals by a hash of (seed, packet, hop), 0..this [cycles]: shakes the order of events.
   std::uint32_t injected_delay_cycles = 0;
+
+  bool operator==(const MachineDescription&) const = default;
 };
 
 /// Reads a machine file. Unknown keys, wrong types and values out of range throw InputError with file and line.
 MachineDescription load_machine_description(const std::filesystem::path& file);
+
+/// The same from text; source_name stands for the file in messages.
+MachineDescription parse_machine_description(std::string_view text, std::string_view source_name);
+
+/// Every key of a machine file, with its table ("torus.flit_bytes"), in the order of machine.toml.
+std::vector<std::string> machine_description_keys();
 
 /// Name of a class in the machine file's table [processor.latency].
 std::string_view name_of(InstructionClass instruction_class);

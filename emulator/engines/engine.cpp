@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The engines by name.
+#include "emulator/engines/engine.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "emulator/engines/qemu/qemu_engine.hpp"
+#include "emulator/errors.hpp"
+
+namespace torolux {
+namespace {
+
+using Registry = std::map<std::string, EngineFactory, std::less<>>;
+
+Registry& registry() {
+  static Registry engines = {{"qemu", make_qemu_engine}};
+  return engines;
+}
+
+}  // namespace
+
+std::size_t mapped_bytes_for(std::uint32_t local_memory_bytes) {
+  // QEMU puts 1 MiB of device tree into RAM, 2 MiB-aligned, as far up as it goes: the RAM is made so large that this
+  // lies beyond local memory. It does not start with less than 4 MiB.
+  constexpr std::size_t kAlignment = 2U << 20U;
+  constexpr std::size_t kLeast = 4U << 20U;
+  const std::size_t rounded = (local_memory_bytes + kAlignment - 1) / kAlignment * kAlignment;
+  return std::max(rounded + kAlignment, kLeast);
+}
+
+void register_engine(std::string_view name, EngineFactory factory) {
+  registry().insert_or_assign(std::string(name), std::move(factory));
+}
+
+const EngineFactory& engine_named(std::string_view name) {
+  const auto found = registry().find(name);
+  if (found == registry().end()) {
+    std::string message = "no engine '" + std::string(name) + "'; there is";
+    for (const std::string_view known : engine_names()) {
+      message += " " + std::string(known);
+    }
+    throw UsageError(message);
+  }
+  return found->second;
+}
+
+std::vector<std::string_view> engine_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, factory] : registry()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace torolux

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// The plugin inside each PE's QEMU: counts cycles and instructions of what is translated, and implements the HINT.
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "emulator/engines/isa/instruction_class.hpp"
+#include "emulator/engines/qemu/plugin_api.hpp"
+#include "emulator/engines/qemu/plugin_share.hpp"
+#include "emulator/niu/processor_side.hpp"
+#include "firmware/protocol/hints.hpp"
+#include "firmware/protocol/machine.hpp"
+
+extern "C" {
+__attribute__((visibility("default"))) extern const int qemu_plugin_version;
+const int qemu_plugin_version = 1;
+__attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc,
+                                                               char** argv);
+}
+
+namespace torolux {
+namespace {
+
+/// What a HINT's callback must know about the rest of its block, which the block's start has counted already.
+/// Packed into the callback's pointer, so that translating allocates nothing. A block has at most 512 instructions.
+struct HintPlace {
+  std::int32_t immediate;           // 12 bits
+  std::uint32_t instructions_left;  // 12 bits
+  std::uint32_t cycles_left;        // 32 bits
+
+  void* pack() const {
+    const std::uint64_t bits = (static_cast<std::uint64_t>(cycles_left) << 24U) | (instructions_left << 12U) |
+                               (static_cast<std::uint32_t>(immediate) & 0xFFFU);
+    return reinterpret_cast<void*>(bits);
+  }
+  static HintPlace unpack(const void* pointer) {
+    const auto bits = reinterpret_cast<std::uint64_t>(pointer);
+    return {static_cast<std::int32_t>(static_cast<std::uint32_t>(bits) << 20U) >> 20,
+            static_cast<std::uint32_t>(bits >> 12U) & 0xFFFU, static_cast<std::uint32_t>(bits >> 24U)};
+  }
+};
+
+class Plugin {
+ public:
+  Plugin(PluginShare& share, NiuProcessorSide side) : share_(share), side_(side) {}
+
+  void translated(qemu_plugin_tb* block);
+  void hint(const HintPlace& place);
+
+ private:
+  PluginShare& share_;
+  NiuProcessorSide side_;
+  // PE clock = counted cycles - cycle_offset_; the same for instructions. Modulo 2^64: waiting makes it "negative".
+  std::uint64_t cycle_offset_ = 0;
+  std::uint64_t instruction_offset_ = 0;
+  // While the NIU driver repeats a HINT: clock and count at its first execution, to which they are set back.
+  bool retrying_ = false;
+  std::uint64_t retry_clock_ = 0;
+  std::uint64_t retry_instructions_ = 0;
+};
+
+std::unique_ptr<Plugin> plugin;
+
+std::uint32_t bits_of(const qemu_plugin_insn* instruction) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, qemu_plugin_insn_data(instruction), qemu_plugin_insn_size(instruction) == 2 ? 2 : 4);
+  return bits;
+}
+
+void on_hint(unsigned /*vcpu*/, void* user_data) {
+  plugin->hint(HintPlace::unpack(user_data));
+}
+
+void on_translated(qemu_plugin_id_t /*id*/, qemu_plugin_tb* block) {
+  plugin->translated(block);
+}
+
+void Plugin::translated(qemu_plugin_tb* block) {
+  const std::uint64_t address = qemu_plugin_tb_vaddr(block);
+  if (address < protocol::kLocalMemoryBase || address - protocol::kLocalMemoryBase >= share_.local_memory_bytes) {
+    return;  // the boot ROM
+  }
+  HintPlace rest{};
+  for (std::size_t i = qemu_plugin_tb_n_insns(block); i-- > 0;) {
+    qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);
+    const std::uint32_t bits = bits_of(instruction);
+    if (protocol::is_hint(bits)) {
+      rest.immediate = protocol::hint_immediate(bits);
+      qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_hint, QEMU_PLUGIN_CB_NO_REGS, rest.pack());
+    }
+    rest.cycles_left += cycles_of(bits, share_.latency);
+    rest.instructions_left += is_phase_marker(bits) ? 0 : 1;
+  }
+  qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.cycles, rest.cycles_left);
+  qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.instructions,
+                                           rest.instructions_left);
+}
+
+void Plugin::hint(const HintPlace& place) {
+  const std::uint64_t counted = share_.cycles - place.cycles_left;
+  const std::uint64_t counted_instructions = share_.instructions - place.instructions_left;
+  if (retrying_) {
+    cycle_offset_ = counted - retry_clock_;
+    instruction_offset_ = counted_instructions - retry_instructions_;
+  }
+  const std::uint64_t clock = counted - cycle_offset_;
+  const std::uint64_t instructions = counted_instructions - instruction_offset_;
+  const NiuProcessorSide::Result result = side_.hint(place.immediate, clock, instructions);
+  if (result.outcome == NiuProcessorSide::Outcome::stop) {
+    share_.stopped.store(1, std::memory_order_release);
+    _exit(0);
+  }
+  retrying_ = result.outcome == NiuProcessorSide::Outcome::retry;
+  if (retrying_) {
+    retry_clock_ = clock;
+    retry_instructions_ = instructions;
+  } else {
+    cycle_offset_ = counted - result.clock;
+  }
+  share_.cycles_at_hint.store(share_.cycles, std::memory_order_relaxed);
+  share_.hints.fetch_add(1, std::memory_order_relaxed);
+}
+
+std::optional<std::span<std::byte>> map_descriptor(int descriptor) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || status.st_size <= 0) {
+    return std::nullopt;
+  }
+  const auto bytes = static_cast<std::size_t>(status.st_size);
+  void* mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  if (mapped == MAP_FAILED) {
+    return std::nullopt;
+  }
+  return std::span(static_cast<std::byte*>(mapped), bytes);
+}
+
+/// Nothing on success, else what is wrong.
+const char* install(qemu_plugin_id_t id, const qemu_info_t& info, std::string_view argument) {
+  if (info.version.min > qemu_plugin_version || info.version.cur < qemu_plugin_version) {
+    return "this QEMU does not speak version 1 of the plugin interface";
+  }
+  if (std::string_view(info.target_name) != "riscv32" || !info.system_emulation || info.system.max_vcpus != 1) {
+    return "needed: qemu-system-riscv32 with one hart";
+  }
+  constexpr std::string_view kShare = "share=";
+  if (!argument.starts_with(kShare)) {
+    return "expected the argument share=DESCRIPTOR";
+  }
+  const auto share_memory = map_descriptor(std::atoi(argument.substr(kShare.size()).data()));
+  if (!share_memory || share_memory->size() < sizeof(PluginShare)) {
+    return "the shared memory cannot be mapped";
+  }
+  auto& share = *reinterpret_cast<PluginShare*>(share_memory->data());
+  if (share.version != kPluginShareVersion) {
+    return "plugin and emulator are not from the same build";
+  }
+  const auto channel = map_descriptor(share.channel_descriptor);
+  const auto local = map_descriptor(share.local_descriptor);
+  if (!channel || !local || channel->size() < niu_channel_bytes() || local->size() < share.local_memory_bytes) {
+    return "channel or local memory cannot be mapped";
+  }
+  plugin = std::make_unique<Plugin>(
+      share,
+      NiuProcessorSide(*niu_channel_at(channel->data()), local->first(share.local_memory_bytes), share.window_offset));
+  qemu_plugin_register_vcpu_tb_trans_cb(id, on_translated);
+  return nullptr;
+}
+
+}  // namespace
+}  // namespace torolux
+
+int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, char** argv) {
+  const char* problem = torolux::install(id, *info, argc == 1 ? argv[0] : "");
+  if (problem != nullptr) {
+    const std::string_view prefix = "torolux plugin: ";
+    const std::string_view text = problem;
+    (void)!write(STDERR_FILENO, prefix.data(), prefix.size());
+    (void)!write(STDERR_FILENO, text.data(), text.size());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What engine and plugin share for one PE, in memory that both map: settings on the way in, counters on the way out.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "emulator/machine/description.hpp"
+
+namespace torolux {
+
+inline constexpr std::uint32_t kPluginShareVersion = 1;
+
+struct PluginShare {
+  // Set by the engine before QEMU starts.
+  std::uint32_t version;             ///< kPluginShareVersion
+  std::uint32_t window_offset;       ///< of the NIU window in local memory
+  std::uint32_t local_memory_bytes;  ///< the PE's
+  std::int32_t channel_descriptor;   ///< NiuChannel, open in QEMU's process
+  std::int32_t local_descriptor;     ///< local memory, likewise
+  LatencyTable latency;
+
+  // Counted by the translated code at the start of each block, so ahead of the PE by up to a block.
+  alignas(64) std::uint64_t cycles;  ///< of all instructions since `_start`, the NIU driver's retries included
+  std::uint64_t instructions;
+
+  // Set by the plugin.
+  std::atomic<std::uint64_t> cycles_at_hint;  ///< `cycles` at the end of the last HINT
+  std::atomic<std::uint64_t> hints;           ///< so far, retries included: shows that the plugin is alive
+  std::atomic<std::uint32_t> stopped;         ///< 1: the process ended because the machine or the PE had ended
+};
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free);
+
+}  // namespace torolux

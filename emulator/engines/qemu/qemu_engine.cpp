@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Starts, watches and ends the QEMU processes. What a PE does at a HINT is in the plugin and in niu/processor_side.
+#include "emulator/engines/qemu/qemu_engine.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <string>
+
+#include "emulator/engines/qemu/plugin_share.hpp"
+#include "emulator/engines/qemu/qemu_process.hpp"
+#include "emulator/errors.hpp"
+
+namespace torolux {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A PE whose plugin shows no sign of life for so long is given up. Generous: a thousand processes may share one core.
+constexpr std::chrono::seconds kLongestSilence{120};
+
+/// RV32IMAFC_Zicsr_Zifencei and nothing more, in machine mode alone; everything else traps.
+constexpr const char* kCpu =
+    "rv32,d=false,s=false,u=false,h=false,mmu=false,sstc=false,Zihintpause=false,Zfh=false,pmp=true";
+
+std::filesystem::path plugin_file() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  auto file = program.parent_path().parent_path() / "lib" / "torolux_qemu_plugin.so";
+  if (error || !std::filesystem::exists(file)) {
+    throw MachineFailure("the QEMU plugin is missing at " + file.string() + ": build all targets");
+  }
+  return file;
+}
+
+/// In QEMU's options a comma separates, and two are one that does not.
+std::string escape_commas(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    escaped.append(c == ',' ? 2 : 1, c);
+  }
+  return escaped;
+}
+
+/// The first `threads` cores of those that we may use; empty where that is all of them.
+std::vector<int> cores_for(unsigned threads) {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  std::vector<int> cores;
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0) {
+    return cores;
+  }
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(static_cast<std::size_t>(core), &allowed)) {
+      cores.push_back(core);
+    }
+  }
+  if (threads == 0 || threads >= cores.size()) {
+    cores.clear();
+  }
+  cores.resize(std::min<std::size_t>(cores.size(), threads));
+  return cores;
+}
+
+class QemuPe {
+ public:
+  QemuPe(std::size_t number, const EngineSetup& setup, const std::string& plugin, std::span<const int> cores);
+
+  /// Throws MachineFailure where the PE cannot go on. tick: wall time since the last look.
+  void check(std::uint64_t most_cycles_between_hints, Clock::duration tick);
+  void kill() { process_.kill(); }
+  double cpu_seconds() const { return process_.cpu_seconds(); }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  static PluginShare& prepare(SharedMemory& memory, const EngineSetup& setup, const PeMemory& pe);
+  static QemuProcess launch(const PeMemory& pe, const SharedMemory& share, const std::string& plugin,
+                            std::span<const int> cores);
+
+  std::size_t number_;
+  SharedMemory share_memory_;
+  PluginShare& share_;
+  QemuProcess process_;
+  std::uint64_t last_cycles_ = 0;
+  std::uint64_t last_hints_ = 0;
+  Clock::duration silence_{};
+};
+
+QemuPe::QemuPe(std::size_t number, const EngineSetup& setup, const std::string& plugin, std::span<const int> cores)
+    : number_(number),
+      share_memory_("torolux-share", sizeof(PluginShare)),
+      share_(prepare(share_memory_, setup, setup.pes[number])),
+      process_(launch(setup.pes[number], share_memory_, plugin, cores)) {}
+
+PluginShare& QemuPe::prepare(SharedMemory& memory, const EngineSetup& setup, const PeMemory& pe) {
+  auto& share = *new (memory.bytes().data()) PluginShare{};  // placed in memory that SharedMemory owns
+  share.version = kPluginShareVersion;
+  share.window_offset = setup.image.niu_window - protocol::kLocalMemoryBase;
+  share.local_memory_bytes = pe.local_memory_bytes;
+  share.channel_descriptor = pe.channel.descriptor();
+  share.local_descriptor = pe.local.descriptor();
+  share.latency = setup.machine.processor.latency;
+  return share;
+}
+
+QemuProcess QemuPe::launch(const PeMemory& pe, const SharedMemory& share, const std::string& plugin,
+                           std::span<const int> cores) {
+  const std::string memory = std::to_string(pe.local.bytes().size());
+  const std::string descriptor = std::to_string(pe.local.descriptor());
+  const std::vector<std::string> arguments = {
+      "qemu-system-riscv32",
+      "-machine",
+      "virt,memory-backend=ram0",
+      "-cpu",
+      kCpu,
+      "-object",
+      "memory-backend-file,id=ram0,share=on,size=" + memory + ",mem-path=/proc/self/fd/" + descriptor,
+      "-m",
+      "size=" + memory + "B",
+      "-accel",
+      "tcg,tb-size=4",
+      "-bios",
+      "none",
+      "-nodefaults",
+      "-no-user-config",
+      "-no-reboot",
+      "-display",
+      "none",
+      "-plugin",
+      plugin + ",share=" + std::to_string(share.descriptor())};
+  const int inherited[] = {pe.channel.descriptor(), pe.local.descriptor(), share.descriptor()};
+  return QemuProcess(arguments, inherited, cores);
+}
+
+void QemuPe::fail(const std::string& what) const {
+  const std::string log = process_.log_tail();
+  throw MachineFailure("PE " + std::to_string(number_) + ": " + what + (log.empty() ? "" : "\nQEMU wrote: " + log));
+}
+
+void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick) {
+  const bool had_stopped = share_.stopped.load(std::memory_order_acquire) != 0;
+  if (had_stopped) {
+    return;  // the PE has halted; whatever its process does now is of no interest
+  }
+  if (const auto why = process_.ended()) {
+    if (share_.stopped.load(std::memory_order_acquire) == 0) {
+      fail("its QEMU process was " + *why);
+    }
+    return;
+  }
+  // Cycles are read first: a HINT in between can only make the difference smaller.
+  const std::uint64_t cycles = __atomic_load_n(&share_.cycles, __ATOMIC_ACQUIRE);
+  const auto since_hint = static_cast<std::int64_t>(cycles - share_.cycles_at_hint.load(std::memory_order_relaxed));
+  if (since_hint > 0 && static_cast<std::uint64_t>(since_hint) > most_cycles_between_hints) {
+    fail("no HINT for " + std::to_string(since_hint) +
+         " cycles: an endless loop? (processor.most_cycles_between_hints = " +
+         std::to_string(most_cycles_between_hints) + ")");
+  }
+  const std::uint64_t hints = share_.hints.load(std::memory_order_relaxed);
+  silence_ = cycles == last_cycles_ && hints == last_hints_ ? silence_ + tick : Clock::duration::zero();
+  last_cycles_ = cycles;
+  last_hints_ = hints;
+  if (silence_ > kLongestSilence) {
+    fail("its QEMU process has stopped answering");
+  }
+}
+
+class QemuEngine final : public Engine {
+ public:
+  explicit QemuEngine(const EngineSetup& setup)
+      : setup_(setup), most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {}
+
+  std::string_view name() const override { return "qemu"; }
+
+  void start() override {
+    const std::string plugin = escape_commas(plugin_file().string());
+    const std::vector<int> cores = cores_for(setup_.threads);
+    pes_.reserve(setup_.pes.size());
+    for (std::size_t i = 0; i < setup_.pes.size(); ++i) {
+      pes_.emplace_back(i, setup_, plugin, cores);
+    }
+    last_check_ = Clock::now();
+  }
+
+  void check() override {
+    // Time in which nobody looked (we were stopped, too) does not count as a PE's silence.
+    const Clock::time_point now = Clock::now();
+    const Clock::duration tick = std::min<Clock::duration>(now - last_check_, std::chrono::seconds(1));
+    last_check_ = now;
+    for (QemuPe& pe : pes_) {
+      pe.check(most_cycles_between_hints_, tick);
+    }
+  }
+
+  void stop() override {
+    for (QemuPe& pe : pes_) {
+      pe.kill();
+    }
+  }
+
+  double cpu_seconds() const override {
+    double sum = 0;
+    for (const QemuPe& pe : pes_) {
+      sum += pe.cpu_seconds();
+    }
+    return sum;
+  }
+
+ private:
+  EngineSetup setup_;
+  std::uint64_t most_cycles_between_hints_;
+  std::vector<QemuPe> pes_;
+  Clock::time_point last_check_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup) {
+  return std::make_unique<QemuEngine>(setup);
+}
+
+}  // namespace torolux

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Anonymous shared memory from memfd_create: no name in any file system, so nothing can be left behind.
+#include "emulator/engines/shared_memory.hpp"
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "emulator/errors.hpp"
+
+namespace torolux {
+namespace {
+
+// A machine of a thousand PEs needs several descriptors for each; the usual soft limit is 1024.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
+}
+
+int make_descriptor(const std::string& name) {
+  int descriptor = memfd_create(name.c_str(), MFD_CLOEXEC);
+  if (descriptor < 0 && errno == EMFILE) {
+    raise_descriptor_limit();
+    descriptor = memfd_create(name.c_str(), MFD_CLOEXEC);
+  }
+  return descriptor;
+}
+
+[[noreturn]] void fail(const std::string& name, std::size_t bytes) {
+  throw MachineFailure("cannot make " + std::to_string(bytes) + " bytes of shared memory '" + name +
+                       "': " + std::strerror(errno));
+}
+
+}  // namespace
+
+SharedMemory::SharedMemory(const std::string& name, std::size_t bytes) : size_(bytes) {
+  descriptor_ = make_descriptor(name);
+  if (descriptor_ < 0) {
+    fail(name, bytes);
+  }
+  void* mapped = MAP_FAILED;
+  if (ftruncate(descriptor_, static_cast<off_t>(bytes)) == 0) {
+    mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
+  }
+  if (mapped == MAP_FAILED) {
+    const int reason = errno;
+    close(descriptor_);
+    errno = reason;
+    fail(name, bytes);
+  }
+  data_ = static_cast<std::byte*>(mapped);
+}
+
+SharedMemory::SharedMemory(SharedMemory&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)),
+      size_(std::exchange(other.size_, 0)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+SharedMemory& SharedMemory::operator=(SharedMemory&& other) noexcept {
+  std::swap(data_, other.data_);
+  std::swap(size_, other.size_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+SharedMemory::~SharedMemory() {
+  if (data_ != nullptr) {
+    munmap(data_, size_);
+  }
+  if (descriptor_ >= 0) {
+    close(descriptor_);
+  }
+}
+
+}  // namespace torolux

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// A machine file (TOML) in, a description out. One table of keys says what there is and what is allowed.
+#include "emulator/machine/description.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <variant>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/machine.hpp"
+
+namespace torolux {
+namespace {
+
+using Description = MachineDescription;
+using Place = std::variant<std::uint32_t*, std::uint64_t*, double*, bool*>;
+
+/// One key of the file, the place of its value, and the values allowed.
+struct Key {
+  std::string name;  // with its table: "torus.flit_bytes"
+  Place place;
+  double least = 0;
+  double most = 0;
+};
+
+constexpr double kMostCycles = 1'000'000;
+constexpr double kMostLatency = 1000;
+
+void add_processor_keys(Description& d, std::vector<Key>& keys) {
+  keys.push_back({"processor.clock_hertz", &d.processor.clock_hertz, 1, 1e12});
+  keys.push_back({"processor.most_cycles_between_hints", &d.processor.most_cycles_between_hints, 1000, 1e15});
+  for (std::size_t i = 0; i < kInstructionClasses; ++i) {
+    keys.push_back({"processor.latency." + std::string(name_of(static_cast<InstructionClass>(i))),
+                    &d.processor.latency[i], 1, kMostLatency});
+  }
+}
+
+void add_network_keys(Description& d, std::vector<Key>& keys) {
+  keys.push_back({"torus.flit_bytes", &d.torus.flit_bytes, 1, protocol::kMostPacketBytes});
+  keys.push_back({"torus.router_cycles", &d.torus.router_cycles, 1, kMostCycles});
+  keys.push_back({"torus.link_cycles", &d.torus.link_cycles, 1, kMostCycles});
+  keys.push_back({"torus.buffer_packets", &d.torus.buffer_packets, 2, 4096});
+  keys.push_back({"torus.slot_return_cycles", &d.torus.slot_return_cycles, 1, kMostCycles});
+  keys.push_back({"torus.send_queue_packets", &d.torus.send_queue_packets, 1, 4096});
+  keys.push_back({"torus.bubble", &d.torus.bubble});
+  keys.push_back({"torus.link_error_rate", &d.torus.link_error_rate, 0, 0.5});
+  keys.push_back({"torus.retry_cycles", &d.torus.retry_cycles, 1, kMostCycles});
+  keys.push_back({"torus.injected_delay_cycles", &d.injected_delay_cycles, 0, kMostCycles});
+}
+
+void add_other_keys(Description& d, std::vector<Key>& keys) {
+  keys.push_back({"bus.bytes_per_cycle", &d.bus.bytes_per_cycle, 1, 4096});
+  keys.push_back({"bus.arbitration_cycles", &d.bus.arbitration_cycles, 1, kMostCycles});
+  keys.push_back({"bus.send_queue_messages", &d.bus.send_queue_messages, 1, 4096});
+  keys.push_back({"bus.control_buffers", &d.bus.control_buffers, 1, 4096});
+  keys.push_back({"frame_buffer.cycles_per_pixel", &d.frame_buffer.cycles_per_pixel, 1, kMostCycles});
+  keys.push_back({"frame_buffer.queue_messages", &d.frame_buffer.queue_messages, 1, 65536});
+  keys.push_back({"host.cycles_per_message", &d.host.cycles_per_message, 1, kMostCycles});
+  keys.push_back({"records.credits_per_pe", &d.records.credits_per_pe, 1, 65536});
+  keys.push_back({"records.niu_slots", &d.records.niu_slots, protocol::kMostRecordsPerPacket, 32768});
+}
+
+std::vector<Key> keys_of(Description& description) {
+  std::vector<Key> keys;
+  add_processor_keys(description, keys);
+  add_network_keys(description, keys);
+  add_other_keys(description, keys);
+  return keys;
+}
+
+std::string plain(double value) {
+  std::ostringstream text;
+  text.precision(15);
+  text << value;
+  return text.str();
+}
+
+[[noreturn]] void fail(std::string_view file, const toml::source_position& at, const std::string& what) {
+  throw InputError(std::string(file) + ":" + std::to_string(at.line) + ": " + what);
+}
+
+class Reader {
+ public:
+  Reader(std::string_view file, std::vector<Key> keys) : file_(file), keys_(std::move(keys)) {}
+
+  void read_table(const toml::table& table, const std::string& prefix) const {
+    for (auto&& [name, node] : table) {
+      const std::string key_name = prefix + std::string(name.str());
+      if (const toml::table* inner = node.as_table()) {
+        if (!is_table_name(key_name)) {
+          unknown(key_name, name.source().begin);
+        }
+        read_table(*inner, key_name + ".");
+        continue;
+      }
+      const auto key = std::find_if(keys_.begin(), keys_.end(), [&](const Key& k) { return k.name == key_name; });
+      if (key == keys_.end()) {
+        unknown(key_name, name.source().begin);
+      }
+      std::visit([&](auto* place) { read_value(*key, node, *place); }, key->place);
+    }
+  }
+
+ private:
+  bool is_table_name(const std::string& name) const {
+    return std::any_of(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name.starts_with(name + "."); });
+  }
+
+  [[noreturn]] void unknown(const std::string& name, const toml::source_position& at) const {
+    std::string known;
+    for (const Key& key : keys_) {
+      known += (known.empty() ? "" : ", ") + key.name;
+    }
+    fail(file_, at, "unknown key '" + name + "'; a machine file may set " + known);
+  }
+
+  [[noreturn]] void refuse(const Key& key, const toml::node& node, const std::string& kind) const {
+    fail(file_, node.source().begin,
+         "'" + key.name + "' must be " + kind + " from " + plain(key.least) + " to " + plain(key.most));
+  }
+
+  template <class Integer>
+  void read_value(const Key& key, const toml::node& node, Integer& place) const {
+    const auto* value = node.as_integer();
+    if (value == nullptr || static_cast<double>(value->get()) < key.least ||
+        static_cast<double>(value->get()) > key.most) {
+      refuse(key, node, "a whole number");
+    }
+    place = static_cast<Integer>(value->get());
+  }
+
+  void read_value(const Key& key, const toml::node& node, double& place) const {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= key.least && *value <= key.most)) {  // refuses NaN, too
+      refuse(key, node, "a number");
+    }
+    place = *value;
+  }
+
+  void read_value(const Key& key, const toml::node& node, bool& place) const {
+    const auto* value = node.as_boolean();
+    if (value == nullptr) {
+      fail(file_, node.source().begin, "'" + key.name + "' must be true or false");
+    }
+    place = value->get();
+  }
+
+  std::string_view file_;
+  std::vector<Key> keys_;
+};
+
+}  // namespace
+
+MachineDescription parse_machine_description(std::string_view text, std::string_view source_name) {
+  toml::table table;
+  try {
+    table = toml::parse(text, source_name);
+  } catch (const toml::parse_error& error) {
+    fail(source_name, error.source().begin, std::string(error.description()));
+  }
+  MachineDescription description;
+  Reader(source_name, keys_of(description)).read_table(table, "");
+  return description;
+}
+
+MachineDescription load_machine_description(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = 1U << 20U;
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  std::ifstream stream(file, std::ios::binary);
+  if (error || !stream) {
+    throw InputError(file.string() + ": the machine file cannot be read");
+  }
+  if (bytes > kMostBytes) {
+    throw InputError(file.string() + ": no machine file is larger than 1 MiB");
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_machine_description(text.str(), file.string());
+}
+
+std::vector<std::string> machine_description_keys() {
+  MachineDescription description;
+  std::vector<std::string> names;
+  for (const Key& key : keys_of(description)) {
+    names.push_back(key.name);
+  }
+  return names;
+}
+
+std::string_view name_of(InstructionClass instruction_class) {
+  constexpr std::array<std::string_view, kInstructionClasses> kNames = {
+      "integer",      "branch",    "jump",           "load",        "store",        "multiply",   "divide", "atomic",
+      "float_simple", "float_add", "float_multiply", "float_fused", "float_divide", "float_sqrt", "hint"};
+  const auto index = static_cast<std::size_t>(instruction_class);
+  return index < kNames.size() ? kNames[index] : "unknown";
+}
+
+}  // namespace torolux
