@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// A ring of bytes for one writer and one reader, in memory that two processes may share. Entries are a header
+// and its payload, each contiguous; enters at `push`, leaves in the same order at `front` and `pop`.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+
+namespace torolux {
+
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "shared between processes");
+
+/// Header: a struct that begins with `std::uint64_t time` and has `std::uint32_t bytes`, the payload's length.
+/// Zeroed memory is an empty ring. kBytes: a power of two.
+template <class Header, std::uint32_t kBytes>
+class ByteRing {
+  static_assert((kBytes & (kBytes - 1)) == 0 && sizeof(Header) % 8 == 0);
+
+ public:
+  static constexpr std::size_t entry_bytes(std::size_t payload) { return sizeof(Header) + (payload + 7) / 8 * 8; }
+
+  // ---- writer ----
+
+  /// Whether an entry with so much payload fits, wherever it comes to lie.
+  bool has_room(std::size_t payload) const {
+    const std::size_t used = written_.load(std::memory_order_relaxed) - read_.load(std::memory_order_acquire);
+    return kBytes - used >= 2 * entry_bytes(payload);
+  }
+  /// Only after has_room(payload.size()).
+  void push(Header header, std::span<const std::byte> payload) {
+    header.bytes = static_cast<std::uint32_t>(payload.size());
+    std::uint64_t at = written_.load(std::memory_order_relaxed);
+    const std::size_t entry = entry_bytes(payload.size());
+    if (kBytes - at % kBytes < entry) {
+      const std::uint64_t skip = kSkip;
+      std::memcpy(&data_[at % kBytes], &skip, sizeof skip);
+      at += kBytes - at % kBytes;
+    }
+    std::memcpy(&data_[at % kBytes], &header, sizeof header);
+    if (!payload.empty()) std::memcpy(&data_[at % kBytes] + sizeof header, payload.data(), payload.size());
+    written_.store(at + entry, std::memory_order_seq_cst);
+  }
+
+  // ---- reader ----
+
+  bool empty() const { return written_.load(std::memory_order_seq_cst) == read_.load(std::memory_order_relaxed); }
+  /// The oldest entry, or nullptr. Valid until `pop`.
+  const Header* front() {
+    if (empty()) return nullptr;
+    std::uint64_t at = read_.load(std::memory_order_relaxed);
+    std::uint64_t time = 0;
+    std::memcpy(&time, &data_[at % kBytes], sizeof time);
+    if (time == kSkip) {
+      at += kBytes - at % kBytes;
+      read_.store(at, std::memory_order_release);
+    }
+    return reinterpret_cast<const Header*>(&data_[at % kBytes]);
+  }
+  static std::span<const std::byte> payload(const Header& header) {
+    return {reinterpret_cast<const std::byte*>(&header) + sizeof header, header.bytes};
+  }
+  /// Removes the entry that `front` gave.
+  void pop(const Header& header) {
+    read_.store(read_.load(std::memory_order_relaxed) + entry_bytes(header.bytes), std::memory_order_seq_cst);
+  }
+
+ private:
+  /// In place of a time: the next entry begins at the ring's start.
+  static constexpr std::uint64_t kSkip = std::numeric_limits<std::uint64_t>::max();
+
+  alignas(64) std::atomic<std::uint64_t> written_;  ///< bytes ever written, gaps included
+  alignas(64) std::atomic<std::uint64_t> read_;     ///< bytes ever read
+  alignas(64) std::array<std::byte, kBytes> data_;
+};
+
+}  // namespace torolux

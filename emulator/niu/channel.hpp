@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// The channel between the two sides of a NIU. Commands leave the processor's side, arrivals enter it; both carry
+// virtual times, so that nothing depends on when either side really runs. One per PE, in shared memory.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+
+#include "emulator/niu/byte_ring.hpp"
+#include "firmware/protocol/hints.hpp"
+#include "firmware/protocol/machine.hpp"
+
+namespace torolux {
+
+/// A time that never comes.
+inline constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+/// Greatest length of a NIU's outgoing queues.
+inline constexpr std::uint32_t kMostSendQueue = 256;
+/// Most record slots of a NIU.
+inline constexpr std::uint32_t kMostNiuSlots = 8192;
+/// From the end of a HINT to the moment when the network side sees what it did [cycles]: the lookahead of this edge.
+inline constexpr std::uint64_t kCommandCycles = 1;
+
+enum class CommandKind : std::uint16_t {
+  send_records,  ///< payload: the records
+  send_message,  ///< payload: the contents
+  release,       ///< only `released` counts
+  received,      ///< a message has been received: its control buffer is free
+  set_slots,     ///< payload: SlotsCommand
+  halt,
+  fail,   ///< payload: protocol::Fault, from the program
+  fault,  ///< payload: NiuFault, from this side of the NIU
+};
+
+/// Processor -> network. `time` of successive commands never falls.
+struct Command {
+  std::uint64_t time;  ///< [cycles] clock at the end of the HINT, plus kCommandCycles
+  CommandKind kind;
+  std::uint16_t destination;   ///< send_*
+  std::uint16_t message_kind;  ///< send_message
+  std::uint16_t records;       ///< send_records: 1..kMostRecordsPerPacket
+  std::uint32_t released;      ///< NIU slots that became free
+  std::uint32_t bytes;         ///< of the payload
+};
+static_assert(sizeof(Command) == 24);
+
+struct SlotsCommand {
+  std::uint32_t niu;    ///< slots of the NIU
+  std::uint32_t bytes;  ///< of a record
+};
+
+/// What a program may do wrong with its NIU; each ends the run. details as listed.
+enum class NiuFaultCode : std::uint32_t {
+  unknown_hint = 1,      ///< immediate
+  bad_count,             ///< records in a packet, bytes of a record
+  bad_slot,              ///< slot, own slots, NIU's slots
+  slot_not_in_use,       ///< slot
+  bad_destination,       ///< destination
+  bad_address,           ///< address, bytes
+  bad_message_length,    ///< bytes
+  bad_slots,             ///< address, own, NIU's (set_slots)
+  slots_in_use,          ///< slots in use (set_slots)
+  too_many_released,     ///< released
+  phase_mismatch,        ///< phase, innermost open phase or kPhases
+  too_long_without_hint  ///< cycles (low, high word), limit (low word)
+};
+struct NiuFault {
+  NiuFaultCode code;
+  std::uint32_t detail[3];
+};
+static_assert(sizeof(NiuFault) == 16);
+
+/// Network -> processor.
+struct Arrival {
+  std::uint64_t time;          ///< [cycles] when it has come
+  std::uint16_t kind;          ///< protocol::ArrivalKind
+  std::uint16_t source;        ///< PE or kHost
+  std::uint16_t count;         ///< records
+  std::uint16_t message_kind;  ///< message
+  std::uint32_t bytes;         ///< of the payload: records or contents
+  std::uint32_t unused;
+};
+static_assert(sizeof(Arrival) == 24);
+
+/// What a processor waits for. While it waits, no command will come until the network side gives it that.
+enum class WaitKind : std::uint8_t {
+  running,         ///< for nothing
+  receive,         ///< for arrival number `count` (from 0)
+  receive_if_any,  ///< for the same, or for the horizon to pass its clock
+  torus_place,     ///< for `count` packets to have left the outgoing queue
+  bus_place,       ///< for `count` messages to have left the outgoing queue
+  halted,          ///< for ever
+};
+constexpr std::uint64_t pack_wait(WaitKind kind, std::uint64_t count) {
+  return (count << 3U) | static_cast<std::uint64_t>(kind);
+}
+constexpr WaitKind wait_kind(std::uint64_t wait) {
+  return static_cast<WaitKind>(wait & 7U);
+}
+constexpr std::uint64_t wait_count(std::uint64_t wait) {
+  return wait >> 3U;
+}
+
+/// When packets left an outgoing queue; written by the network side.
+struct Departures {
+  std::atomic<std::uint64_t> count;
+  std::array<std::atomic<std::uint64_t>, kMostSendQueue> time;  ///< of number n at n % kMostSendQueue
+
+  void add(std::uint64_t when) {
+    const std::uint64_t n = count.load(std::memory_order_relaxed);
+    time[n % kMostSendQueue].store(when, std::memory_order_relaxed);
+    count.store(n + 1, std::memory_order_seq_cst);
+  }
+};
+
+/// What only the processor's side uses; here so that its owner may be any engine.
+struct ProcessorState {
+  std::uint64_t packets_sent;    ///< into the torus queue
+  std::uint64_t messages_sent;   ///< into the bus queue
+  std::uint64_t arrivals_taken;  ///< by receive
+  std::uint64_t last_hint;       ///< clock at the end of the last HINT
+  std::uint64_t phase_begin;     ///< busy cycles at the last marker
+  std::uint32_t phase_depth;
+  std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
+  std::uint32_t slots_address, slot_bytes, own_slots, niu_slots;
+  std::uint32_t slots_free;
+  std::uint16_t first_free;                            ///< index of a NIU slot, counted from own_slots
+  std::array<std::uint16_t, kMostNiuSlots> next_free;  ///< or kSlotInUse
+};
+inline constexpr std::uint16_t kSlotInUse = 0xFFFF;
+inline constexpr std::uint16_t kNoSlot = 0xFFFE;
+
+struct NiuChannel {
+  // Set before the start.
+  std::uint32_t torus_queue;  ///< places in the outgoing queue to the torus, 1..kMostSendQueue
+  std::uint32_t bus_queue;
+  std::uint32_t pes;
+  std::uint32_t unused;
+  std::uint64_t most_cycles_between_hints;
+
+  // Written by the processor's side.
+  alignas(64) std::atomic<std::uint64_t> bound;  ///< no command with an earlier time will come
+  std::atomic<std::uint64_t> wait;               ///< pack_wait
+  std::atomic<std::uint64_t> clock;              ///< at the end of the last HINT
+  std::atomic<std::uint64_t> idle;               ///< [cycles] of `clock` spent waiting
+  std::atomic<std::uint64_t> instructions;
+  std::array<std::atomic<std::uint64_t>, protocol::kPhases> phase_cycles;
+
+  // The scheduler sleeps on network_signal; whoever reaches a bound beyond `wanted` wakes it and sets kNever.
+  alignas(64) std::atomic<std::uint64_t> wanted;
+  std::atomic<std::uint32_t> network_signal;
+
+  // The processor sleeps on processor_signal after it has set `asleep`.
+  alignas(64) std::atomic<std::uint32_t> asleep;
+  std::atomic<std::uint32_t> processor_signal;
+  std::atomic<std::uint32_t> stopping;
+  std::atomic<std::uint64_t> horizon;  ///< all arrivals with earlier times have been pushed
+
+  alignas(64) Departures torus_departures;
+  alignas(64) Departures bus_departures;
+  alignas(64) ProcessorState processor;
+  ByteRing<Command, 16384> commands;
+  ByteRing<Arrival, 16384> arrivals;
+};
+static_assert(sizeof(NiuChannel) <= 65536);
+
+}  // namespace torolux

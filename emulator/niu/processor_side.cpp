@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: MIT
+// The processor's side of a NIU: HINTs become commands to the network side, arrivals go into local memory. Where the
+// answer is already known this takes no system call; otherwise the processor says what it waits for, and sleeps.
+#include "emulator/niu/processor_side.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "emulator/niu/channel.hpp"
+#include "emulator/niu/futex.hpp"
+#include "firmware/protocol/niu_window.hpp"
+
+namespace torolux {
+
+namespace {
+
+using protocol::Hint;
+using protocol::kLocalMemoryBase;
+using protocol::kMostMessageBytes;
+using protocol::kMostPacketBytes;
+using protocol::kMostRecordsPerPacket;
+using protocol::NiuWindow;
+
+/// One sleep of a processor; then the HINT is tried again, so that the engine can attend to other things.
+constexpr std::chrono::microseconds kLongestSleep{50'000};
+/// The most that one HINT puts into the command ring.
+constexpr std::size_t kLargestCommands = kMostMessageBytes + 4 * sizeof(Command);
+
+/// One HINT, from its arguments to its result.
+class HintRun {
+ public:
+  HintRun(NiuChannel& channel, std::span<std::byte> memory, std::uint32_t window_offset, std::uint64_t clock)
+      : channel_(channel),
+        state_(channel.processor),
+        memory_(memory),
+        window_(*reinterpret_cast<NiuWindow*>(memory.data() + window_offset)),
+        clock_(clock) {}
+
+  /// False: not yet, or never (`stop`).
+  bool execute(Hint hint);
+  std::uint64_t clock() const { return clock_; }
+  bool must_stop() const { return stop_; }
+
+ private:
+  void send_records();
+  void send_message();
+  void receive(bool may_return_empty);
+  void set_slots();
+  void take(const Arrival& arrival);
+  void take_records(const Arrival& arrival, std::span<const std::byte> records);
+  void release_listed();
+
+  bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind);
+  bool wait_for_room();
+  template <class Ready>
+  bool sleep_until(WaitKind kind, std::uint64_t count, Ready ready);
+
+  bool release_slot(std::uint32_t slot);
+  std::uint16_t take_slot();
+  bool inside_memory(std::uint64_t address, std::uint64_t bytes) const {
+    return address >= kLocalMemoryBase && address - kLocalMemoryBase + bytes <= memory_.size();
+  }
+  std::byte* at(std::uint64_t address) const { return memory_.data() + (address - kLocalMemoryBase); }
+  std::byte* slot_bytes(std::uint32_t slot) const {
+    return at(state_.slots_address + std::uint64_t{slot} * state_.slot_bytes);
+  }
+
+  void push(CommandKind kind, std::uint32_t released = 0, std::span<const std::byte> payload = {}) {
+    push({clock_ + kCommandCycles, kind, 0, 0, 0, released, 0}, payload);
+  }
+  void push(const Command& command, std::span<const std::byte> payload) { channel_.commands.push(command, payload); }
+  void end_with_fault(NiuFaultCode code, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0) {
+    const NiuFault fault{code, {a, b, c}};
+    push(CommandKind::fault, 0, std::as_bytes(std::span(&fault, 1)));
+    end();
+  }
+  /// This processor executes nothing more.
+  void end() { stop_ = true; }
+
+  NiuChannel& channel_;
+  ProcessorState& state_;
+  std::span<std::byte> memory_;
+  NiuWindow& window_;
+  std::uint64_t clock_;
+  bool later_ = false;
+  bool stop_ = false;
+};
+
+void publish_bound(NiuChannel& channel, std::uint64_t bound, std::uint64_t wait) {
+  channel.bound.store(bound, std::memory_order_release);
+  channel.wait.store(wait, std::memory_order_seq_cst);
+  const std::uint64_t wanted = channel.wanted.load(std::memory_order_seq_cst);
+  const bool waits = wait_kind(wait) != WaitKind::running;
+  if (wanted == kNever || (bound <= wanted && !waits)) return;
+  channel.wanted.store(kNever, std::memory_order_relaxed);
+  channel.network_signal.fetch_add(1, std::memory_order_seq_cst);
+  futex_wake(channel.network_signal);
+}
+
+/// Says what the processor waits for, and sleeps a while unless `ready` holds. True: ready.
+template <class Ready>
+bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
+  if (ready()) return true;
+  publish_bound(channel_, clock_ + kCommandCycles, pack_wait(kind, count));
+  const auto deadline = std::chrono::steady_clock::now() + kLongestSleep;
+  for (;;) {
+    const std::uint32_t signal = channel_.processor_signal.load(std::memory_order_seq_cst);
+    channel_.asleep.store(1, std::memory_order_seq_cst);
+    const bool is_ready = ready();
+    const bool stopping = channel_.stopping.load(std::memory_order_seq_cst) != 0;
+    if (!is_ready && !stopping && std::chrono::steady_clock::now() < deadline) {
+      futex_wait(channel_.processor_signal, signal, kLongestSleep);
+      continue;
+    }
+    channel_.asleep.store(0, std::memory_order_relaxed);
+    if (stopping) end();
+    if (!is_ready) later_ = true;
+    return is_ready && !stopping;
+  }
+}
+
+bool HintRun::wait_for_room() {
+  return sleep_until(WaitKind::running, 0, [this] { return channel_.commands.has_room(kLargestCommands); });
+}
+
+bool HintRun::execute(Hint hint) {
+  if (!channel_.commands.has_room(kLargestCommands) && !wait_for_room()) return false;
+  if (clock_ - state_.last_hint > channel_.most_cycles_between_hints) {
+    const std::uint64_t cycles = clock_ - state_.last_hint;
+    end_with_fault(NiuFaultCode::too_long_without_hint, static_cast<std::uint32_t>(cycles),
+                   static_cast<std::uint32_t>(cycles >> 32U),
+                   static_cast<std::uint32_t>(channel_.most_cycles_between_hints));
+    return false;
+  }
+  switch (hint) {
+    case Hint::send_records:
+      send_records();
+      break;
+    case Hint::send_message:
+      send_message();
+      break;
+    case Hint::receive:
+      receive(false);
+      break;
+    case Hint::receive_if_any:
+      receive(true);
+      break;
+    case Hint::clock:
+      window_.clock = clock_;
+      break;
+    case Hint::set_slots:
+      set_slots();
+      break;
+    case Hint::halt:
+      push(CommandKind::halt);
+      end();
+      break;
+    case Hint::fail:
+      push(CommandKind::fail, 0, std::as_bytes(std::span(&window_.fault, 1)));
+      end();
+      break;
+    default:
+      end_with_fault(NiuFaultCode::unknown_hint, static_cast<std::uint32_t>(hint));
+      break;
+  }
+  return !later_ && !stop_;
+}
+
+// ---- Slots ----
+
+bool HintRun::release_slot(std::uint32_t slot) {
+  const std::uint32_t index = slot - state_.own_slots;
+  if (slot < state_.own_slots || index >= state_.niu_slots) {
+    end_with_fault(NiuFaultCode::bad_slot, slot, state_.own_slots, state_.niu_slots);
+    return false;
+  }
+  if (state_.next_free[index] != kSlotInUse) {
+    end_with_fault(NiuFaultCode::slot_not_in_use, slot);
+    return false;
+  }
+  state_.next_free[index] = state_.first_free;
+  state_.first_free = static_cast<std::uint16_t>(index);
+  ++state_.slots_free;
+  return true;
+}
+
+/// The network side has made sure that there is one.
+std::uint16_t HintRun::take_slot() {
+  const std::uint16_t index = state_.first_free;
+  state_.first_free = state_.next_free[index];
+  state_.next_free[index] = kSlotInUse;
+  --state_.slots_free;
+  return static_cast<std::uint16_t>(index + state_.own_slots);
+}
+
+void HintRun::release_listed() {
+  const std::uint32_t released = window_.released;
+  if (released == 0) return;
+  if (released > window_.release.size()) {
+    end_with_fault(NiuFaultCode::too_many_released, released);
+    return;
+  }
+  for (std::uint32_t i = 0; i < released; ++i) {
+    if (!release_slot(window_.release[i])) return;
+  }
+  window_.released = 0;
+  push(CommandKind::release, released);
+}
+
+void HintRun::set_slots() {
+  const NiuWindow::Slots& slots = window_.slots;
+  const std::uint64_t all = std::uint64_t{slots.own} + slots.niu;
+  const bool good = slots.niu <= kMostNiuSlots && all <= kNoSlot && slots.bytes % 8 == 0 && slots.bytes >= 8 &&
+                    slots.bytes <= kMostPacketBytes && inside_memory(slots.address, all * slots.bytes);
+  if (!good) return end_with_fault(NiuFaultCode::bad_slots, slots.address, slots.own, slots.niu);
+  if (state_.slots_free != state_.niu_slots) {
+    return end_with_fault(NiuFaultCode::slots_in_use, state_.niu_slots - state_.slots_free);
+  }
+  state_.slots_address = slots.address;
+  state_.slot_bytes = slots.bytes;
+  state_.own_slots = slots.own;
+  state_.niu_slots = state_.slots_free = slots.niu;
+  for (std::uint32_t i = 0; i < slots.niu; ++i) {
+    state_.next_free[i] = i + 1 < slots.niu ? static_cast<std::uint16_t>(i + 1) : kNoSlot;
+  }
+  state_.first_free = slots.niu != 0 ? std::uint16_t{0} : kNoSlot;
+  const SlotsCommand command{slots.niu, slots.bytes};
+  push(CommandKind::set_slots, 0, std::as_bytes(std::span(&command, 1)));
+}
+
+// ---- Sending ----
+
+/// Packet number `sent` needs a place in a queue of so many: the clock moves to when it is free.
+bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind) {
+  if (sent < places) return true;
+  const std::uint64_t needed = sent - places + 1;
+  const auto ready = [&] { return departures.count.load(std::memory_order_seq_cst) >= needed; };
+  if (!sleep_until(kind, needed, ready)) return false;
+  clock_ = std::max(clock_, departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed));
+  return true;
+}
+
+void HintRun::send_records() {
+  const NiuWindow::Send& send = window_.send;
+  const std::uint32_t count = send.count;
+  const std::uint32_t bytes = count * state_.slot_bytes;
+  if (count == 0 || count > kMostRecordsPerPacket || bytes == 0 || bytes > kMostPacketBytes) {
+    return end_with_fault(NiuFaultCode::bad_count, count, state_.slot_bytes);
+  }
+  if (send.destination >= channel_.pes) return end_with_fault(NiuFaultCode::bad_destination, send.destination);
+  release_listed();
+  if (stop_ ||
+      !wait_for_place(channel_.torus_departures, state_.packets_sent, channel_.torus_queue, WaitKind::torus_place)) {
+    return;
+  }
+  std::array<std::byte, kMostPacketBytes> records;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
+  std::uint32_t released = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t slot = send.slots[i];
+    if (slot >= state_.own_slots + state_.niu_slots) {
+      return end_with_fault(NiuFaultCode::bad_slot, slot, state_.own_slots, state_.niu_slots);
+    }
+    std::memcpy(&records[std::size_t{i} * state_.slot_bytes], slot_bytes(slot), state_.slot_bytes);
+    if (slot < state_.own_slots) continue;
+    if (!release_slot(slot)) return;
+    ++released;
+  }
+  ++state_.packets_sent;
+  push({clock_ + kCommandCycles, CommandKind::send_records, send.destination, 0, static_cast<std::uint16_t>(count),
+        released, 0},
+       std::span(records).first(bytes));
+}
+
+void HintRun::send_message() {
+  const NiuWindow::Send& send = window_.send;
+  if (send.destination != protocol::kHost && send.destination != protocol::kFrameBuffer) {
+    return end_with_fault(NiuFaultCode::bad_destination, send.destination);
+  }
+  protocol::MessageHeader header{};
+  if (!inside_memory(send.address, sizeof header)) {
+    return end_with_fault(NiuFaultCode::bad_address, send.address, sizeof header);
+  }
+  std::memcpy(&header, at(send.address), sizeof header);
+  if (header.bytes > kMostMessageBytes) return end_with_fault(NiuFaultCode::bad_message_length, header.bytes);
+  if (!inside_memory(send.address, sizeof header + header.bytes)) {
+    return end_with_fault(NiuFaultCode::bad_address, send.address, header.bytes);
+  }
+  release_listed();
+  if (stop_ ||
+      !wait_for_place(channel_.bus_departures, state_.messages_sent, channel_.bus_queue, WaitKind::bus_place)) {
+    return;
+  }
+  ++state_.messages_sent;
+  push({clock_ + kCommandCycles, CommandKind::send_message, send.destination, header.kind, 0, 0, 0},
+       std::span<const std::byte>(at(send.address) + sizeof header, header.bytes));
+}
+
+// ---- Receiving ----
+
+void HintRun::receive(bool may_return_empty) {
+  release_listed();
+  if (stop_) return;
+  const auto has_come = [&] { return !channel_.arrivals.empty(); };
+  if (!may_return_empty) {
+    if (sleep_until(WaitKind::receive, state_.arrivals_taken, has_come)) take(*channel_.arrivals.front());
+    return;
+  }
+  // The horizon is read before the ring: what came before it is then seen.
+  const auto is_known = [&] { return channel_.horizon.load(std::memory_order_seq_cst) > clock_ || has_come(); };
+  if (!sleep_until(WaitKind::receive_if_any, state_.arrivals_taken, is_known)) return;
+  const Arrival* head = channel_.arrivals.front();
+  if (head != nullptr && head->time <= clock_) {
+    take(*head);
+  } else {
+    window_.arrival.kind = protocol::ArrivalKind::none;
+    window_.arrival.source = protocol::kNobody;
+    window_.arrival.count = 0;
+  }
+}
+
+void HintRun::take(const Arrival& arrival) {
+  clock_ = std::max(clock_, arrival.time);
+  window_.arrival.kind = static_cast<protocol::ArrivalKind>(arrival.kind);
+  window_.arrival.source = arrival.source;
+  window_.arrival.count = arrival.count;
+  const auto payload = channel_.arrivals.payload(arrival);
+  if (window_.arrival.kind == protocol::ArrivalKind::records) {
+    take_records(arrival, payload);
+  } else {
+    window_.message = {arrival.message_kind, arrival.source, arrival.bytes};
+    if (!payload.empty()) std::memcpy(window_.message_bytes.data(), payload.data(), payload.size());
+    push(CommandKind::received);
+  }
+  ++state_.arrivals_taken;
+  channel_.arrivals.pop(arrival);
+}
+
+void HintRun::take_records(const Arrival& arrival, std::span<const std::byte> records) {
+  for (std::uint32_t i = 0; i < arrival.count; ++i) {
+    const std::uint16_t slot = take_slot();
+    window_.arrival.slots[i] = slot;
+    std::memcpy(slot_bytes(slot), records.data() + std::size_t{i} * state_.slot_bytes, state_.slot_bytes);
+  }
+}
+
+// ---- Markers ----
+
+constexpr bool is_marker(std::int32_t immediate) {
+  return immediate >= static_cast<std::int32_t>(Hint::enter_phase) &&
+         immediate < static_cast<std::int32_t>(Hint::leave_phase) + static_cast<std::int32_t>(protocol::kPhases) &&
+         immediate % 64 < static_cast<std::int32_t>(protocol::kPhases);
+}
+
+/// Charges the busy cycles since the last marker to the innermost open phase.
+void charge_phase(NiuChannel& channel, std::uint64_t clock) {
+  ProcessorState& state = channel.processor;
+  const std::uint64_t busy = clock - channel.idle.load(std::memory_order_relaxed);
+  if (state.phase_depth != 0) {
+    auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];
+    cycles.store(cycles.load(std::memory_order_relaxed) + busy - state.phase_begin, std::memory_order_relaxed);
+  }
+  state.phase_begin = busy;
+}
+
+/// False: markers do not nest as they should.
+bool mark(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock) {
+  ProcessorState& state = channel.processor;
+  charge_phase(channel, clock);
+  const auto phase = static_cast<std::uint8_t>(immediate % 64);
+  if (immediate < static_cast<std::int32_t>(Hint::leave_phase)) {
+    if (state.phase_depth == state.phases.size()) return false;
+    state.phases[state.phase_depth] = phase;
+    ++state.phase_depth;
+    return true;
+  }
+  if (state.phase_depth == 0 || state.phases[state.phase_depth - 1] != phase) return false;
+  --state.phase_depth;
+  return true;
+}
+
+void report_phase_mismatch(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock) {
+  const ProcessorState& state = channel.processor;
+  const std::uint32_t open = state.phase_depth != 0 ? state.phases[state.phase_depth - 1] : protocol::kPhases;
+  const NiuFault fault{NiuFaultCode::phase_mismatch, {static_cast<std::uint32_t>(immediate % 64), open, 0}};
+  channel.commands.push({clock + kCommandCycles, CommandKind::fault, 0, 0, 0, 0, 0},
+                        std::as_bytes(std::span(&fault, 1)));
+}
+
+}  // namespace
+
+std::size_t niu_channel_bytes() {
+  return sizeof(NiuChannel);
+}
+NiuChannel* niu_channel_at(void* memory) {
+  return static_cast<NiuChannel*>(memory);
+}
+
+NiuProcessorSide::NiuProcessorSide(NiuChannel& channel, std::span<std::byte> local_memory, std::uint32_t window_offset)
+    : channel_(channel), local_memory_(local_memory), window_offset_(window_offset) {}
+
+NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uint64_t clock,
+                                                std::uint64_t instructions) {
+  using enum Outcome;
+  if (wait_kind(channel_.wait.load(std::memory_order_relaxed)) == WaitKind::halted ||
+      channel_.stopping.load(std::memory_order_relaxed) != 0) {
+    return {stop, clock};
+  }
+  channel_.instructions.store(instructions, std::memory_order_relaxed);
+  const bool marker = is_marker(immediate);
+  if (marker && mark(channel_, immediate, clock)) return {done, clock};
+
+  auto& window = *reinterpret_cast<NiuWindow*>(local_memory_.data() + window_offset_);
+  HintRun run(channel_, local_memory_, window_offset_, clock);
+  bool happened = false;
+  if (marker) {
+    report_phase_mismatch(channel_, immediate, clock);
+  } else {
+    happened = run.execute(static_cast<Hint>(immediate));
+    if (!happened && !run.must_stop()) {
+      window.retry = 1;
+      return {retry, clock};
+    }
+  }
+  const std::uint64_t waited = run.clock() - clock;
+  channel_.idle.store(channel_.idle.load(std::memory_order_relaxed) + waited, std::memory_order_relaxed);
+  channel_.clock.store(run.clock(), std::memory_order_relaxed);
+  channel_.processor.last_hint = run.clock();
+  window.retry = 0;
+  // The next HINT ends at least one cycle later.
+  publish_bound(channel_, run.clock() + kCommandCycles + 1,
+                pack_wait(happened ? WaitKind::running : WaitKind::halted, 0));
+  return {happened ? done : stop, run.clock()};
+}
+
+}  // namespace torolux
