@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// See light_units.hpp.
+#include "host_tools/layout/light_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/mesh/vector.hpp"
+
+namespace torolux {
+
+LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_lights) {
+  LightUnits units;
+  units.two_sided_lights = two_sided_lights;
+  units.unit_radiance = 0;
+  Vec3d emitted{0, 0, 0};
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    const SceneMaterial& material = scene.materials[triangle.material];
+    if (!emits(material)) continue;
+    for (const double radiance : material.emission) units.unit_radiance = std::max(units.unit_radiance, radiance);
+    const double area = triangle.area * (two_sided_lights ? 2 : 1);
+    emitted = add(emitted, scale(material.emission, std::numbers::pi * area));
+  }
+  const double greatest = std::max({emitted[0], emitted[1], emitted[2]});
+  if (!(greatest > 0)) throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke)");
+  units.watts_per_quantum = std::ldexp(greatest, -48);
+  // The machine's floats must hold radiances and their reciprocals.
+  if (!std::isfinite(greatest) || !(units.watts_per_quantum > 1e-300) || !(units.unit_radiance > 1e-30) ||
+      !(units.unit_radiance < 1e30)) {
+    throw InputError("scene '" + scene.name + "' emits " + std::to_string(greatest) + " W at up to " +
+                     std::to_string(units.unit_radiance) + " W/(m^2 sr): radiances of 1e-30 to 1e30 are allowed");
+  }
+  return units;
+}
+
+protocol::Flux patch_emission(const Scene& scene, const MeshTriangle& triangle, std::uint32_t side,
+                              const LightUnits& units) {
+  const SceneMaterial& material = scene.materials[triangle.material];
+  protocol::Flux flux{};
+  if (!emits(material) || (side == 1 && !units.two_sided_lights)) return flux;
+  const double area = triangle.area / protocol::triangles_of_level(triangle.patch_level);
+  for (std::size_t c = 0; c < 3; ++c) {
+    flux[c] = std::llround(std::numbers::pi * material.emission[c] * area / units.watts_per_quantum);
+  }
+  return flux;
+}
+
+protocol::Material machine_material(const SceneMaterial& material, const LightUnits& units) {
+  protocol::Material machine{};
+  const auto set = [](const Vec3d& from, protocol::Vec3f& to, std::array<protocol::Fraction, 3>& fraction) {
+    to = to_float(from);
+    for (std::size_t c = 0; c < 3; ++c) fraction[c] = protocol::to_fraction(from[c]);
+  };
+  machine.refractive_index = 1;
+  switch (material.kind) {
+    case SurfaceKind::diffuse:
+      machine.kind = protocol::MaterialKind::diffuse;
+      set(material.diffuse, machine.diffuse, machine.diffuse_fraction);
+      machine.emission = to_float(scale(material.emission, 1 / units.unit_radiance));
+      machine.emits_from_back = units.two_sided_lights && emits(material) ? 1 : 0;
+      break;
+    case SurfaceKind::mirror:
+      machine.kind = protocol::MaterialKind::mirror;
+      set(material.specular, machine.specular, machine.specular_fraction);
+      break;
+    case SurfaceKind::glass:
+      machine.kind = protocol::MaterialKind::glass;
+      machine.refractive_index = static_cast<float>(material.refractive_index);
+      set(material.transmittance, machine.transmittance, machine.transmittance_fraction);
+      break;
+  }
+  return machine;
+}
+
+}  // namespace torolux

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The units in which the machine counts light, and the scene's materials and emitters in them.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/protocol/stores.hpp"
+#include "host_tools/mesh/mesh.hpp"
+#include "host_tools/scene/scene.hpp"
+
+namespace torolux {
+
+struct LightUnits {
+  double unit_radiance = 1;      ///< greatest emitted radiance of all channels [W/(m^2 sr)]
+  double watts_per_quantum = 1;  ///< greatest channel's emitted flux * 2^-48
+  bool two_sided_lights = false;
+};
+
+/// Throws InputError: nothing emits, or the emitted flux is not a finite number.
+LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_lights);
+
+/// Emitted flux of one side (0 front, 1 back) of one patch of the triangle, pi * Ke * area, in quanta, rounded.
+protocol::Flux patch_emission(const Scene& scene, const MeshTriangle& triangle, std::uint32_t side,
+                              const LightUnits& units);
+
+protocol::Material machine_material(const SceneMaterial& material, const LightUnits& units);
+
+}  // namespace torolux

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// See placement.hpp.
+#include "host_tools/layout/placement.hpp"
+
+#include <algorithm>
+
+#include "firmware/protocol/stores.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::PeNumber;
+
+/// Rough costs of a record in cycles, from a trial on paper (notes on load balance) and the latency table.
+constexpr double kCyclesPerVisit = 600;
+constexpr double kCyclesPerTest = 40;
+constexpr double kCyclesPerRecordMade = 400;
+
+std::vector<CellIndex> cells_of_patches(const Mesh& mesh, const Grid& grid) {
+  std::vector<CellIndex> cells;
+  cells.reserve(mesh.patches);
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (triangle.sides == 0) continue;
+    for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
+      cells.push_back(grid.index(grid.cell_of(to_float(patch_centre(triangle, path)))));
+    }
+  }
+  return cells;
+}
+
+/// What each cell is expected to cost in the radiosity stage.
+std::vector<CellCost> predict(const Mesh& mesh, const Placement& placement, const std::vector<CellIndex>& patch_cell,
+                              double records_per_patch) {
+  const Grid& grid = placement.grid;
+  const double records = records_per_patch * mesh.patches;
+  const double crossed = 0.75 * (grid.cells[0] + grid.cells[1] + grid.cells[2]) / 1.5;
+  const double visits = records * crossed / grid.count();
+  std::vector<CellCost> costs(grid.count());
+  for (CellIndex cell = 0; cell < grid.count(); ++cell) {
+    const auto polygons = static_cast<double>(placement.polygons_of_cell[cell].size());
+    costs[cell].cycles = static_cast<std::uint64_t>(visits * (kCyclesPerVisit + kCyclesPerTest * polygons));
+    costs[cell].bytes = sizeof(protocol::Subspace);
+    for (const std::uint32_t t : placement.polygons_of_cell[cell]) {
+      const MeshTriangle& triangle = mesh.triangles[t];
+      costs[cell].bytes += sizeof(protocol::Polygon) + sizeof(std::uint32_t) +
+                           protocol::lattice_size(triangle.element_level) * sizeof(protocol::LatticeValue);
+    }
+  }
+  for (std::uint32_t patch = 0; patch < mesh.patches; ++patch) {
+    const MeshTriangle& triangle = mesh.triangles[mesh.triangle_of_patch[patch]];
+    const std::uint64_t sides = triangle.sides == (protocol::kFrontPresent | protocol::kBackPresent) ? 2 : 1;
+    CellCost& cost = costs[patch_cell[patch]];
+    cost.cycles += static_cast<std::uint64_t>(records_per_patch * kCyclesPerRecordMade);
+    cost.bytes += sizeof(protocol::Patch) +
+                  sides * (sizeof(protocol::PatchSide) +
+                           protocol::triangles_of_level(std::uint32_t{triangle.element_level} - triangle.patch_level) *
+                               sizeof(protocol::Element));
+  }
+  return costs;
+}
+
+void spread(const Mesh& mesh, const std::vector<CellIndex>& patch_cell, Placement& placement) {
+  const unsigned pes = placement.torus.pes();
+  placement.cells_of_pe.resize(pes);
+  placement.polygons_of_pe.resize(pes);
+  placement.patches_of_pe.resize(pes);
+  placement.local_of_cell.resize(placement.grid.count());
+  for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
+    const PeNumber pe = placement.pe_of_cell[cell];
+    placement.local_of_cell[cell] = static_cast<std::uint32_t>(placement.cells_of_pe[pe].size());
+    placement.cells_of_pe[pe].push_back(cell);
+    const auto& polygons = placement.polygons_of_cell[cell];
+    if (!polygons.empty()) ++placement.filled_cells;
+    placement.polygons_of_pe[pe].insert(placement.polygons_of_pe[pe].end(), polygons.begin(), polygons.end());
+  }
+  for (auto& polygons : placement.polygons_of_pe) {
+    std::sort(polygons.begin(), polygons.end());
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  }
+  for (std::uint32_t patch = 0; patch < mesh.patches; ++patch) {
+    const CellIndex cell = patch_cell[patch];
+    const PeNumber pe = placement.pe_of_cell[cell];
+    placement.patch_home.push_back({pe, static_cast<std::uint32_t>(placement.patches_of_pe[pe].size()), cell});
+    placement.patches_of_pe[pe].push_back(patch);
+  }
+}
+
+}  // namespace
+
+Placement make_placement(const Mesh& mesh, const PlacementChoice& choice) {
+  Placement placement;
+  placement.torus = choice.torus;
+  placement.grid = make_grid(mesh.space, choice.subspaces, mesh.triangles.size(), choice.torus.pes());
+  placement.polygons_of_cell = polygons_by_cell(placement.grid, mesh.triangles);
+  const std::vector<CellIndex> patch_cell = cells_of_patches(mesh, placement.grid);
+  const std::vector<CellCost> costs = predict(mesh, placement, patch_cell, choice.records_per_patch);
+  placement.pe_of_cell = allocate(choice.allocation, placement.grid, placement.torus, costs);
+  spread(mesh, patch_cell, placement);
+  std::vector<double> load(placement.torus.pes(), 0.0);
+  for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
+    load[placement.pe_of_cell[cell]] += static_cast<double>(costs[cell].cycles);
+  }
+  placement.predicted_radiosity_cycles = *std::max_element(load.begin(), load.end());
+  return placement;
+}
+
+}  // namespace torolux

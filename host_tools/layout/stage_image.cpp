@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// See stage_image.hpp.
+#include "host_tools/layout/stage_image.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/hemicube_weights.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::PeNumber;
+using protocol::Stage;
+using protocol::Store;
+
+class ImageWriter {
+ public:
+  ImageWriter(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe, const LightUnits& units,
+              const PeLayout& layout)
+      : scene_(scene),
+        mesh_(mesh),
+        placement_(placement),
+        pe_(pe),
+        units_(units),
+        layout_(layout.layout),
+        bytes_((layout.load_end - layout.layout.subspaces.address + 3) / 4 * 4) {}
+
+  std::vector<std::byte> radiosity() {
+    write_subspaces();
+    write_polygons(nullptr);
+    write_patch_references();
+    write_patches();
+    const std::vector<std::uint32_t> weights = make_hemicube_weights(layout_.hemicube_size);
+    put_all(layout_.hemicube, weights);
+    return std::move(bytes_);
+  }
+
+  std::vector<std::byte> ray_tracing(const Lattice& lattice) {
+    write_subspaces();
+    write_polygons(&lattice);
+    return std::move(bytes_);
+  }
+
+ private:
+  template <typename T>
+  void put(const Store& store, std::size_t index, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::size_t at = store.address - layout_.subspaces.address + index * sizeof(T);
+    if (index >= store.count || at + sizeof(T) > bytes_.size()) throw MachineFailure("a store was laid out too small");
+    std::memcpy(bytes_.data() + at, &value, sizeof(T));
+  }
+  template <typename T>
+  void put_all(const Store& store, const std::vector<T>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) put(store, i, values[i]);
+  }
+
+  std::uint32_t local_polygon(std::uint32_t triangle) const {
+    const auto& polygons = placement_.polygons_of_pe[pe_];
+    const auto found = std::lower_bound(polygons.begin(), polygons.end(), triangle);
+    if (found == polygons.end() || *found != triangle) throw MachineFailure("a patch lies outside its polygon");
+    return static_cast<std::uint32_t>(found - polygons.begin());
+  }
+
+  void write_subspaces() {
+    const Grid& grid = placement_.grid;
+    std::uint32_t first = 0;
+    for (std::size_t local = 0; local < placement_.cells_of_pe[pe_].size(); ++local) {
+      const CellIndex index = placement_.cells_of_pe[pe_][local];
+      const auto cell = grid.cell(index);
+      protocol::Subspace subspace{};
+      for (std::uint32_t face = 0; face < protocol::kFaces; ++face) {
+        const std::uint32_t axis = face / 2;
+        const bool upper = face % 2 == 1;
+        subspace.neighbour_pe[face] = protocol::kNobody;
+        if (upper ? cell[axis] + 1 == grid.cells[axis] : cell[axis] == 0) continue;
+        auto next = cell;
+        next[axis] = upper ? cell[axis] + 1 : cell[axis] - 1;
+        subspace.neighbour[face] = placement_.local_of_cell[grid.index(next)];
+        subspace.neighbour_pe[face] = placement_.pe_of_cell[grid.index(next)];
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) subspace.cell[axis] = static_cast<std::uint16_t>(cell[axis]);
+      const auto& polygons = placement_.polygons_of_cell[index];
+      subspace.first_polygon = first;
+      subspace.polygon_count = static_cast<std::uint32_t>(polygons.size());
+      for (const std::uint32_t t : polygons) put(layout_.polygon_list, first++, local_polygon(t));
+      put(layout_.subspaces, local, subspace);
+    }
+  }
+
+  /// Materials that this PE's polygons use, ascending.
+  std::vector<std::uint32_t> materials() const {
+    std::vector<std::uint32_t> used;
+    for (const std::uint32_t t : placement_.polygons_of_pe[pe_]) used.push_back(mesh_.triangles[t].material);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    return used;
+  }
+
+  /// lattice: null in the radiosity stage.
+  void write_polygons(const Lattice* lattice) {
+    const std::vector<std::uint32_t> used = materials();
+    for (std::size_t m = 0; m < used.size(); ++m) {
+      put(layout_.materials, m, machine_material(scene_.materials[used[m]], units_));
+    }
+    std::uint32_t normals = 0;
+    std::uint32_t surface = 0;
+    for (std::size_t local = 0; local < placement_.polygons_of_pe[pe_].size(); ++local) {
+      const std::uint32_t t = placement_.polygons_of_pe[pe_][local];
+      const MeshTriangle& triangle = mesh_.triangles[t];
+      protocol::Polygon polygon{};
+      polygon.corner = triangle.corner;
+      polygon.number = t;
+      polygon.surface = surface;
+      polygon.normals = protocol::kNoPolygon;
+      if (triangle.normals != protocol::kNoPolygon) {
+        polygon.normals = normals;
+        for (std::uint32_t i = 0; i < 3; ++i) put(layout_.normals, normals++, mesh_.normals[triangle.normals + i]);
+      }
+      polygon.material =
+          static_cast<std::uint16_t>(std::lower_bound(used.begin(), used.end(), triangle.material) - used.begin());
+      polygon.sides = triangle.sides;
+      polygon.patch_level = triangle.patch_level;
+      polygon.element_level = triangle.element_level;
+      if (lattice != nullptr) {
+        surface += write_lattice(*lattice, t, surface);
+      } else if (triangle.sides != 0) {
+        surface += protocol::triangles_of_level(triangle.patch_level);
+      }
+      put(layout_.polygons, local, polygon);
+    }
+  }
+
+  std::uint32_t write_lattice(const Lattice& lattice, std::uint32_t t, std::uint32_t first) {
+    std::uint32_t next = first;
+    for (const std::uint32_t from : lattice.first[t]) {
+      if (from == protocol::kNoSide) continue;
+      const std::uint32_t size = protocol::lattice_size(mesh_.triangles[t].element_level);
+      for (std::uint32_t i = 0; i < size; ++i) put(layout_.lattice, next++, lattice.values[from + i]);
+    }
+    return next - first;
+  }
+
+  void write_patch_references() {
+    std::uint32_t next = 0;
+    for (const std::uint32_t t : placement_.polygons_of_pe[pe_]) {
+      const MeshTriangle& triangle = mesh_.triangles[t];
+      if (triangle.sides == 0) continue;
+      for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
+        const PatchHome& home = placement_.patch_home[triangle.first_patch + path];
+        put(layout_.patch_references, next++, protocol::PatchReference{home.local, home.pe, 0});
+      }
+    }
+  }
+
+  void write_patches() {
+    std::uint32_t sides = 0;
+    std::uint32_t elements = 0;
+    for (std::size_t local = 0; local < placement_.patches_of_pe[pe_].size(); ++local) {
+      const std::uint32_t number = placement_.patches_of_pe[pe_][local];
+      const std::uint32_t t = mesh_.triangle_of_patch[number];
+      const MeshTriangle& triangle = mesh_.triangles[t];
+      protocol::Patch patch{};
+      patch.number = number;
+      patch.polygon = local_polygon(t);
+      patch.path = number - triangle.first_patch;
+      patch.subspace = placement_.local_of_cell[placement_.patch_home[number].cell];
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        patch.side[side] = protocol::kNoSide;
+        if (triangle.first_side[side] == protocol::kNoSide) continue;
+        protocol::PatchSide patch_side{};
+        patch_side.emission = patch_emission(scene_, triangle, side, units_);
+        patch_side.first_element = elements;
+        elements += protocol::triangles_of_level(std::uint32_t{triangle.element_level} - triangle.patch_level);
+        patch.side[side] = sides;
+        put(layout_.patch_sides, sides++, patch_side);
+      }
+      put(layout_.patches, local, patch);
+    }
+  }
+
+  const Scene& scene_;
+  const Mesh& mesh_;
+  const Placement& placement_;
+  PeNumber pe_;
+  const LightUnits& units_;
+  const protocol::StageLayout& layout_;
+  std::vector<std::byte> bytes_;  ///< elements stay zero, and are loaded as such
+};
+
+}  // namespace
+
+std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe,
+                                       const LightUnits& units, const PeLayout& layout) {
+  return ImageWriter(scene, mesh, placement, pe, units, layout).radiosity();
+}
+
+std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe,
+                                         const LightUnits& units, const Lattice& lattice, const PeLayout& layout) {
+  return ImageWriter(scene, mesh, placement, pe, units, layout).ray_tracing(lattice);
+}
+
+}  // namespace torolux

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// See stage_layout.hpp.
+#include "host_tools/layout/stage_layout.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::Stage;
+using protocol::StageLayout;
+using protocol::Store;
+
+struct Counts {
+  std::uint64_t subspaces = 0, polygon_list = 0, polygons = 0, materials = 0, normals = 0;
+  std::uint64_t patch_references = 0, patches = 0, patch_sides = 0, elements = 0, hemicube = 0, lattice = 0;
+};
+
+std::uint64_t sides_of(const MeshTriangle& triangle) {
+  return (triangle.sides & protocol::kFrontPresent ? 1U : 0U) + (triangle.sides & protocol::kBackPresent ? 1U : 0U);
+}
+
+Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Stage stage, std::uint32_t hemicube) {
+  Counts counts;
+  counts.subspaces = placement.cells_of_pe[pe].size();
+  for (const CellIndex cell : placement.cells_of_pe[pe]) {
+    counts.polygon_list += placement.polygons_of_cell[cell].size();
+  }
+  counts.polygons = placement.polygons_of_pe[pe].size();
+  std::vector<std::uint32_t> materials;
+  for (const std::uint32_t t : placement.polygons_of_pe[pe]) {
+    const MeshTriangle& triangle = mesh.triangles[t];
+    materials.push_back(triangle.material);
+    if (triangle.normals != protocol::kNoPolygon) counts.normals += 3;
+    if (triangle.sides == 0) continue;
+    counts.patch_references += protocol::triangles_of_level(triangle.patch_level);
+    counts.lattice += sides_of(triangle) * protocol::lattice_size(triangle.element_level);
+  }
+  std::sort(materials.begin(), materials.end());
+  counts.materials = static_cast<std::uint64_t>(std::unique(materials.begin(), materials.end()) - materials.begin());
+  if (stage == Stage::ray_tracing) {
+    counts.patch_references = 0;
+    return counts;
+  }
+  counts.lattice = 0;
+  for (const std::uint32_t patch : placement.patches_of_pe[pe]) {
+    const MeshTriangle& triangle = mesh.triangles[mesh.triangle_of_patch[patch]];
+    counts.patch_sides += sides_of(triangle);
+    counts.elements +=
+        sides_of(triangle) * protocol::triangles_of_level(std::uint32_t{triangle.element_level} - triangle.patch_level);
+  }
+  counts.patches = placement.patches_of_pe[pe].size();
+  counts.hemicube = protocol::hemicube_weights(hemicube);
+  return counts;
+}
+
+/// Gives out addresses; stores begin at multiples of 8.
+class Allocator {
+ public:
+  Allocator(std::uint64_t begin, PeLayout& pe_layout) : next_(begin), pe_layout_(pe_layout) {}
+
+  Store place(const char* name, std::uint64_t count, std::size_t bytes_each) {
+    next_ = (next_ + 7) / 8 * 8;
+    const std::uint64_t address = next_;
+    const std::uint64_t bytes = count * bytes_each;
+    next_ += bytes;
+    if (bytes > 0) pe_layout_.bytes.emplace_back(name, bytes);
+    return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(count)};
+  }
+  std::uint64_t next() const { return next_; }
+
+ private:
+  std::uint64_t next_;
+  PeLayout& pe_layout_;
+};
+
+const char* name_of(Stage stage) {
+  return stage == Stage::radiosity ? "radiosity" : "ray tracing";
+}
+
+}  // namespace
+
+PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Stage stage,
+                 const StageParameters& parameters, const MemoryMap& map) {
+  const Counts counts = count(mesh, placement, pe, stage, parameters.hemicube);
+  PeLayout result;
+  StageLayout& layout = result.layout;
+  layout.stage = stage;
+  layout.seed = parameters.seed;
+  layout.cells = placement.grid.cells;
+  layout.cell_size = placement.grid.cell_size;
+  layout.bounces = parameters.bounces;
+  Allocator allocator(map.stores_begin, result);
+  layout.subspaces = allocator.place("subspaces", counts.subspaces, sizeof(protocol::Subspace));
+  layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(std::uint32_t));
+  layout.polygons = allocator.place("polygons", counts.polygons, sizeof(protocol::Polygon));
+  layout.materials = allocator.place("materials", counts.materials, sizeof(protocol::Material));
+  layout.normals = allocator.place("normals", counts.normals, sizeof(protocol::Vec3f));
+  layout.patch_references =
+      allocator.place("patch references", counts.patch_references, sizeof(protocol::PatchReference));
+  layout.patches = allocator.place("patches", counts.patches, sizeof(protocol::Patch));
+  layout.patch_sides = allocator.place("patch sides", counts.patch_sides, sizeof(protocol::PatchSide));
+  layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));
+  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(std::uint32_t));
+  layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeValue));
+  result.load_end = allocator.next();
+  layout.own_slots = protocol::own_slots(stage);
+  layout.record_slots =
+      allocator.place("record slots", std::uint64_t{layout.own_slots} + map.niu_slots, protocol::slot_bytes(stage));
+  result.end = allocator.next();
+  if (stage == Stage::radiosity) {
+    layout.hemicube_size = parameters.hemicube;
+    layout.shot_points = parameters.shot_points;
+    layout.emission_points = parameters.emission_points;
+  } else {
+    layout.pixel_scale = parameters.pixel_scale;
+    layout.least_weight = parameters.least_weight;
+  }
+  return result;
+}
+
+MemoryNeed memory_need(const Mesh& mesh, const Placement& placement, const StageParameters& parameters,
+                       const MemoryMap& map) {
+  MemoryNeed need;
+  const unsigned pes = placement.torus.pes();
+  need.pe_bytes.assign(pes, 0);
+  std::uint64_t most = 0;
+  for (unsigned pe = 0; pe < pes; ++pe) {
+    for (const Stage stage : {Stage::radiosity, Stage::ray_tracing}) {
+      const PeLayout layout = lay_out(mesh, placement, static_cast<protocol::PeNumber>(pe), stage, parameters, map);
+      const std::uint64_t bytes = layout.end - protocol::kLocalMemoryBase;
+      need.pe_bytes[pe] = std::max(need.pe_bytes[pe], bytes);
+      if (bytes <= most) continue;
+      most = bytes;
+      need.fullest = static_cast<protocol::PeNumber>(pe);
+      need.fullest_stage = stage;
+      need.fullest_stores = "image " + with_commas(map.stores_begin - protocol::kLocalMemoryBase);
+      for (const auto& [name, store_bytes] : layout.bytes) {
+        need.fullest_stores += std::string(", ") + name + " " + with_commas(store_bytes);
+      }
+    }
+  }
+  return need;
+}
+
+std::string MemoryNeed::refusal(std::uint64_t available) const {
+  std::uint64_t enough = protocol::kSmallestLocalMemory;
+  while (enough < most()) enough *= 2;
+  std::string text = "PE " + std::to_string(fullest) + " needs " + with_commas(most()) + " bytes for stage " +
+                     name_of(fullest_stage) + " (" + fullest_stores + "), has " + with_commas(available) + ": use ";
+  if (enough <= protocol::kLargestLocalMemory && enough > available) {
+    text += "--pe-memory " +
+            (enough >= 1U << 20U ? std::to_string(enough >> 20U) + "M" : std::to_string(enough >> 10U) + "K") + ", ";
+  }
+  return text + "more --pes, fewer --subspaces, or greater --elements and --patches";
+}
+
+std::optional<std::uint32_t> choose_memory(const MemoryNeed& need, std::optional<std::uint32_t> given) {
+  if (given) return need.most() <= *given ? given : std::nullopt;
+  for (std::uint32_t bytes = protocol::kDefaultLocalMemory; bytes <= protocol::kLargestLocalMemory; bytes *= 2) {
+    if (need.most() <= bytes) return bytes;
+  }
+  return std::nullopt;
+}
+
+std::string with_commas(std::uint64_t value) {
+  std::string digits = std::to_string(value);
+  for (std::size_t at = digits.size(); at > 3;) {
+    at -= 3;
+    digits.insert(at, ",");
+  }
+  return digits;
+}
+
+}  // namespace torolux

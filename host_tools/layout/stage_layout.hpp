@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// How large each store of a PE is in a stage, where it lies, and how much memory the PEs need.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware/protocol/stores.hpp"
+#include "host_tools/layout/placement.hpp"
+
+namespace torolux {
+
+/// What all PEs are told alike.
+struct StageParameters {
+  std::uint32_t seed = 0;
+  std::uint32_t bounces = 32;
+  std::uint32_t hemicube = 16;
+  std::uint32_t shot_points = 2;
+  std::uint32_t emission_points = 2;
+  float pixel_scale = 0x1p40F;
+  float least_weight = 1e-4F;
+};
+
+/// The machine's side of the layout.
+struct MemoryMap {
+  std::uint32_t stores_begin = 0;  ///< first byte that the image leaves free
+  std::uint32_t niu_slots = 0;
+};
+
+struct PeLayout {
+  protocol::StageLayout layout{};  ///< addresses and counts; stores in loading order, record slots last
+  std::uint64_t end = 0;           ///< first byte behind the last store; beyond local memory: does not fit
+  std::uint64_t load_end = 0;      ///< first byte behind the stores that are loaded (all but the record slots)
+  std::vector<std::pair<const char*, std::uint64_t>> bytes;  ///< of each store, by name
+};
+
+PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, protocol::Stage stage,
+                 const StageParameters& parameters, const MemoryMap& map);
+
+struct MemoryNeed {
+  std::vector<std::uint64_t> pe_bytes;  ///< of local memory, image included, greater of both stages
+  protocol::PeNumber fullest = 0;
+  protocol::Stage fullest_stage = protocol::Stage::radiosity;
+  std::string fullest_stores;  ///< "polygons 1,234, elements 5,678, ..." bytes
+
+  std::uint64_t most() const { return pe_bytes[fullest]; }
+  /// What to say where a PE has only `available` bytes: which PE and stage, needed, available, what to change.
+  std::string refusal(std::uint64_t available) const;
+};
+
+/// Scratch memory of the image beyond its own sections does not exist, so this is exact.
+MemoryNeed memory_need(const Mesh& mesh, const Placement& placement, const StageParameters& parameters,
+                       const MemoryMap& map);
+
+/// given, or the smallest power of two from kDefaultLocalMemory that fits. Absent: it does not fit in any allowed size
+/// (or not in the one given).
+std::optional<std::uint32_t> choose_memory(const MemoryNeed& need, std::optional<std::uint32_t> given);
+
+/// 1234567 -> "1,234,567".
+std::string with_commas(std::uint64_t value);
+
+}  // namespace torolux
