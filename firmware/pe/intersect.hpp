@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray against triangle, watertight: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", Journal of
-// Computer Graphics Techniques 2(1), 2013. Edges are inclusive: a ray at an edge meets both neighbours, and none is lost.
+// Computer Graphics Techniques 2(1), 2013. Edges are inclusive: a ray at an edge meets both neighbours, and none is
+// lost.
 #pragma once
 
 #include <cstdint>
@@ -92,8 +93,8 @@ inline bool cross_triangle(const Shear& ray, const protocol::Polygon& polygon, C
 }
 
 /// The box of the part of a ray that lies in one subspace, grown by the margin, its bounds as integers. A hit that
-/// counts lies in it (to some 1e-6 of rounding; the margin is a hundred times that), so a triangle beside it is passed over at
-/// the price of a few integer comparisons.
+/// counts lies in it (to some 1e-6 of rounding; the margin is a hundred times that), so a triangle beside it is passed
+/// over at the price of a few integer comparisons.
 class Reach {
  public:
   Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse)

@@ -12,11 +12,11 @@ namespace torolux::pe {
 
 struct Segment {
   glm::vec3 origin;
-  glm::vec3 direction;     ///< unit length
-  std::uint32_t subspace;  ///< local number
-  std::uint32_t polygon;   ///< global number of the polygon that it left, or kNoPolygon
-  bool seeking;            ///< on its way to the subspace of its origin, touching nothing
-  bool first;              ///< still in the subspace where it began
+  glm::vec3 direction;      ///< unit length
+  std::uint32_t subspace;   ///< local number
+  std::uint32_t polygon;    ///< global number of the polygon that it left, or kNoPolygon
+  bool seeking;             ///< on its way to the subspace of its origin, touching nothing
+  bool first;               ///< still in the subspace where it began
   std::uint8_t entry_axis;  ///< where not first: 0..2, of the face through which it entered `subspace`
 };
 
@@ -49,7 +49,8 @@ void turn(Record& record, const glm::vec3& origin, const glm::vec3& direction, s
   record.direction = to_array(direction);
   record.polygon = polygon;
   record.kind = protocol::RecordKind::light;
-  record.flags = static_cast<std::uint8_t>((record.flags | protocol::kFirst) & ~std::uint32_t{protocol::kEntryAxisMask});
+  record.flags =
+      static_cast<std::uint8_t>((record.flags | protocol::kFirst) & ~std::uint32_t{protocol::kEntryAxisMask});
 }
 
 }  // namespace torolux::pe

@@ -13,8 +13,8 @@ struct Refraction {
   glm::vec3 direction;  ///< unit length; means nothing where reflectance is 1
 };
 
-/// direction: unit, towards the surface. normal: unit; either of its signs. geometric: of the flat polygon; the reflected
-/// direction never goes through it, so near an outline that normals only pretend to round off it takes over.
+/// direction: unit, towards the surface. normal: unit; either of its signs. geometric: of the flat polygon; the
+/// reflected direction never goes through it, so near an outline that normals only pretend to round off it takes over.
 glm::vec3 reflect(const glm::vec3& direction, const glm::vec3& geometric, const glm::vec3& shading);
 
 /// eta: refractive index of the side that the light comes from over that of the other side.

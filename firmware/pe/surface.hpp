@@ -38,7 +38,7 @@ inline LatticeWeights lattice_weights(float b1, float b2, std::uint32_t level) {
   const auto below = [n](float value, std::int32_t most) {  // rounding may leave the triangle by a little
     if (!(value > 0.0F)) return 0;
     return value < static_cast<float>(n) && static_cast<std::int32_t>(value) < most ? static_cast<std::int32_t>(value)
-                                                                                     : most;
+                                                                                    : most;
   };
   const std::int32_t i = below(x, n - 1);
   const std::int32_t j = below(y, n - 1 - i);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -16,6 +17,10 @@ inline glm::vec3 to_vector(const protocol::Vec3f& v) {
 }
 inline protocol::Vec3f to_array(const glm::vec3& v) {
   return {v.x, v.y, v.z};
+}
+
+inline void add_flux(protocol::Flux& sum, const protocol::Flux& flux) {
+  for (std::size_t c = 0; c < 3; ++c) sum[c] += flux[c];
 }
 
 inline std::int32_t bits(float value) {

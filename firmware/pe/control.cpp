@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Messages of the host: set up a stage, start shots, read stores back, stop.
+#include <cstring>
+
+#include "firmware/pe/pe.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::LoadBlock;
+using protocol::MessageKind;
+
+void require(Pe& pe, Niu& niu, bool holds) {
+  if (!holds) {
+    niu.fail(FaultCode::unexpected_message, niu.message().kind, static_cast<std::uint32_t>(pe.state));
+  }
+}
+
+bool is_radiosity(const Pe& pe) {
+  return pe.state == State::running && pe.scene.layout.stage == protocol::Stage::radiosity;
+}
+
+void configure(Pe& pe, Niu& niu) {
+  const auto& layout = niu.message_as<protocol::StageLayout>();
+  check_layout(niu, layout);
+  pe.state = State::configured;
+  pe.scene.set(niu.memory(), layout);
+}
+
+void begin(Pe& pe, Niu& niu) {
+  verify_stores(niu, pe.scene);
+  const protocol::StageLayout& layout = pe.scene.layout;
+  pe.slots.set(niu.memory(), layout);
+  pe.outbox.set(layout.stage);
+  pe.shot = {};
+  pe.tally = {};
+  niu.set_slots(layout.record_slots.address, protocol::slot_bytes(layout.stage), layout.own_slots,
+                layout.record_slots.count - layout.own_slots);
+  pe.state = State::running;
+  niu.send(MessageKind::ready);
+}
+
+/// A block must lie in the memory that the image leaves to the stores.
+LoadBlock checked_block(Niu& niu) {
+  const auto block = niu.message_as<LoadBlock>();
+  const std::uint32_t begin = niu.memory().stores_begin();
+  const std::uint32_t end = niu.memory_end();
+  const bool fits = block.bytes > 0 && block.bytes <= protocol::kMostLoadBytes && block.bytes % 4U == 0 &&
+                    block.address % 4U == 0 && block.address >= begin && block.address < end &&
+                    block.bytes <= end - block.address;
+  if (!fits) niu.fail(FaultCode::outside_store, 0, block.address, block.bytes);
+  return block;
+}
+
+void load(Niu& niu) {
+  const PhaseMark<Phase::load> mark(niu);
+  const LoadBlock block = checked_block(niu);
+  const auto bytes = niu.message_bytes();
+  if (bytes.size() < sizeof(LoadBlock) + block.bytes) {
+    niu.fail(FaultCode::short_message, niu.message().kind, static_cast<std::uint32_t>(bytes.size()),
+             sizeof(LoadBlock) + block.bytes);
+  }
+  std::memcpy(niu.memory().at<std::byte>(block.address), bytes.data() + sizeof(LoadBlock), block.bytes);
+}
+
+void read(Pe& pe, Niu& niu) {
+  const LoadBlock block = checked_block(niu);
+  pe.homecoming.flush_pixels(niu);  // the buffer is theirs while there are any
+  MessageBuffer& answer = niu.batch();
+  answer.header.kind = static_cast<std::uint16_t>(MessageKind::data);
+  answer.header.bytes = sizeof(LoadBlock) + block.bytes;
+  *answer.as<LoadBlock>() = block;
+  std::memcpy(answer.bytes.data() + sizeof(LoadBlock), niu.memory().at<std::byte>(block.address), block.bytes);
+  niu.send_message(protocol::kHost, answer.header);
+}
+
+}  // namespace
+
+bool handle_message(Pe& pe, Niu& niu) {
+  const PhaseMark<Phase::control> mark(niu);
+  switch (static_cast<MessageKind>(niu.message().kind)) {
+    case MessageKind::configure:
+      require(pe, niu, pe.outbox.empty() && !pe.shot.active);
+      configure(pe, niu);
+      return true;
+    case MessageKind::load:
+      require(pe, niu, pe.state != State::running);
+      load(niu);
+      return true;
+    case MessageKind::begin:
+      require(pe, niu, pe.state == State::configured);
+      begin(pe, niu);
+      return true;
+    case MessageKind::select:
+      require(pe, niu, is_radiosity(pe));
+      select_shooters(pe, niu, niu.message_as<protocol::Select>());
+      return true;
+    case MessageKind::shoot:
+      require(pe, niu, is_radiosity(pe) && !pe.shot.active);
+      begin_shot(pe, niu, niu.message_as<protocol::Shoot>());
+      return true;
+    case MessageKind::grant:
+      require(pe, niu, is_radiosity(pe));
+      grant_credits(pe, niu, niu.message_as<protocol::Grant>().credits);
+      return true;
+    case MessageKind::read:
+      read(pe, niu);
+      return true;
+    case MessageKind::report:
+      niu.send(MessageKind::tally, pe.tally);
+      return true;
+    case MessageKind::stop:
+      return false;
+    default:
+      niu.fail(FaultCode::unknown_message, niu.message().kind);
+  }
+}
+
+}  // namespace torolux::pe

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Results and credits on their way home. Enters: a pixel's light, a record's end; leaves: bus messages.
+#include "firmware/pe/homecoming.hpp"
+
+namespace torolux::pe {
+
+std::int64_t to_quanta(float value) {
+  const std::int32_t b = bits(value);
+  const std::int32_t exponent = ((b >> 23) & 0xFF) - 150;  // value = mantissa * 2^exponent
+  const std::int64_t mantissa = (b & 0x007F'FFFF) | 0x0080'0000;
+  std::int64_t size = 0;
+  if (exponent > 38) {
+    size = std::int64_t{1} << 62U;
+  } else if (exponent >= 0) {
+    size = mantissa << exponent;
+  } else if (exponent >= -24) {
+    size = (mantissa + (std::int64_t{1} << (-exponent - 1))) >> -exponent;
+  }
+  return b < 0 ? -size : size;
+}
+
+void Homecoming::add_pixel(Niu& niu, std::uint32_t pixel, const glm::vec3& value) {
+  auto* adds = reinterpret_cast<protocol::PixelAdd*>(niu.batch().bytes.data());
+  const bool same = pixels_ > 0 && adds[pixels_ - 1].pixel == pixel;
+  if (!same) {
+    if (pixels_ == protocol::kMostPixelsPerMessage) flush_pixels(niu);
+    adds[pixels_++] = {{0, 0, 0}, pixel, 0};
+  }
+  for (int c = 0; c < 3; ++c) adds[pixels_ - 1].value[c] += to_quanta(value[c]);
+}
+
+void Homecoming::add_credits(Niu& niu, std::uint32_t count) {
+  credits_ += count;
+  if (credits_ >= kManyCredits) flush(niu);
+}
+
+void Homecoming::flush(Niu& niu) {
+  flush_pixels(niu);
+  if (credits_ == 0) return;
+  niu.send(protocol::MessageKind::credits, protocol::Credits{credits_});
+  credits_ = 0;
+}
+
+void Homecoming::flush_pixels(Niu& niu) {
+  if (pixels_ == 0) return;
+  MessageBuffer& message = niu.batch();
+  message.header.kind = static_cast<std::uint16_t>(protocol::MachineMessage::pixels);
+  message.header.bytes = pixels_ * static_cast<std::uint32_t>(sizeof(protocol::PixelAdd));
+  niu.send_message(protocol::kFrameBuffer, message.header);
+  pixels_ = 0;
+}
+
+}  // namespace torolux::pe

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// One PE's program state, of fixed size; and the handlers in the order in which light meets them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/niu/niu.hpp"
+#include "firmware/pe/homecoming.hpp"
+#include "firmware/pe/outbox.hpp"
+#include "firmware/pe/scene.hpp"
+#include "firmware/pe/shot.hpp"
+#include "firmware/pe/traverse.hpp"
+#include "firmware/protocol/messages.hpp"
+#include "firmware/protocol/stores.hpp"
+
+namespace torolux::pe {
+
+enum class State : std::uint32_t { empty, configured, running };
+
+/// A possible shot while the best are being chosen; the full Candidate is made when it is sent.
+struct Choice {
+  std::int64_t unshot;
+  std::uint32_t number;  ///< global patch
+  std::uint32_t patch;   ///< local
+  std::uint32_t side;
+  protocol::ShotKind kind;
+};
+
+struct Pe {
+  State state = State::empty;
+  Scene scene;
+  RecordSlots slots;
+  Outbox outbox;
+  Homecoming homecoming;
+  Shot shot;
+  protocol::Tally tally{};
+  std::array<Choice, protocol::kMostShooters> choices{};
+};
+/// All that the program keeps outside the stores: part of the image, never of the stores' memory.
+static_assert(sizeof(Pe) <= 8U * 1024U);
+
+/// Receives and handles until the host says stop. `pe` is as constructed.
+void run_pe(Pe& pe, Niu& niu);
+
+// ---- Messages (control.cpp) ----
+/// Handles the message that has just come. False: it was `stop`.
+bool handle_message(Pe& pe, Niu& niu);
+
+// ---- Layout (layout.cpp, verify.cpp): fail the run where something does not hold ----
+void check_layout(Niu& niu, const protocol::StageLayout& layout);
+void verify_stores(Niu& niu, const Scene& scene);
+
+// ---- Records ----
+/// Checks an arrived record before anything uses it, then follows its light.
+void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot);
+void handle_ray(Pe& pe, Niu& niu, Slot slot);
+/// Follows a hemi-cube pixel's flux until it leaves this PE or ends (radiosity.cpp).
+void follow_light(Pe& pe, Niu& niu, Slot slot);
+/// Adds flux to one of this PE's elements (deposit.cpp).
+void add_to_element(Pe& pe, std::uint32_t patch, std::uint32_t element, std::uint32_t side, bool direct,
+                    const protocol::Flux& flux);
+/// The light of a record falls on a diffuse surface: adds it here, or sends it to the element's owner.
+void deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit);
+/// The record's light has ended: its slot is free, its credit goes home.
+void end_record(Pe& pe, Niu& niu, Slot slot);
+
+// ---- Shots (select.cpp, shoot.cpp) ----
+void select_shooters(Pe& pe, Niu& niu, const protocol::Select& select);
+void begin_shot(Pe& pe, Niu& niu, const protocol::Shoot& shoot);
+void grant_credits(Pe& pe, Niu& niu, std::uint32_t credits);
+
+}  // namespace torolux::pe

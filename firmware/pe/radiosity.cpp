@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Radiosity records: the flux of one hemi-cube pixel on its way. Enters: a record that arrived or was just created;
+// leaves: flux in an element, a record for another PE, or a sum in the tally.
+#include "firmware/pe/pe.hpp"
+#include "firmware/pe/segment.hpp"
+#include "firmware/pe/specular.hpp"
+#include "firmware/pe/surface.hpp"
+#include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/random.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::Fraction;
+using protocol::Material;
+using protocol::MaterialKind;
+using protocol::RadiosityRecord;
+using protocol::RecordKind;
+
+/// What a surface lets go on; the rest is absorbed there.
+void attenuate(Pe& pe, RadiosityRecord& record, const std::array<Fraction, 3>& fraction) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int64_t kept = protocol::scale_down(record.flux[c], fraction[c]);
+    pe.tally.absorbed_specular[c] += record.flux[c] - kept;
+    record.flux[c] = kept;
+  }
+}
+
+/// Turns the record's light at mirror or glass; of glass's two ways one is taken by chance. False: it has ended.
+bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
+  const PhaseMark<Phase::shade> mark(niu);
+  auto& record = pe.slots.at<RadiosityRecord>(slot);
+  ++record.bounce;
+  if (record.bounce >= pe.scene.layout.bounces) {
+    add_flux(pe.tally.cut_off, record.flux);
+    end_record(pe, niu, slot);
+    return false;
+  }
+  const protocol::Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const Material& material = pe.scene.materials[polygon.material];
+  const glm::vec3 in = to_vector(record.direction);
+  const glm::vec3 origin = to_vector(record.origin) + in * hit.t;
+  const glm::vec3 flat = unit_normal(polygon);
+  const glm::vec3 round = shading_normal(pe.scene, polygon, hit);
+  record.key = protocol::hash_combine(record.key, record.bounce);
+  glm::vec3 out{};
+  if (material.kind == MaterialKind::mirror) {
+    attenuate(pe, record, material.specular_fraction);
+    out = reflect(in, flat, round);
+  } else {
+    const float eta = hit.front ? 1.0F / material.refractive_index : material.refractive_index;
+    const Refraction way = refract(in, flat, round, eta);
+    if (protocol::uniform(record.key, protocol::Dimension::fresnel) < way.reflectance) {
+      out = reflect(in, flat, round);
+    } else {
+      attenuate(pe, record, material.transmittance_fraction);
+      out = way.direction;
+    }
+  }
+  turn(record, origin, out, polygon.number);
+  record.flags = static_cast<std::uint8_t>(record.flags & ~std::uint32_t{protocol::kDirect});
+  if (record.flux[0] == 0 && record.flux[1] == 0 && record.flux[2] == 0) {
+    end_record(pe, niu, slot);
+    return false;
+  }
+  return true;
+}
+
+enum class RecordField : std::uint32_t { kind, subspace, entry_axis, patch, side, element, flux, slot };
+
+void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {
+  if (!holds) niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(field), value);
+}
+
+void check_deposit(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
+  const Scene& scene = pe.scene;
+  require(niu, record.subspace < scene.patches.size(), RecordField::patch, record.subspace);
+  const protocol::Patch& patch = scene.patches[record.subspace];
+  const std::uint32_t side = (record.flags & protocol::kBackSide) != 0 ? 1U : 0U;
+  require(niu, patch.side[side] != protocol::kNoSide, RecordField::side, side);
+  require(niu, record.polygon < Scene::elements_per_patch(scene.polygons[patch.polygon]), RecordField::element,
+          record.polygon);
+}
+
+void check_record(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
+  constexpr std::int64_t most_flux = std::int64_t{1} << 56U;  // all of a scene's is 3 * 2^48
+  for (const std::int64_t flux : record.flux) {
+    require(niu, flux >= 0 && flux <= most_flux, RecordField::flux, static_cast<std::uint32_t>(flux >> 32U));
+  }
+  if (record.kind == RecordKind::deposit) {
+    check_deposit(pe, niu, record);
+    return;
+  }
+  require(niu, record.kind <= RecordKind::seek, RecordField::kind, static_cast<std::uint32_t>(record.kind));
+  require(niu, record.subspace < pe.scene.subspaces.size(), RecordField::subspace, record.subspace);
+  require(niu, (record.flags & protocol::kEntryAxisMask) != protocol::kEntryAxisMask, RecordField::entry_axis,
+          record.flags);
+}
+
+}  // namespace
+
+void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
+  require(niu, slot < pe.slots.count() && !pe.slots.is_own(slot), RecordField::slot, slot);
+  const auto& record = pe.slots.at<RadiosityRecord>(slot);
+  check_record(pe, niu, record);
+  if (record.kind != RecordKind::deposit) {
+    follow_light(pe, niu, slot);
+    return;
+  }
+  const PhaseMark<Phase::deposit> mark(niu);
+  add_to_element(pe, record.subspace, record.polygon, (record.flags & protocol::kBackSide) != 0 ? 1 : 0,
+                 (record.flags & protocol::kDirect) != 0, record.flux);
+  end_record(pe, niu, slot);
+}
+
+void follow_light(Pe& pe, Niu& niu, Slot slot) {
+  auto& record = pe.slots.at<RadiosityRecord>(slot);
+  for (;;) {
+    Segment segment = segment_of(record);
+    niu.enter_phase<Phase::traverse>();
+    const Way way = traverse(pe.scene, niu.pe(), segment);
+    niu.leave_phase<Phase::traverse>();
+    note_progress(record, segment);
+    if (way.end == WayEnd::handed_on) {
+      pe.outbox.put(niu, pe.slots, way.next, slot);
+      return;
+    }
+    if (way.end == WayEnd::escaped) {
+      add_flux(pe.tally.escaped, record.flux);
+      end_record(pe, niu, slot);
+      return;
+    }
+    if (pe.scene.materials[pe.scene.polygons[way.hit.polygon].material].kind == MaterialKind::diffuse) {
+      deposit(pe, niu, slot, way.hit);
+      return;
+    }
+    if (!turn_light(pe, niu, slot, way.hit)) return;
+  }
+}
+
+}  // namespace torolux::pe

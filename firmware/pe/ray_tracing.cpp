@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// Ray records: one sample's light path, followed from the eye. Enters: a record that arrived; leaves: light for a
+// pixel, or the record for another PE.
+#include "firmware/pe/pe.hpp"
+#include "firmware/pe/segment.hpp"
+#include "firmware/pe/specular.hpp"
+#include "firmware/pe/surface.hpp"
+#include "firmware/protocol/random.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::Branch;
+using protocol::Dimension;
+using protocol::Material;
+using protocol::MaterialKind;
+using protocol::Polygon;
+using protocol::RayRecord;
+using protocol::RecordKind;
+
+bool worth_following(const Pe& pe, const glm::vec3& weight) {
+  const float least = pe.scene.layout.least_weight;
+  return weight.x >= least || weight.y >= least || weight.z >= least;
+}
+
+/// What a diffuse surface sends towards the ray: what it emits and what it reflects.
+void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const Material& material = pe.scene.materials[polygon.material];
+  glm::vec3 radiance = to_vector(material.diffuse) * interpolated_irradiance(pe.scene, polygon, hit);
+  if (hit.front || material.emits_from_back != 0) radiance += to_vector(material.emission);
+  pe.homecoming.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
+}
+
+/// Glass's two ways, each with what it weighs.
+struct Ways {
+  glm::vec3 reflected, refracted;
+  glm::vec3 reflected_weight, refracted_weight;
+  float reflectance;
+};
+
+Ways ways_at_glass(const Pe& pe, const RayRecord& record, const Material& glass, const Hit& hit, const glm::vec3& flat,
+                   const glm::vec3& round) {
+  const glm::vec3 in = to_vector(record.direction);
+  const glm::vec3 weight = to_vector(record.weight);
+  const float eta = hit.front ? 1.0F / glass.refractive_index : glass.refractive_index;
+  const Refraction way = refract(in, flat, round, eta);
+  Ways ways{reflect(in, flat, round), way.direction, weight * way.reflectance, glm::vec3(0.0F), way.reflectance};
+  if (way.reflectance < 1.0F) {
+    ways.refracted_weight = (weight * (1.0F - way.reflectance)) * to_vector(glass.transmittance);
+  }
+  if (record.waiting == protocol::kMostBranches &&
+      way.reflectance < 1.0F) {  // no room for a branch: take one by chance
+    const bool reflects = protocol::uniform(record.key, Dimension::fresnel) < way.reflectance;
+    ways.reflected_weight = reflects ? weight : glm::vec3(0.0F);
+    ways.refracted_weight = reflects ? glm::vec3(0.0F) : weight * to_vector(glass.transmittance);
+  }
+  (void)pe;
+  return ways;
+}
+
+/// The reflected way waits inside the record until the refracted one has ended.
+void add_branch(Pe& pe, Niu& niu, RayRecord& record, const glm::vec3& origin, const Ways& ways, std::uint32_t polygon) {
+  (void)pe;
+  Branch& branch = record.branches[record.waiting++];
+  branch.origin = to_array(origin);
+  branch.direction = to_array(ways.reflected);
+  branch.weight = to_array(ways.reflected_weight);
+  branch.subspace = record.subspace;
+  branch.polygon = polygon;
+  branch.key = protocol::hash_combine(record.key, static_cast<std::uint32_t>(Dimension::branch));
+  branch.pe = niu.pe();
+  branch.bounce = record.bounce;
+  branch.flags = protocol::kFirst;
+}
+
+/// Turns the ray at mirror or glass. False: nothing of it is worth following.
+bool turn_ray(Pe& pe, Niu& niu, RayRecord& record, const Hit& hit) {
+  ++record.bounce;
+  if (record.bounce >= pe.scene.layout.bounces) return false;
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const Material& material = pe.scene.materials[polygon.material];
+  const glm::vec3 in = to_vector(record.direction);
+  const glm::vec3 origin = to_vector(record.origin) + in * hit.t;
+  const glm::vec3 flat = unit_normal(polygon);
+  const glm::vec3 round = shading_normal(pe.scene, polygon, hit);
+  record.key = protocol::hash_combine(record.key, record.bounce);
+  if (material.kind == MaterialKind::mirror) {
+    const glm::vec3 weight = to_vector(record.weight) * to_vector(material.specular);
+    if (!worth_following(pe, weight)) return false;
+    record.weight = to_array(weight);
+    turn(record, origin, reflect(in, flat, round), polygon.number);
+    return true;
+  }
+  const Ways ways = ways_at_glass(pe, record, material, hit, flat, round);
+  const bool reflects = worth_following(pe, ways.reflected_weight);
+  const bool refracts = worth_following(pe, ways.refracted_weight);
+  if (!reflects && !refracts) return false;
+  if (reflects && refracts) add_branch(pe, niu, record, origin, ways, polygon.number);
+  record.weight = to_array(refracts ? ways.refracted_weight : ways.reflected_weight);
+  turn(record, origin, refracts ? ways.refracted : ways.reflected, polygon.number);
+  return true;
+}
+
+void resume_branch(RayRecord& record) {
+  const Branch& branch = record.branches[--record.waiting];
+  record.origin = branch.origin;
+  record.direction = branch.direction;
+  record.weight = branch.weight;
+  record.subspace = branch.subspace;
+  record.polygon = branch.polygon;
+  record.key = branch.key;
+  record.bounce = branch.bounce;
+  record.flags = branch.flags;
+  record.kind = RecordKind::light;
+}
+
+/// The current path has ended. True: a branch of it goes on, here.
+bool next_path(Pe& pe, Niu& niu, Slot slot) {
+  auto& record = pe.slots.at<RayRecord>(slot);
+  if (record.waiting == 0) {
+    end_record(pe, niu, slot);
+    return false;
+  }
+  const PeNumber where = record.branches[record.waiting - 1U].pe;
+  if (where == niu.pe()) {
+    resume_branch(record);
+    return true;
+  }
+  record.kind = RecordKind::branch;
+  pe.outbox.put(niu, pe.slots, where, slot);
+  return false;
+}
+
+void follow_ray(Pe& pe, Niu& niu, Slot slot) {
+  auto& record = pe.slots.at<RayRecord>(slot);
+  for (;;) {
+    Segment segment = segment_of(record);
+    niu.enter_phase<Phase::traverse>();
+    const Way way = traverse(pe.scene, niu.pe(), segment);
+    niu.leave_phase<Phase::traverse>();
+    note_progress(record, segment);
+    if (way.end == WayEnd::handed_on) {
+      pe.outbox.put(niu, pe.slots, way.next, slot);
+      return;
+    }
+    bool goes_on = false;
+    if (way.end == WayEnd::hit) {
+      const PhaseMark<Phase::shade> mark(niu);
+      const Polygon& polygon = pe.scene.polygons[way.hit.polygon];
+      if (pe.scene.materials[polygon.material].kind == MaterialKind::diffuse) {
+        see_surface(pe, niu, record, way.hit);
+      } else {
+        goes_on = turn_ray(pe, niu, record, way.hit);
+      }
+    }
+    if (!goes_on && !next_path(pe, niu, slot)) return;
+  }
+}
+
+enum class RecordField : std::uint32_t { kind, subspace, entry_axis, waiting, branch_pe, branch_subspace, slot };
+
+void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {
+  if (!holds) niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(field), value);
+}
+
+void check_ray(const Pe& pe, Niu& niu, const RayRecord& record) {
+  const auto subspaces = static_cast<std::uint32_t>(pe.scene.subspaces.size());
+  const bool known = record.kind <= RecordKind::seek || (record.kind == RecordKind::branch && record.waiting > 0);
+  require(niu, known, RecordField::kind, static_cast<std::uint32_t>(record.kind));
+  require(niu, record.waiting <= protocol::kMostBranches, RecordField::waiting, record.waiting);
+  for (std::uint32_t i = 0; i < record.waiting; ++i) {
+    const Branch& branch = record.branches[i];
+    require(niu, branch.pe < niu.pes(), RecordField::branch_pe, branch.pe);
+    require(niu, branch.pe != niu.pe() || branch.subspace < subspaces, RecordField::branch_subspace, branch.subspace);
+  }
+  if (record.kind == RecordKind::branch) {
+    const Branch& last = record.branches[record.waiting - 1U];
+    require(niu, last.pe == niu.pe(), RecordField::branch_pe, last.pe);
+    return;
+  }
+  require(niu, record.subspace < subspaces, RecordField::subspace, record.subspace);
+  require(niu, (record.flags & protocol::kEntryAxisMask) != protocol::kEntryAxisMask, RecordField::entry_axis,
+          record.flags);
+}
+
+}  // namespace
+
+void handle_ray(Pe& pe, Niu& niu, Slot slot) {
+  require(niu, slot < pe.slots.count() && !pe.slots.is_own(slot), RecordField::slot, slot);
+  auto& record = pe.slots.at<RayRecord>(slot);
+  check_ray(pe, niu, record);
+  if (record.kind == RecordKind::branch) resume_branch(record);
+  follow_ray(pe, niu, slot);
+}
+
+}  // namespace torolux::pe

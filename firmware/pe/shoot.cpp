@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Shots: a patch's flux becomes records, one for each hemi-cube pixel. Enters: a shoot command and credits; leaves:
+// records, each of which is followed at once, and `shot_done`.
+#include "firmware/pe/hemicube.hpp"
+#include "firmware/pe/pe.hpp"
+#include "firmware/pe/surface.hpp"
+#include "firmware/pe/walk.hpp"
+#include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/random.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::Flux;
+using protocol::Patch;
+using protocol::Polygon;
+using protocol::Shoot;
+using protocol::ShotKind;
+
+enum class ShootField : std::uint32_t { patch, side, kind, amount };
+
+void require(Niu& niu, bool holds, ShootField field, std::uint32_t value) {
+  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
+}
+
+/// Takes exactly `amount` out of the side's unshot flux and returns the flux to shoot.
+Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
+  require(niu, shoot.patch < pe.scene.patches.size(), ShootField::patch, shoot.patch);
+  require(niu, shoot.side < 2, ShootField::side, shoot.side);
+  require(niu, shoot.kind <= ShotKind::emitted, ShootField::kind, static_cast<std::uint32_t>(shoot.kind));
+  const Patch& patch = pe.scene.patches[shoot.patch];
+  require(niu, patch.side[shoot.side] != protocol::kNoSide, ShootField::side, shoot.side);
+  protocol::PatchSide& side = pe.scene.patch_sides[patch.side[shoot.side]];
+  const protocol::Material& material = pe.scene.materials[pe.scene.polygons[patch.polygon].material];
+  Flux flux{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int64_t there = shoot.kind == ShotKind::emitted ? side.emission[c] : side.incident[c] - side.shot[c];
+    require(niu, shoot.amount[c] >= 0 && shoot.amount[c] <= there, ShootField::amount, static_cast<std::uint32_t>(c));
+    if (shoot.kind == ShotKind::emitted) {
+      side.emission[c] -= shoot.amount[c];
+      flux[c] = shoot.amount[c];
+    } else {
+      side.shot[c] += shoot.amount[c];
+      flux[c] = protocol::scale_down(shoot.amount[c], material.diffuse_fraction[c]);
+    }
+  }
+  return flux;
+}
+
+/// Sets up the current point: its share of the flux, its place, its spin.
+void begin_point(Pe& pe) {
+  Shot& shot = pe.shot;
+  const Patch& patch = pe.scene.patches[shot.command.patch];
+  const Polygon& polygon = pe.scene.polygons[patch.polygon];
+  for (std::size_t c = 0; c < 3; ++c) {
+    shot.share[c] = protocol::equal_share(shot.flux[c], shot.point, shot.grid * shot.grid);
+  }
+  shot.passed = {};
+  shot.weight = 0;
+  shot.next_pixel = 0;
+
+  const protocol::GridTriangle grid = protocol::grid_triangle(patch.path, polygon.patch_level);
+  const PatchPoint at = patch_point(shot.grid, shot.point);
+  const float rest = (1.0F - at.a) - at.b;
+  glm::vec3 origin(0.0F);
+  for (int i = 0; i < 3; ++i) {
+    constexpr float unit = 1.0F / static_cast<float>(1 << protocol::kMostLevels);
+    const float weight = (rest * static_cast<float>(grid.corner[0][i]) + at.a * static_cast<float>(grid.corner[1][i])) +
+                         at.b * static_cast<float>(grid.corner[2][i]);
+    origin += to_vector(polygon.corner[static_cast<std::size_t>(i)]) * (weight * unit);
+  }
+  shot.origin = origin;
+  shot.seeks = seek_face(pe.scene.layout, origin, pe.scene.subspaces[patch.subspace].cell) != protocol::kFaces;
+
+  std::uint32_t key = protocol::hash_combine(pe.scene.layout.seed, patch.number);
+  key = protocol::hash_combine(key, shot.command.side * 2U + static_cast<std::uint32_t>(shot.command.kind));
+  key = protocol::hash_combine(key, shot.command.number);
+  shot.key = protocol::hash_combine(key, shot.point);
+  const glm::vec3 front = unit_normal(polygon);
+  const glm::vec3 away = shot.command.side == 0 ? front : -front;
+  const glm::vec3 across = glm::normalize(to_vector(polygon.corner[1]) - to_vector(polygon.corner[0]));
+  shot.frame = spun({across, glm::cross(away, across), away}, protocol::uniform(shot.key, protocol::Dimension::spin));
+}
+
+/// Moves on to the next pixel that gets any flux. False: the shot is over. Differences of one rising sum, so that
+/// nothing of the flux is lost.
+bool next_pixel(Pe& pe) {
+  Shot& shot = pe.shot;
+  const std::uint32_t n = pe.scene.layout.hemicube_size;
+  for (;;) {
+    if (shot.next_pixel == protocol::hemicube_pixels(n)) {
+      if (++shot.point == shot.grid * shot.grid) return false;
+      begin_point(pe);
+    }
+    shot.pixel = shot.next_pixel++;
+    shot.weight += pe.scene.hemicube[hemicube_pixel(n, shot.pixel).weight];
+    bool any = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int64_t passed = protocol::scale_down(shot.share[c], shot.weight);
+      shot.pixel_flux[c] = passed - shot.passed[c];
+      shot.passed[c] = passed;
+      any = any || shot.pixel_flux[c] != 0;
+    }
+    if (any) return true;
+  }
+}
+
+void create_record(Pe& pe, Niu& niu) {
+  const Shot& shot = pe.shot;
+  const Patch& patch = pe.scene.patches[shot.command.patch];
+  const glm::vec3 direction = pixel_direction(shot.frame, hemicube_pixel(pe.scene.layout.hemicube_size, shot.pixel));
+  const Slot slot = pe.slots.take(niu);
+  auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
+  record.origin = to_array(shot.origin);
+  record.direction = to_array(direction);
+  record.flux = shot.pixel_flux;
+  record.subspace = patch.subspace;
+  record.polygon = pe.scene.polygons[patch.polygon].number;
+  record.key = protocol::hash_combine(shot.key, shot.pixel);
+  record.kind = shot.seeks ? protocol::RecordKind::seek : protocol::RecordKind::light;
+  record.bounce = 0;
+  record.flags =
+      static_cast<std::uint8_t>(protocol::kFirst | (shot.command.kind == ShotKind::emitted ? protocol::kDirect : 0U));
+  record.unused = 0;
+  ++pe.tally.rays;
+  follow_light(pe, niu, slot);
+}
+
+/// Credits that were not needed go home before the shot is reported done.
+void end_shot(Pe& pe, Niu& niu) {
+  pe.shot.active = false;
+  if (pe.shot.credits > 0) pe.homecoming.add_credits(niu, pe.shot.credits);
+  pe.shot.credits = 0;
+  pe.homecoming.flush(niu);
+  niu.send(protocol::MessageKind::shot_done);
+}
+
+}  // namespace
+
+void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
+  const PhaseMark<Phase::shoot> mark(niu);
+  Shot& shot = pe.shot;
+  shot.command = shoot;
+  shot.flux = withdraw(pe, niu, shot.command);
+  shot.grid = shoot.kind == ShotKind::emitted ? pe.scene.layout.emission_points : pe.scene.layout.shot_points;
+  shot.active = true;
+  shot.point = 0;
+  shot.credits = 0;
+  begin_point(pe);
+  if (!next_pixel(pe)) end_shot(pe, niu);
+}
+
+void grant_credits(Pe& pe, Niu& niu, std::uint32_t credits) {
+  const PhaseMark<Phase::shoot> mark(niu);
+  if (!pe.shot.active) {  // granted before the host knew that the shot was over
+    pe.homecoming.add_credits(niu, credits);
+    return;
+  }
+  pe.shot.credits += credits;
+  while (pe.shot.credits > 0) {
+    --pe.shot.credits;
+    create_record(pe, niu);
+    if (!next_pixel(pe)) {
+      end_shot(pe, niu);
+      return;
+    }
+  }
+}
+
+}  // namespace torolux::pe

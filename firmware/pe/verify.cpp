@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Checks every index in the stores once, before a stage begins: the handlers trust them afterwards.
+#include <cstddef>
+
+#include "firmware/pe/pe.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::kFaces;
+using protocol::kNobody;
+using protocol::Polygon;
+using protocol::Stage;
+using protocol::Subspace;
+
+/// First detail of FaultCode::outside_store: which index; then its value and the limit.
+enum class Index : std::uint32_t {
+  cell,
+  neighbour,
+  neighbour_pe,
+  neighbour_cell,
+  polygon_list,
+  polygon,
+  list_order,
+  corner,
+  material,
+  material_kind,
+  normals,
+  levels,
+  surface,
+  reference_pe,
+  reference_patch,
+  reference_side,
+  patch_polygon,
+  patch_path,
+  patch_subspace,
+  patch_side,
+  first_element,
+  hemicube_sum,
+  refractive_index,
+};
+
+class Verifier {
+ public:
+  Verifier(Niu& niu, const Scene& scene) : niu_(niu), scene_(scene) {}
+
+  void all() {
+    for (const Subspace& subspace : scene_.subspaces) check(subspace);
+    for (const Polygon& polygon : scene_.polygons) check(polygon);
+    for (const protocol::Material& material : scene_.materials) check(material);
+    if (scene_.layout.stage != Stage::radiosity) return;
+    for (const protocol::Patch& patch : scene_.patches) check(patch);
+    for (const protocol::PatchReference& reference : scene_.patch_references) check(reference);
+    check_hemicube();
+  }
+
+ private:
+  void require(bool holds, Index index, std::uint32_t value, std::size_t limit) {
+    if (!holds) {
+      niu_.fail(FaultCode::outside_store, static_cast<std::uint32_t>(index), value, static_cast<std::uint32_t>(limit));
+    }
+  }
+  void below(Index index, std::uint32_t value, std::size_t limit) { require(value < limit, index, value, limit); }
+  /// count items from `first` on.
+  void range(Index index, std::uint32_t first, std::uint32_t count, std::size_t limit) {
+    require(first <= limit && count <= limit - first, index, first, limit);
+  }
+
+  void check(const Subspace& s) {
+    for (std::size_t axis = 0; axis < 3; ++axis) below(Index::cell, s.cell[axis], scene_.layout.cells[axis]);
+    for (std::uint32_t face = 0; face < kFaces; ++face) {
+      if (s.neighbour_pe[face] == kNobody) continue;
+      below(Index::neighbour_pe, s.neighbour_pe[face], niu_.pes());
+      if (s.neighbour_pe[face] == niu_.pe()) check_neighbour(s, face);
+    }
+    range(Index::polygon_list, s.first_polygon, s.polygon_count, scene_.polygon_list.size());
+    for (std::uint32_t i = 0; i < s.polygon_count; ++i) {
+      const std::uint32_t* entry = &scene_.polygon_list[s.first_polygon + i];
+      below(Index::polygon, entry[0], scene_.polygons.size());
+      const bool rises = i == 0 || scene_.polygons[entry[-1]].number < scene_.polygons[entry[0]].number;
+      require(rises, Index::list_order, entry[0], 0);
+    }
+  }
+  /// A neighbour on this PE lies one cell on: so a walk always ends.
+  void check_neighbour(const Subspace& s, std::uint32_t face) {
+    below(Index::neighbour, s.neighbour[face], scene_.subspaces.size());
+    const Subspace& other = scene_.subspaces[s.neighbour[face]];
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t step = face / 2U != axis ? 0U : face % 2U == 1U ? 1U : 0xFFFF'FFFFU;
+      require(other.cell[axis] == s.cell[axis] + step, Index::neighbour_cell, s.neighbour[face], face);
+    }
+  }
+
+  void check(const Polygon& p) {
+    for (const protocol::Vec3f& corner : p.corner) {
+      for (const float x : corner) {  // inside the unit cube but for rounding; not a number fails, too
+        require(x >= -0x1p-20F && x <= 1.0F + 0x1p-20F, Index::corner, p.number, 1);
+      }
+    }
+    below(Index::material, p.material, scene_.materials.size());
+    if (p.normals != protocol::kNoPolygon) range(Index::normals, p.normals, 3, scene_.normals.size());
+    const bool levels = p.element_level <= protocol::kMostLevels && p.patch_level <= p.element_level;
+    require(levels, Index::levels, p.patch_level, p.element_level);
+    if (p.sides == 0) return;
+    require(p.sides <= (protocol::kFrontPresent | protocol::kBackPresent), Index::surface, p.sides, 3);
+    if (scene_.layout.stage == Stage::radiosity) {
+      const std::uint32_t patches = protocol::triangles_of_level(p.patch_level);
+      range(Index::surface, p.surface, patches, scene_.patch_references.size());
+      check_references(p, patches);
+    } else {
+      const std::uint32_t lattices = p.sides == 3U ? 2U : 1U;
+      range(Index::surface, p.surface, lattices * protocol::lattice_size(p.element_level), scene_.lattice.size());
+    }
+  }
+  /// Where this PE owns a patch of the polygon, the patch has the sides and elements that the polygon promises.
+  void check_references(const Polygon& p, std::uint32_t patches) {
+    for (std::uint32_t i = 0; i < patches; ++i) {
+      const protocol::PatchReference& reference = scene_.patch_references[p.surface + i];
+      if (reference.pe != niu_.pe()) continue;
+      below(Index::reference_patch, reference.patch, scene_.patches.size());
+      const protocol::Patch& patch = scene_.patches[reference.patch];
+      below(Index::patch_polygon, patch.polygon, scene_.polygons.size());
+      const Polygon& q = scene_.polygons[patch.polygon];
+      const bool same = q.number == p.number && q.patch_level == p.patch_level && q.element_level == p.element_level &&
+                        patch.path == i;
+      require(same, Index::reference_patch, reference.patch, i);
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        const bool promised = (p.sides & (1U << side)) != 0;
+        require(!promised || patch.side[side] != protocol::kNoSide, Index::reference_side, reference.patch, side);
+      }
+    }
+  }
+
+  void check(const protocol::Material& material) {
+    require(material.kind <= protocol::MaterialKind::glass, Index::material_kind,
+            static_cast<std::uint32_t>(material.kind), 3);
+    const bool bends = material.kind != protocol::MaterialKind::glass || material.refractive_index > 0.0F;
+    require(bends, Index::refractive_index, 0, 0);
+  }
+
+  void check(const protocol::PatchReference& reference) {
+    below(Index::reference_pe, reference.pe, niu_.pes());
+    if (reference.pe == niu_.pe()) below(Index::reference_patch, reference.patch, scene_.patches.size());
+  }
+
+  void check(const protocol::Patch& patch) {
+    below(Index::patch_polygon, patch.polygon, scene_.polygons.size());
+    const Polygon& polygon = scene_.polygons[patch.polygon];
+    below(Index::patch_path, patch.path, protocol::triangles_of_level(polygon.patch_level));
+    below(Index::patch_subspace, patch.subspace, scene_.subspaces.size());
+    for (const std::uint32_t side : patch.side) {
+      if (side == protocol::kNoSide) continue;
+      below(Index::patch_side, side, scene_.patch_sides.size());
+      range(Index::first_element, scene_.patch_sides[side].first_element, Scene::elements_per_patch(polygon),
+            scene_.elements.size());
+    }
+  }
+
+  void check_hemicube() {
+    const std::uint32_t n = scene_.layout.hemicube_size;
+    const std::uint32_t top = n / 2U * (n / 2U);
+    std::uint64_t sum = 0;
+    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i) sum += scene_.hemicube[i] * (i < top ? 4ULL : 8ULL);
+    require(sum == protocol::kOne, Index::hemicube_sum, static_cast<std::uint32_t>(sum),
+            static_cast<std::uint32_t>(sum >> 32U));
+  }
+
+  Niu& niu_;
+  const Scene& scene_;
+};
+
+}  // namespace
+
+void verify_stores(Niu& niu, const Scene& scene) {
+  Verifier(niu, scene).all();
+}
+
+}  // namespace torolux::pe
