@@ -75,7 +75,7 @@ setup_preset() {
   echo "torolux: building: $preset" >&2
   setup_logged_or_stop "build-$preset" cmake --build "$folder" --target "$@"
   # The table of regions of each image that was linked.
-  [[ $preset == firmware ]] && grep -E '^[^\[]+  +(address|0x)' "$root/build/build-firmware.log" >&2
+  [[ $preset == firmware ]] && grep -E ' (address|0x[0-9a-f]{8}) ' "$root/build/build-firmware.log" >&2
   return 0
 }
 
