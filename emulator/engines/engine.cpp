@@ -39,7 +39,7 @@ const EngineFactory& engine_named(std::string_view name) {
   if (found == registry().end()) {
     std::string message = "no engine '" + std::string(name) + "'; there is";
     for (const std::string_view known : engine_names()) {
-      message += " " + std::string(known);
+      message.append(" ").append(known);
     }
     throw UsageError(message);
   }

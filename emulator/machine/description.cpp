@@ -46,7 +46,7 @@ void add_network_keys(Description& d, std::vector<Key>& keys) {
   keys.push_back({"torus.link_cycles", &d.torus.link_cycles, 1, kMostCycles});
   keys.push_back({"torus.buffer_packets", &d.torus.buffer_packets, 2, 4096});
   keys.push_back({"torus.slot_return_cycles", &d.torus.slot_return_cycles, 1, kMostCycles});
-  keys.push_back({"torus.send_queue_packets", &d.torus.send_queue_packets, 1, 4096});
+  keys.push_back({"torus.send_queue_packets", &d.torus.send_queue_packets, 1, 256});
   keys.push_back({"torus.bubble", &d.torus.bubble});
   keys.push_back({"torus.link_error_rate", &d.torus.link_error_rate, 0, 0.5});
   keys.push_back({"torus.retry_cycles", &d.torus.retry_cycles, 1, kMostCycles});
@@ -56,13 +56,13 @@ void add_network_keys(Description& d, std::vector<Key>& keys) {
 void add_other_keys(Description& d, std::vector<Key>& keys) {
   keys.push_back({"bus.bytes_per_cycle", &d.bus.bytes_per_cycle, 1, 4096});
   keys.push_back({"bus.arbitration_cycles", &d.bus.arbitration_cycles, 1, kMostCycles});
-  keys.push_back({"bus.send_queue_messages", &d.bus.send_queue_messages, 1, 4096});
+  keys.push_back({"bus.send_queue_messages", &d.bus.send_queue_messages, 1, 256});
   keys.push_back({"bus.control_buffers", &d.bus.control_buffers, 1, 4096});
   keys.push_back({"frame_buffer.cycles_per_pixel", &d.frame_buffer.cycles_per_pixel, 1, kMostCycles});
   keys.push_back({"frame_buffer.queue_messages", &d.frame_buffer.queue_messages, 1, 65536});
   keys.push_back({"host.cycles_per_message", &d.host.cycles_per_message, 1, kMostCycles});
   keys.push_back({"records.credits_per_pe", &d.records.credits_per_pe, 1, 65536});
-  keys.push_back({"records.niu_slots", &d.records.niu_slots, protocol::kMostRecordsPerPacket, 32768});
+  keys.push_back({"records.niu_slots", &d.records.niu_slots, protocol::kMostRecordsPerPacket, 8192});
 }
 
 std::vector<Key> keys_of(Description& description) {
