@@ -1,0 +1,35 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Runs clang-tidy on every C++ source that a native build compiles: check_tidy.sh BUILD_FOLDER. A file that has passed is
+# not looked at again until it, a header of its own or the rules change.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/sources.sh"
+cd "$root"
+export build=$1
+export passed=$build/tidy
+mkdir -p "$passed"
+rules=$( (cat .clang-tidy && clang-tidy --version) | sha256sum)
+export rules
+
+# The command that preprocesses a source, made of the one that CMake has written down for compiling it; nothing for a
+# source that is not compiled natively.
+preprocess_command() {
+  awk -v file="\"file\": \"$1\"" '/^ *"command": / { line = $0 } index($0, file) { print line; exit }' \
+    "$build/compile_commands.json" | sed -e 's/^ *"command": "//' -e 's/",$//' -e 's/\\"/"/g' -e 's/\\\\/\\/g' \
+    -e 's/ -o [^ ]* -c / -E -C /'
+}
+
+# One source, relative to the checkout. A stamp, named by the hash of all that the result depends on, says that it passed.
+check() {
+  local file=$1 command stamp
+  command=$(preprocess_command "$PWD/$file")
+  [[ -n $command ]] || return 0
+  # Preprocessed, with comments, as a NOLINT is one.
+  stamp=$passed/$( (echo "$rules" && cd "$build" && eval "$command") | sha256sum | cut -c 1-32)
+  [[ -e $stamp ]] && return 0
+  clang-tidy --quiet -p "$build" "$file" 2> >(grep -v 'warnings generated' >&2) || return 1
+  touch "$stamp"
+}
+export -f check preprocess_command
+
+printf '%s\0' "${sources[@]}" | grep -z '\.cpp$' | xargs -0 -n 1 -P "$(nproc)" bash -c 'check "$1"' check
