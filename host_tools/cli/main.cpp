@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/cli/help_format.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/version.hpp"
 
@@ -56,7 +58,7 @@ int torolux_main(int argc, const char* const* argv) {
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
   app.set_version_flag("--version", std::string("torolux ") + kVersion);
   app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
+  app.formatter(std::make_shared<HelpFormat>());
   app.footer(
       "Exit codes: 0 done, 1 usage, 2 bad input, 3 machine failure, 130 interrupted.\n"
       "`torolux COMMAND --help` tells the options of a command.");
