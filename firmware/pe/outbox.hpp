@@ -61,7 +61,7 @@ class Outbox {
   std::array<Batch, protocol::kOpenBatches> batches_{};
   std::uint32_t used_ = 0;
   std::uint32_t opened_ = 0;
-  std::uint32_t most_ = protocol::kMostRecordsPerPacket;
+  std::uint32_t most_ = 0;  ///< records in a packet of this stage
 };
 
 }  // namespace torolux::pe

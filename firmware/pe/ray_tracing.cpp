@@ -39,7 +39,7 @@ struct Ways {
   float reflectance;
 };
 
-Ways ways_at_glass(const Pe& pe, const RayRecord& record, const Material& glass, const Hit& hit, const glm::vec3& flat,
+Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hit, const glm::vec3& flat,
                    const glm::vec3& round) {
   const glm::vec3 in = to_vector(record.direction);
   const glm::vec3 weight = to_vector(record.weight);
@@ -55,13 +55,11 @@ Ways ways_at_glass(const Pe& pe, const RayRecord& record, const Material& glass,
     ways.reflected_weight = reflects ? weight : glm::vec3(0.0F);
     ways.refracted_weight = reflects ? glm::vec3(0.0F) : weight * to_vector(glass.transmittance);
   }
-  (void)pe;
   return ways;
 }
 
 /// The reflected way waits inside the record until the refracted one has ended.
-void add_branch(Pe& pe, Niu& niu, RayRecord& record, const glm::vec3& origin, const Ways& ways, std::uint32_t polygon) {
-  (void)pe;
+void add_branch(PeNumber self, RayRecord& record, const glm::vec3& origin, const Ways& ways, std::uint32_t polygon) {
   Branch& branch = record.branches[record.waiting++];
   branch.origin = to_array(origin);
   branch.direction = to_array(ways.reflected);
@@ -69,13 +67,13 @@ void add_branch(Pe& pe, Niu& niu, RayRecord& record, const glm::vec3& origin, co
   branch.subspace = record.subspace;
   branch.polygon = polygon;
   branch.key = protocol::hash_combine(record.key, static_cast<std::uint32_t>(Dimension::branch));
-  branch.pe = niu.pe();
+  branch.pe = self;
   branch.bounce = record.bounce;
   branch.flags = protocol::kFirst;
 }
 
 /// Turns the ray at mirror or glass. False: nothing of it is worth following.
-bool turn_ray(Pe& pe, Niu& niu, RayRecord& record, const Hit& hit) {
+bool turn_ray(const Pe& pe, PeNumber self, RayRecord& record, const Hit& hit) {
   ++record.bounce;
   if (record.bounce >= pe.scene.layout.bounces) return false;
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
@@ -92,11 +90,11 @@ bool turn_ray(Pe& pe, Niu& niu, RayRecord& record, const Hit& hit) {
     turn(record, origin, reflect(in, flat, round), polygon.number);
     return true;
   }
-  const Ways ways = ways_at_glass(pe, record, material, hit, flat, round);
+  const Ways ways = ways_at_glass(record, material, hit, flat, round);
   const bool reflects = worth_following(pe, ways.reflected_weight);
   const bool refracts = worth_following(pe, ways.refracted_weight);
   if (!reflects && !refracts) return false;
-  if (reflects && refracts) add_branch(pe, niu, record, origin, ways, polygon.number);
+  if (reflects && refracts) add_branch(self, record, origin, ways, polygon.number);
   record.weight = to_array(refracts ? ways.refracted_weight : ways.reflected_weight);
   turn(record, origin, refracts ? ways.refracted : ways.reflected, polygon.number);
   return true;
@@ -151,7 +149,7 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
       if (pe.scene.materials[polygon.material].kind == MaterialKind::diffuse) {
         see_surface(pe, niu, record, way.hit);
       } else {
-        goes_on = turn_ray(pe, niu, record, way.hit);
+        goes_on = turn_ray(pe, niu.pe(), record, way.hit);
       }
     }
     if (!goes_on && !next_path(pe, niu, slot)) return;

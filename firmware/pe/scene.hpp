@@ -11,7 +11,7 @@
 namespace torolux::pe {
 
 struct Scene {
-  protocol::StageLayout layout;
+  protocol::StageLayout layout{};
   std::span<const protocol::Subspace> subspaces;
   std::span<const std::uint32_t> polygon_list;
   std::span<const protocol::Polygon> polygons;

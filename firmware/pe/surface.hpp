@@ -35,10 +35,9 @@ inline LatticeWeights lattice_weights(float b1, float b2, std::uint32_t level) {
   const auto n = static_cast<std::int32_t>(1U << level);
   const float x = b1 * static_cast<float>(n);
   const float y = b2 * static_cast<float>(n);
-  const auto below = [n](float value, std::int32_t most) {  // rounding may leave the triangle by a little
+  const auto below = [](float value, std::int32_t most) -> std::int32_t {  // rounding may leave the triangle a little
     if (!(value > 0.0F)) return 0;
-    return value < static_cast<float>(n) && static_cast<std::int32_t>(value) < most ? static_cast<std::int32_t>(value)
-                                                                                    : most;
+    return value < static_cast<float>(most) ? static_cast<std::int32_t>(value) : most;
   };
   const std::int32_t i = below(x, n - 1);
   const std::int32_t j = below(y, n - 1 - i);
