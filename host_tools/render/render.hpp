@@ -38,6 +38,7 @@ struct MachineChoice {
   std::optional<std::uint32_t> pe_memory;                 ///< bytes; absent: smallest power of two from 1 MiB that fits
   std::optional<std::array<std::uint32_t, 3>> subspaces;  ///< absent: auto
   std::string allocation = "skewed";
+  bool skip_empty_subspaces = true;  ///< camera rays begin in the first subspace on their way with anything in it
   std::string engine = "qemu";
   unsigned threads = 0;
 };

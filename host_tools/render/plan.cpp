@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What a render would need, without running it. See render.hpp.
+#include <algorithm>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/render/render.hpp"
+#include "host_tools/render/setup.hpp"
+
+namespace torolux {
+namespace {
+
+/// Rough: a camera ray crosses some subspaces with a dozen polygons each and is shaded once.
+constexpr double kCyclesPerRay = 12'000;
+
+void predict(const RenderSetup& setup, const Quality& quality, RenderPlan& plan) {
+  const double rays = static_cast<double>(quality.width) * quality.height * quality.samples;
+  std::uint64_t bytes = 0;
+  for (const std::uint64_t pe_bytes : setup.need.pe_bytes) bytes += pe_bytes;
+  // Loading goes over the bus at eight bytes a cycle, one PE after the other.
+  plan.predicted_cycles = setup.placement.predicted_radiosity_cycles +
+                          rays * kCyclesPerRay / setup.placement.torus.pes() + static_cast<double>(bytes) / 8;
+}
+
+}  // namespace
+
+RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice& machine,
+                const std::filesystem::path& pe_image) {
+  RenderPlan plan{};
+  try {
+    const RenderSetup setup = make_setup(scene, quality, machine, load_image(pe_image));
+    plan.triangles = setup.mesh.triangles.size();
+    plan.patches = setup.mesh.patches;
+    for (const MeshTriangle& triangle : setup.mesh.triangles) {
+      if (triangle.sides != 0) plan.elements += protocol::triangles_of_level(triangle.element_level);
+    }
+    plan.subspaces = setup.placement.grid.cells;
+    plan.filled_subspaces = setup.placement.filled_cells;
+    plan.pe_bytes = setup.need.pe_bytes;
+    plan.local_memory_needed = static_cast<std::uint32_t>(std::min<std::uint64_t>(setup.need.most(), UINT32_MAX));
+    const std::uint32_t available = machine.pe_memory.value_or(protocol::kLargestLocalMemory);
+    plan.local_memory_bytes = setup.memory.value_or(available);
+    plan.mean_neighbour_hops =
+        mean_neighbour_hops(setup.placement.grid, setup.placement.torus, setup.placement.pe_of_cell);
+    if (!setup.memory) plan.refusals.push_back(setup.need.refusal(available));
+    plan.notes = setup.notes;
+    predict(setup, quality, plan);
+  } catch (const InputError& error) {
+    plan.refusals.emplace_back(error.what());
+  }
+  return plan;
+}
+
+}  // namespace torolux

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// See setup.hpp.
+#include "host_tools/render/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/random.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux {
+namespace {
+
+/// Records with which all emitters together begin, at hemi-cube 16 and 2 x 2 points: their light casts the sharpest
+/// shadows, so they get more points than a patch that only reflects.
+constexpr double kEmissionRecords = 500'000;
+/// Quanta of a pixel for one unit of radiance (the scene's greatest emitted one). With reflectances below 0.99 a
+/// surface shows at most 100 units, 2^47 quanta, far from the 2^63 at which the frame buffer's integers end.
+constexpr float kPixelScale = 0x1p40F;
+/// Branches that would add less than this to a sample are not followed; weights are divided by the samples.
+constexpr float kLeastWeight = 1e-4F;
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28U;
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw UsageError(what);
+}
+
+void check(const Quality& quality, const MachineChoice& machine) {
+  require(quality.width > 0 && quality.height > 0 && std::uint64_t{quality.width} * quality.height <= kMostPixels,
+          "--size: at least 1x1 and at most " + std::to_string(kMostPixels) + " pixels");
+  require(quality.samples > 0 && quality.samples <= 65536, "--samples: 1 to 65536");
+  require(quality.hemicube >= 4 && quality.hemicube <= protocol::kMostHemicubeSize && quality.hemicube % 2 == 0,
+          "--hemicube: an even number from 4 to " + std::to_string(protocol::kMostHemicubeSize));
+  require(quality.shot_points > 0 && quality.shot_points <= protocol::kMostShotPoints,
+          "--shot-points: 1 to " + std::to_string(protocol::kMostShotPoints));
+  require(quality.bounces > 0 && quality.bounces <= protocol::kMostBounces,
+          "--bounces: 1 to " + std::to_string(protocol::kMostBounces));
+  require(quality.unshot >= 0 && quality.unshot <= 1, "--unshot: a fraction from 0 to 1");
+  require(!quality.patch_length || *quality.patch_length > 0, "--patches: a length greater than 0, or auto");
+  require(!quality.element_length || *quality.element_length > 0, "--elements: a length greater than 0, or auto");
+  require(
+      machine.columns > 0 && machine.rows > 0 && std::uint64_t{machine.columns} * machine.rows <= protocol::kMostPes,
+      "--pes: at least 1x1 and at most " + std::to_string(protocol::kMostPes) + " in all");
+}
+
+std::uint32_t emission_points(const Scene& scene, const Mesh& mesh, const Quality& quality) {
+  double emitting = 0;
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (!emits(scene.materials[triangle.material])) continue;
+    emitting += protocol::triangles_of_level(triangle.patch_level) * (quality.two_sided_lights ? 2.0 : 1.0);
+  }
+  const double pixels_of_16 = protocol::hemicube_pixels(16);
+  const double wanted = std::sqrt(kEmissionRecords / (pixels_of_16 * emitting)) * quality.shot_points / 2;
+  const double most = std::min(16.0 * quality.shot_points, static_cast<double>(protocol::kMostShotPoints));
+  return static_cast<std::uint32_t>(std::clamp(std::floor(wanted), static_cast<double>(quality.shot_points), most));
+}
+
+}  // namespace
+
+std::uint32_t machine_seed(std::uint64_t seed) {
+  const std::uint32_t low = protocol::hash_combine(0, static_cast<std::uint32_t>(seed));
+  return protocol::hash_combine(low, static_cast<std::uint32_t>(seed >> 32U));
+}
+
+RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image) {
+  check(quality, machine);
+  RenderSetup setup;
+  setup.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights});
+  setup.notes = setup.mesh.notes;
+  setup.units = light_units(scene, setup.mesh, quality.two_sided_lights);
+  setup.parameters.seed = machine_seed(quality.seed);
+  setup.parameters.bounces = quality.bounces;
+  setup.parameters.hemicube = quality.hemicube;
+  setup.parameters.shot_points = quality.shot_points;
+  setup.parameters.emission_points = emission_points(scene, setup.mesh, quality);
+  setup.parameters.pixel_scale = kPixelScale;
+  setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.samples);
+  PlacementChoice placement;
+  placement.torus = {machine.columns, machine.rows};
+  placement.subspaces = machine.subspaces;
+  placement.allocation = machine.allocation;
+  // Some four shots of each patch.
+  placement.records_per_patch =
+      4.0 * quality.shot_points * quality.shot_points * protocol::hemicube_pixels(quality.hemicube);
+  setup.placement = make_placement(setup.mesh, placement);
+  setup.map = {image.stores_begin, machine.description.records.niu_slots};
+  setup.need = memory_need(setup.mesh, setup.placement, setup.parameters, setup.map);
+  setup.memory = choose_memory(setup.need, machine.pe_memory);
+  setup.credits = std::uint64_t{machine.description.records.credits_per_pe} * setup.placement.torus.pes();
+  if (!machine.pe_memory && setup.memory) {
+    setup.notes.push_back("memory of each PE: " + with_commas(*setup.memory) + " bytes (the fullest, PE " +
+                          std::to_string(setup.need.fullest) + ", needs " + with_commas(setup.need.most()) + ")");
+  }
+  for (const SceneMaterial& material : scene.materials) {
+    if (material.kind != SurfaceKind::diffuse && material.emission != Vec3d{0, 0, 0}) {
+      setup.notes.push_back("material '" + material.name + "' is mirror or glass: its emission (Ke) is ignored");
+    }
+  }
+  return setup;
+}
+
+RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality) {
+  const Mesh& mesh = setup.mesh;
+  RadiositySettings settings;
+  settings.pes = setup.placement.torus.pes();
+  settings.credits = setup.credits;
+  // Enough shooters to keep many PEs busy, few enough that each shoots what the others have just sent it.
+  settings.shooters = std::clamp(mesh.patches / 12U, 8U, protocol::kMostShooters);
+  settings.max_shots = quality.max_shots;
+  double emitted = 0;
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    const protocol::Material material = machine_material(scene.materials[triangle.material], setup.units);
+    const std::uint32_t patches = triangle.sides == 0 ? 0 : protocol::triangles_of_level(triangle.patch_level);
+    settings.reflectance.insert(settings.reflectance.end(), patches, material.diffuse_fraction);
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (triangle.first_side[side] == protocol::kNoSide) continue;
+      for (const std::int64_t flux : patch_emission(scene, triangle, side, setup.units)) {
+        emitted += static_cast<double>(flux) * patches;
+      }
+    }
+  }
+  settings.emitted = emitted;
+  settings.enough_unshot = static_cast<std::int64_t>(emitted * quality.unshot);
+  // Where no side has more than this, emitted or reflected, all of them together have no more than `enough_unshot`.
+  settings.least_unshot = settings.enough_unshot / (2 * std::max<std::int64_t>(1, mesh.patch_sides));
+  return settings;
+}
+
+}  // namespace torolux

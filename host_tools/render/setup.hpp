@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Everything that is settled before a machine is started: mesh, placement, units, parameters, memory.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/engines/image.hpp"
+#include "host_tools/layout/light_units.hpp"
+#include "host_tools/layout/stage_layout.hpp"
+#include "host_tools/render/render.hpp"
+#include "host_tools/stages/radiosity_phase.hpp"
+
+namespace torolux {
+
+struct RenderSetup {
+  Mesh mesh;
+  LightUnits units;
+  Placement placement;
+  StageParameters parameters;
+  MemoryMap map;
+  MemoryNeed need;
+  std::optional<std::uint32_t> memory;  ///< absent: does not fit
+  std::uint64_t credits = 0;            ///< W
+  std::vector<std::string> notes;
+};
+
+/// Throws UsageError (settings out of range) and InputError (no surface, no light, too many elements).
+RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image);
+
+RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);
+
+/// 32 bits of the user's seed.
+std::uint32_t machine_seed(std::uint64_t seed);
+
+}  // namespace torolux

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The energy balance of a solution, exact in integers. See solution.hpp.
+#include <string>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/solution/solution.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::Flux;
+
+void add_to(Flux& sum, const Flux& more) {
+  for (std::size_t c = 0; c < 3; ++c) sum[c] += more[c];
+}
+
+void require_equal(const Flux& a, const Flux& b, const std::string& what) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (a[c] == b[c]) continue;
+    throw MachineFailure("light was lost or made: " + what + ", channel " + std::to_string(c) + ": " +
+                         std::to_string(a[c]) + " and " + std::to_string(b[c]) + " quanta");
+  }
+}
+
+struct Sums {
+  Flux emitted{}, incident{}, unshot_emission{}, unshot_reflected{};
+};
+
+void add_triangle(const Scene& scene, const MeshTriangle& triangle, const LightUnits& units, const Solution& solution,
+                  Sums& sums) {
+  const protocol::Material material = machine_material(scene.materials[triangle.material], units);
+  const std::uint32_t patches = protocol::triangles_of_level(triangle.patch_level);
+  const std::uint32_t per_patch = protocol::triangles_of_level(std::uint32_t{triangle.element_level}) / patches;
+  for (std::uint32_t s = 0; s < 2; ++s) {
+    if (triangle.first_side[s] == protocol::kNoSide) continue;
+    const Flux emission = patch_emission(scene, triangle, s, units);
+    for (std::uint32_t p = 0; p < patches; ++p) {
+      const SolvedSide& side = solution.sides[triangle.first_side[s] + p];
+      Flux elements{};
+      for (std::uint32_t e = 0; e < per_patch; ++e) {
+        add_to(elements, solution.elements[triangle.first_element[s] + p * per_patch + e].flux);
+      }
+      require_equal(elements, side.incident, "elements and patch " + std::to_string(triangle.first_patch + p));
+      add_to(sums.emitted, emission);
+      add_to(sums.incident, side.incident);
+      add_to(sums.unshot_emission, side.emission);
+      for (std::size_t c = 0; c < 3; ++c) {
+        sums.unshot_reflected[c] += protocol::scale_down(side.incident[c] - side.shot[c], material.diffuse_fraction[c]);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Solution& solution) {
+  Sums sums;
+  for (const MeshTriangle& triangle : mesh.triangles) add_triangle(scene, triangle, units, solution, sums);
+  const protocol::Tally& tally = solution.tally;
+  Flux shot = solution.emitted_shot;
+  add_to(shot, solution.reflected_shot);
+  Flux arrived = sums.incident;
+  for (const Flux* part : {&tally.absorbed_specular, &tally.escaped, &tally.cut_off, &tally.back_side}) {
+    add_to(arrived, *part);
+  }
+  require_equal(shot, arrived, "flux shot and flux that arrived");
+  Flux left = solution.emitted_shot;
+  add_to(left, sums.unshot_emission);
+  require_equal(sums.emitted, left, "flux emitted and flux of emitters' shots and rests");
+
+  EnergyBalance energy;
+  const auto watts = [&units](std::int64_t quanta) { return static_cast<double>(quanta) * units.watts_per_quantum; };
+  for (std::size_t c = 0; c < 3; ++c) {
+    energy.emitted[c] = watts(sums.emitted[c]);
+    energy.absorbed[c] = watts(sums.incident[c] - solution.reflected_shot[c] - sums.unshot_reflected[c]);
+    energy.absorbed_specular[c] = watts(tally.absorbed_specular[c]);
+    energy.unshot[c] = watts(sums.unshot_emission[c] + sums.unshot_reflected[c]);
+    energy.escaped[c] = watts(tally.escaped[c]);
+    energy.cut_off[c] = watts(tally.cut_off[c]);
+    energy.back_side[c] = watts(tally.back_side[c]);
+  }
+  return energy;
+}
+
+std::vector<Flux> incident_flux(const Solution& solution) {
+  std::vector<Flux> flux;
+  flux.reserve(solution.elements.size());
+  for (const protocol::Element& element : solution.elements) flux.push_back(element.flux);
+  return flux;
+}
+
+}  // namespace torolux

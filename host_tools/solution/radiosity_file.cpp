@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// See radiosity_file.hpp.
+#include "host_tools/solution/radiosity_file.hpp"
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/files/write_file.hpp"
+
+namespace torolux {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file is little-endian, written as it lies in memory");
+
+struct Head {
+  std::array<char, 6> magic;
+  std::uint16_t version;
+  std::uint32_t crc;  ///< CRC-32 (IEEE 802.3) of all that follows
+  std::uint32_t unused;
+  std::uint64_t bytes;  ///< that follow
+};
+static_assert(sizeof(Head) == 24);
+constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
+constexpr std::uint16_t kVersion = 1;
+
+struct SavedSums {
+  protocol::Tally tally;
+  protocol::Flux emitted_shot;
+  protocol::Flux reflected_shot;
+  std::uint64_t shots;
+};
+static_assert(sizeof(SavedSums) == 160);
+
+constexpr auto make_crc_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    std::uint32_t value = i;
+    for (int bit = 0; bit < 8; ++bit) value = (value & 1U) != 0 ? (value >> 1U) ^ 0xEDB8'8320U : value >> 1U;
+    table[i] = value;
+  }
+  return table;
+}
+
+std::uint32_t crc32(std::span<const std::byte> bytes) {
+  static constexpr auto table = make_crc_table();
+  std::uint32_t crc = 0xFFFF'FFFFU;
+  for (const std::byte byte : bytes) crc = table[(crc ^ static_cast<std::uint32_t>(byte)) & 0xFFU] ^ (crc >> 8U);
+  return ~crc;
+}
+
+/// FNV-1a over 64-bit words, with a final mix: names a scene, no defence against malice.
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    value_ = (value_ ^ word) * 0x0000'0100'0000'01B3U;
+    value_ ^= value_ >> 29U;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(const Vec3d& v) {
+    for (const double value : v) add(value);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xCBF2'9CE4'8422'2325U;
+};
+
+template <typename T>
+void append(std::vector<std::byte>& bytes, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const auto raw = std::as_bytes(std::span(&value, 1));
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+/// The next T of `bytes`; the caller has checked the length.
+template <typename T>
+T take(std::span<const std::byte>& bytes) {
+  T value{};
+  std::memcpy(&value, bytes.data(), sizeof value);
+  bytes = bytes.subspan(sizeof value);
+  return value;
+}
+
+void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected, const std::string& name) {
+  const auto refuse = [&name](const std::string& what) {
+    throw InputError(name + ": these radiosities were made with " + what);
+  };
+  if (saved.geometry != expected.geometry) refuse("other geometry");
+  if (saved.materials != expected.materials) refuse("other materials or lights");
+  const auto differ = [&refuse](const char* option, auto was, auto is) {
+    if (was == is) return;
+    refuse(std::string(option) + " " + std::to_string(was) + ", this run has " + std::to_string(is));
+  };
+  differ("--patches (0: auto)", saved.patch_length, expected.patch_length);
+  differ("--elements (0: auto)", saved.element_length, expected.element_length);
+  differ("--unshot", saved.unshot, expected.unshot);
+  differ("--seed", saved.seed, expected.seed);
+  differ("--hemicube", saved.hemicube, expected.hemicube);
+  differ("--shot-points", saved.shot_points, expected.shot_points);
+  differ("--max-shots", saved.max_shots, expected.max_shots);
+  differ("--bounces", saved.bounces, expected.bounces);
+  differ("--two-sided-lights", saved.two_sided_lights, expected.two_sided_lights);
+  differ("patch sides", saved.patch_sides, expected.patch_sides);
+  differ("elements", saved.elements, expected.elements);
+}
+
+/// Sums of all light stay far below this, so that nothing overflows where values are added up.
+constexpr std::int64_t kMostFlux = std::int64_t{1} << 57U;
+
+/// Adds up what is read, and refuses sums that no scene has.
+class FluxSum {
+ public:
+  void add(const protocol::Flux& flux, const std::string& name) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum_[c] += flux[c];
+      if (sum_[c] > 16 * kMostFlux) throw InputError(name + ": damaged: more flux than any scene has");
+    }
+  }
+
+ private:
+  protocol::Flux sum_{};
+};
+
+void check_flux(const protocol::Flux& flux, const std::string& name) {
+  for (const std::int64_t value : flux) {
+    if (value < 0 || value > kMostFlux) throw InputError(name + ": damaged: a flux is out of range");
+  }
+}
+
+}  // namespace
+
+RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, const Mesh& mesh) {
+  Hash geometry;
+  for (const Vec3d& position : scene.positions) geometry.add(position);
+  for (const Vec3d& normal : scene.normals) geometry.add(normal);
+  for (const SceneTriangle& triangle : scene.triangles) {
+    for (const std::uint32_t index : triangle.position) geometry.add(std::uint64_t{index});
+    for (const std::uint32_t index : triangle.normal) geometry.add(std::uint64_t{index});
+    geometry.add(std::uint64_t{triangle.material});
+  }
+  Hash materials;
+  for (const SceneMaterial& material : scene.materials) {
+    materials.add(static_cast<std::uint64_t>(material.kind));
+    materials.add(material.diffuse);
+    materials.add(material.specular);
+    materials.add(material.transmittance);
+    materials.add(material.refractive_index);
+    materials.add(material.emission);
+  }
+  RadiosityOrigin origin;
+  origin.geometry = geometry.value();
+  origin.materials = materials.value();
+  origin.patch_length = quality.patch_length.value_or(0);
+  origin.element_length = quality.element_length.value_or(0);
+  origin.unshot = quality.unshot;
+  origin.seed = quality.seed;
+  origin.hemicube = quality.hemicube;
+  origin.shot_points = quality.shot_points;
+  origin.max_shots = quality.max_shots;
+  origin.bounces = quality.bounces;
+  origin.two_sided_lights = quality.two_sided_lights ? 1 : 0;
+  origin.patch_sides = mesh.patch_sides;
+  origin.elements = mesh.elements;
+  return origin;
+}
+
+std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, const Solution& solution) {
+  std::vector<std::byte> rest;
+  append(rest, origin);
+  append(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.shots});
+  for (const SolvedSide& side : solution.sides) append(rest, side);
+  for (const protocol::Element& element : solution.elements) append(rest, element);
+  std::vector<std::byte> bytes;
+  append(bytes, Head{kMagic, kVersion, crc32(rest), 0, rest.size()});
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  return bytes;
+}
+
+Solution unpack_radiosity(std::span<const std::byte> bytes, const RadiosityOrigin& expected, const Mesh& mesh,
+                          const std::string& name) {
+  if (bytes.size() < sizeof(Head))
+    throw InputError(name + ": not a radiosity file: only " + std::to_string(bytes.size()) + " bytes");
+  const Head head = take<Head>(bytes);
+  if (head.magic != kMagic) throw InputError(name + ": not a radiosity file");
+  if (head.version != kVersion) {
+    throw InputError(name + ": radiosity file of version " + std::to_string(head.version) + ", this program reads " +
+                     std::to_string(kVersion));
+  }
+  if (head.bytes != bytes.size() || bytes.size() < sizeof(RadiosityOrigin) + sizeof(SavedSums)) {
+    throw InputError(name + ": cut short or too long: " + std::to_string(bytes.size()) + " bytes after the head, " +
+                     std::to_string(head.bytes) + " expected");
+  }
+  if (head.unused != 0 || crc32(bytes) != head.crc) throw InputError(name + ": damaged: its CRC-32 does not match");
+  check_origin(take<RadiosityOrigin>(bytes), expected, name);
+  const auto sums = take<SavedSums>(bytes);
+  const std::uint64_t needed =
+      std::uint64_t{mesh.patch_sides} * sizeof(SolvedSide) + std::uint64_t{mesh.elements} * sizeof(protocol::Element);
+  if (bytes.size() != needed) throw InputError(name + ": damaged: its sides and elements do not fill it");
+  Solution solution;
+  solution.tally = sums.tally;
+  solution.emitted_shot = sums.emitted_shot;
+  solution.reflected_shot = sums.reflected_shot;
+  solution.shots = sums.shots;
+  for (const protocol::Flux* flux : {&sums.tally.absorbed_specular, &sums.tally.escaped, &sums.tally.cut_off,
+                                     &sums.tally.back_side, &sums.emitted_shot, &sums.reflected_shot}) {
+    check_flux(*flux, name);
+  }
+  FluxSum side_sum;
+  solution.sides.reserve(mesh.patch_sides);
+  for (std::uint32_t i = 0; i < mesh.patch_sides; ++i) {
+    const SolvedSide& side = solution.sides.emplace_back(take<SolvedSide>(bytes));
+    for (const protocol::Flux* flux : {&side.incident, &side.shot, &side.emission}) check_flux(*flux, name);
+    side_sum.add(side.incident, name);
+    side_sum.add(side.emission, name);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (side.shot[c] > side.incident[c]) throw InputError(name + ": damaged: a side shot more than it received");
+    }
+  }
+  FluxSum element_sum;
+  solution.elements.reserve(mesh.elements);
+  for (std::uint32_t i = 0; i < mesh.elements; ++i) {
+    const protocol::Element& element = solution.elements.emplace_back(take<protocol::Element>(bytes));
+    check_flux(element.flux, name);
+    check_flux(element.direct, name);
+    element_sum.add(element.flux, name);
+  }
+  return solution;
+}
+
+void save_radiosity(const std::filesystem::path& file, const RadiosityOrigin& origin, const Solution& solution) {
+  write_file(file, pack_radiosity(origin, solution));
+}
+
+Solution load_radiosity(const std::filesystem::path& file, const RadiosityOrigin& expected, const Mesh& mesh) {
+  const std::uint64_t most = sizeof(Head) + sizeof(RadiosityOrigin) + sizeof(SavedSums) +
+                             std::uint64_t{mesh.patch_sides} * sizeof(SolvedSide) +
+                             std::uint64_t{mesh.elements} * sizeof(protocol::Element);
+  // Room for the file of another scene, so that the message can say what differs.
+  const auto bytes = read_file(file, most + (std::uint64_t{1} << 30U));
+  return unpack_radiosity(bytes, expected, mesh, file.string());
+}
+
+}  // namespace torolux

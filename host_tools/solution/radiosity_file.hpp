@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Saved radiosities: the solution of a radiosity stage in a file, for other views of the same scene.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host_tools/solution/solution.hpp"
+
+namespace torolux {
+
+/// What a solution depends on: the scene's geometry and materials, and the quality settings of the radiosity stage.
+/// Camera, picture size, samples and machine are not among it.
+struct RadiosityOrigin {
+  std::uint64_t geometry = 0;                   ///< hash of positions and triangles
+  std::uint64_t materials = 0;                  ///< hash of all materials
+  double patch_length = 0, element_length = 0;  ///< 0: auto
+  double unshot = 0;
+  std::uint64_t seed = 0;
+  std::uint32_t hemicube = 0, shot_points = 0, max_shots = 0, bounces = 0;
+  std::uint32_t two_sided_lights = 0;
+  std::uint32_t patch_sides = 0, elements = 0;  ///< of the mesh
+  std::uint32_t unused = 0;
+};
+static_assert(sizeof(RadiosityOrigin) == 80);
+
+RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, const Mesh& mesh);
+
+/// File: "TLXRAD" and version, CRC-32 and length of the rest, RadiosityOrigin, sums, patch sides, elements;
+/// little-endian.
+std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, const Solution& solution);
+/// Throws InputError: not such a file, another version, damaged, cut short, made from another scene or settings
+/// (which). name: for messages.
+Solution unpack_radiosity(std::span<const std::byte> bytes, const RadiosityOrigin& expected, const Mesh& mesh,
+                          const std::string& name);
+
+/// Throws InputError where the file cannot be written; leaves none behind then.
+void save_radiosity(const std::filesystem::path& file, const RadiosityOrigin& origin, const Solution& solution);
+/// Throws InputError as unpack_radiosity, and where the file cannot be read.
+Solution load_radiosity(const std::filesystem::path& file, const RadiosityOrigin& expected, const Mesh& mesh);
+
+}  // namespace torolux

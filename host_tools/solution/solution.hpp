@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What the radiosity stage leaves: flux of every element and patch side, and the sums that prove none was lost.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "firmware/protocol/stores.hpp"
+#include "host_tools/layout/light_units.hpp"
+#include "host_tools/mesh/mesh.hpp"
+#include "host_tools/render/render.hpp"
+
+namespace torolux {
+
+/// One patch side at the end of the stage; see protocol::PatchSide. [quanta]
+struct SolvedSide {
+  protocol::Flux incident{};
+  protocol::Flux shot{};
+  protocol::Flux emission{};
+};
+
+struct Solution {
+  std::vector<protocol::Element> elements;  ///< by global element: Mesh::elements
+  std::vector<SolvedSide> sides;            ///< by global patch side: Mesh::patch_sides
+  protocol::Tally tally{};                  ///< of all PEs
+  protocol::Flux emitted_shot{};            ///< flux of all shots of emitted light
+  protocol::Flux reflected_shot{};          ///< flux of all shots of reflected light
+  std::uint64_t shots = 0;
+};
+
+/// Checks in integers that no flux was lost or made: every side's incident flux is that of its elements, and emitted =
+/// absorbed + absorbed at specular surfaces + unshot + escaped + cut off + back sides. Throws MachineFailure with the
+/// numbers where it does not hold. Returns the balance in watts.
+EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Solution& solution);
+
+/// Incident flux by global element.
+std::vector<protocol::Flux> incident_flux(const Solution& solution);
+
+}  // namespace torolux

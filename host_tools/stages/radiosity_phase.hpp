@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The radiosity stage as the host conducts it: rounds of selection and shots until little is unshot.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "host_tools/layout/light_units.hpp"
+#include "host_tools/mesh/mesh.hpp"
+#include "host_tools/stages/phase.hpp"
+
+namespace torolux {
+
+struct RadiositySettings {
+  unsigned pes = 1;
+  std::uint64_t credits = 256;     ///< W, > 0
+  std::uint32_t shooters = 8;      ///< S: shots in a round, 1..kMostShooters
+  std::int64_t least_unshot = 0;   ///< sides with no more than this are not shot [quanta, R + G + B]
+  std::int64_t enough_unshot = 0;  ///< the stage ends when no more than this is unshot [quanta, R + G + B]
+  double emitted = 0;              ///< all that the emitters have [quanta, R + G + B]
+  std::uint32_t max_shots = 0;     ///< 0: no limit
+  std::vector<std::array<protocol::Fraction, 3>> reflectance;  ///< by global patch
+};
+
+class RadiosityPhase : public Phase {
+ public:
+  explicit RadiosityPhase(RadiositySettings settings);
+
+  void start(HostPort& port) override;
+  void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
+                  std::span<const std::byte> contents) override;
+  bool done() const override { return state_ == State::done; }
+  const char* waiting_for() const override;
+
+  std::uint64_t shots() const { return shots_; }
+  std::uint64_t credits_home() const { return pool_; }
+  std::int64_t unshot() const { return unshot_; }  ///< [quanta, R + G + B], at the last selection
+  const protocol::Flux& emitted_shot() const { return emitted_shot_; }
+  const protocol::Flux& reflected_shot() const { return reflected_shot_; }
+
+ private:
+  enum class State { selecting, shooting, done };
+  struct Chosen {
+    PeNumber pe;
+    protocol::Candidate candidate;
+  };
+
+  void select(HostPort& port);
+  void take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents);
+  void begin_round(HostPort& port);
+  void begin_shot(HostPort& port, PeNumber pe);
+  void grant(HostPort& port);
+  void end_round_if_over(HostPort& port);
+
+  RadiositySettings settings_;
+  State state_ = State::selecting;
+  std::vector<Chosen> candidates_;
+  unsigned answers_ = 0;  ///< PEs whose candidates are all here
+  std::int64_t unshot_ = 0;
+  std::vector<std::deque<protocol::Candidate>> waiting_;  ///< shots to come, by PE
+  std::vector<PeNumber> shooting_;                        ///< PEs with a shot in progress, in the order of starting
+  std::size_t turn_ = 0;                                  ///< of shooting_: who gets credits next
+  std::uint64_t pool_;                                    ///< credits at home
+  std::uint64_t shots_ = 0;
+  protocol::Flux emitted_shot_{};
+  protocol::Flux reflected_shot_{};
+};
+
+}  // namespace torolux

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// See ray_tracing_phase.hpp.
+#include "host_tools/stages/ray_tracing_phase.hpp"
+
+#include <numeric>
+#include <utility>
+
+namespace torolux {
+namespace {
+
+using protocol::MessageKind;
+using protocol::RayRecord;
+
+constexpr std::size_t kPacket = protocol::records_per_packet(protocol::Stage::ray_tracing);
+
+/// Pixels are taken in steps of about the golden section of their number, so that neighbours in time see different
+/// parts of the scene and the load spreads over the PEs. The step shares no divisor with the number: each pixel once.
+std::uint64_t stride_for(std::uint64_t pixels) {
+  auto stride = static_cast<std::uint64_t>(static_cast<double>(pixels) * 0.6180339887498949);
+  stride = stride == 0 ? 1 : stride;
+  while (std::gcd(stride, pixels) != 1) ++stride;
+  return stride;
+}
+
+}  // namespace
+
+RayTracingPhase::RayTracingPhase(const Placement& placement, CameraRays rays, const RayTracingSettings& settings)
+    : placement_(placement),
+      rays_(std::move(rays)),
+      settings_(settings),
+      packet_(placement.torus.pes()),
+      stride_(stride_for(std::uint64_t{settings.width} * settings.height)),
+      pool_(settings.credits) {
+  filled_.reserve(placement.polygons_of_cell.size());
+  for (const auto& polygons : placement.polygons_of_cell) filled_.push_back(!polygons.empty());
+}
+
+void RayTracingPhase::start(HostPort& port) {
+  make_rays(port);
+}
+
+void RayTracingPhase::on_message(HostPort& port, PeNumber source, MessageKind kind,
+                                 std::span<const std::byte> contents) {
+  if (kind != MessageKind::credits) unexpected(source, kind, "tracing rays");
+  pool_ += contents_as<protocol::Credits>(contents).count;
+  if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
+  make_rays(port);
+}
+
+void RayTracingPhase::make_rays(HostPort& port) {
+  while (pool_ > 0 && next_ < rays_.count()) make_ray(port);
+  for (const PeNumber pe : std::exchange(open_, {})) flush(port, pe);
+}
+
+void RayTracingPhase::make_ray(HostPort& port) {
+  const std::uint64_t pixels = std::uint64_t{settings_.width} * settings_.height;
+  const auto sample = static_cast<std::uint32_t>(next_ / pixels);
+  const auto pixel = static_cast<std::uint32_t>(next_ % pixels * stride_ % pixels);
+  ++next_;
+  const CameraRay ray = rays_.ray(pixel, sample);
+  const auto start =
+      first_subspace(placement_.grid, ray.origin, ray.direction, settings_.skip_empty_subspaces ? &filled_ : nullptr);
+  if (!start) return;
+  RayRecord record{};
+  record.origin = ray.origin;
+  record.direction = ray.direction;
+  const float weight = 1.0F / static_cast<float>(settings_.samples);
+  record.weight = {weight, weight, weight};
+  record.subspace = placement_.local_of_cell[start->cell];
+  record.polygon = protocol::kNoPolygon;
+  record.key = ray.key;
+  record.pixel = pixel;
+  record.kind = protocol::RecordKind::light;
+  record.flags = start->flags;
+  const PeNumber pe = placement_.pe_of_cell[start->cell];
+  if (packet_[pe].empty()) open_.push_back(pe);
+  packet_[pe].push_back(record);
+  --pool_;
+  ++sent_;
+  if (packet_[pe].size() == kPacket) {
+    flush(port, pe);
+    std::erase(open_, pe);
+  }
+}
+
+void RayTracingPhase::flush(HostPort& port, PeNumber pe) {
+  port.send_records(pe, std::as_bytes(std::span(packet_[pe])), sizeof(RayRecord));
+  packet_[pe].clear();
+}
+
+}  // namespace torolux

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The ray tracing stage as the host conducts it: camera rays go out as long as there are credits.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/layout/placement.hpp"
+#include "host_tools/stages/camera_rays.hpp"
+#include "host_tools/stages/phase.hpp"
+
+namespace torolux {
+
+struct RayTracingSettings {
+  std::uint64_t credits = 256;  ///< W, > 0
+  std::uint32_t width = 1, height = 1, samples = 1;
+  bool skip_empty_subspaces = true;
+};
+
+class RayTracingPhase : public Phase {
+ public:
+  RayTracingPhase(const Placement& placement, CameraRays rays, const RayTracingSettings& settings);
+
+  void start(HostPort& port) override;
+  void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
+                  std::span<const std::byte> contents) override;
+  bool done() const override { return next_ == rays_.count() && pool_ == settings_.credits; }
+  const char* waiting_for() const override { return "credits of camera rays"; }
+
+  std::uint64_t made() const { return next_; }  ///< rays considered so far, in order
+  std::uint64_t count() const { return rays_.count(); }
+  std::uint64_t sent() const { return sent_; }  ///< that met the object space
+  std::uint64_t credits_home() const { return pool_; }
+
+ private:
+  void make_rays(HostPort& port);
+  void make_ray(HostPort& port);
+  void flush(HostPort& port, PeNumber pe);
+
+  const Placement& placement_;
+  CameraRays rays_;
+  RayTracingSettings settings_;
+  std::vector<bool> filled_;                              ///< by cell
+  std::vector<std::vector<protocol::RayRecord>> packet_;  ///< being filled, by PE
+  std::vector<PeNumber> open_;                            ///< PEs with a packet being filled
+  std::uint64_t stride_;                                  ///< of the order in which pixels are taken
+  std::uint64_t next_ = 0;
+  std::uint64_t sent_ = 0;
+  std::uint64_t pool_;
+};
+
+}  // namespace torolux

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Read-out: patch sides, elements and tallies of all PEs over the bus. Enters: `data` messages; leaves: the solution.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/layout/placement.hpp"
+#include "host_tools/solution/solution.hpp"
+#include "host_tools/stages/phase.hpp"
+
+namespace torolux {
+
+class ReadPhase : public Phase {
+ public:
+  /// layouts: of the radiosity stage, by PE.
+  ReadPhase(const Mesh& mesh, const Placement& placement, std::vector<protocol::StageLayout> layouts);
+
+  void start(HostPort& port) override;
+  void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
+                  std::span<const std::byte> contents) override;
+  bool done() const override { return done_ == layouts_.size(); }
+  const char* waiting_for() const override { return "elements to be read"; }
+
+  /// Shots and their flux are not known here and stay zero.
+  Solution take_solution() { return std::move(solution_); }
+
+ private:
+  struct Range {
+    std::uint32_t address, bytes;
+  };
+  Range range_of(PeNumber pe) const;
+  void ask(HostPort& port, PeNumber pe);
+  void store(PeNumber pe);
+
+  const Mesh& mesh_;
+  const Placement& placement_;
+  std::vector<protocol::StageLayout> layouts_;
+  std::vector<std::vector<std::byte>> bytes_;  ///< read so far, by PE
+  Solution solution_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace torolux

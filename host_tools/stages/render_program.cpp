@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// See render_program.hpp.
+#include "host_tools/stages/render_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host_tools/layout/stage_image.hpp"
+#include "host_tools/stages/load_phase.hpp"
+#include "host_tools/stages/read_phase.hpp"
+
+namespace torolux {
+
+using protocol::Stage;
+
+RenderProgram::RenderProgram(RenderJob job) : job_(std::move(job)) {}
+RenderProgram::~RenderProgram() = default;
+
+void RenderProgram::start(HostPort& port) {
+  enter(port, job_.solution ? Step::load_ray_tracing : Step::load_radiosity);
+}
+
+void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t kind,
+                               std::span<const std::byte> contents) {
+  const auto message = static_cast<protocol::MessageKind>(kind);
+  if (!phase_) unexpected(source, message, "nothing is left to do");
+  phase_->on_message(port, source, message, contents);
+  if (phase_->done()) leave(port);
+}
+
+void RenderProgram::enter(HostPort& port, Step step) {
+  step_ = step;
+  phase_ = phase_for(step);
+  if (!phase_) return;
+  phase_->start(port);
+  if (phase_->done()) leave(port);
+}
+
+std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
+  const RenderSetup& setup = job_.setup;
+  switch (step) {
+    case Step::load_radiosity:
+      return loading(Stage::radiosity);
+    case Step::radiosity:
+      return std::make_unique<RadiosityPhase>(job_.radiosity);
+    case Step::read: {
+      std::vector<protocol::StageLayout> layouts;
+      for (unsigned pe = 0; pe < setup.placement.torus.pes(); ++pe) {
+        layouts.push_back(lay_out(setup.mesh, setup.placement, static_cast<PeNumber>(pe), Stage::radiosity,
+                                  setup.parameters, setup.map)
+                              .layout);
+      }
+      return std::make_unique<ReadPhase>(setup.mesh, setup.placement, std::move(layouts));
+    }
+    case Step::load_ray_tracing:
+      lattice_ = make_lattice(setup.mesh, incident_flux(*job_.solution), setup.units.watts_per_quantum,
+                              setup.units.unit_radiance);
+      return loading(Stage::ray_tracing);
+    case Step::ray_tracing:
+      return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);
+    case Step::finished:
+      break;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
+  return std::make_unique<LoadPhase>(job_.setup.placement.torus.pes(), [this, stage](PeNumber pe) {
+    const RenderSetup& setup = job_.setup;
+    const PeLayout layout = lay_out(setup.mesh, setup.placement, pe, stage, setup.parameters, setup.map);
+    std::vector<std::byte> image =
+        stage == Stage::radiosity
+            ? radiosity_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, layout)
+            : ray_tracing_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, lattice_, layout);
+    return PeLoad{layout.layout, std::move(image)};
+  });
+}
+
+void RenderProgram::leave(HostPort& port) {
+  const Cycles now = port.now();
+  switch (step_) {
+    case Step::load_radiosity:
+      times_.loaded = now;
+      enter(port, Step::radiosity);
+      break;
+    case Step::radiosity: {
+      const auto& radiosity = static_cast<const RadiosityPhase&>(*phase_);
+      shots_ = radiosity.shots();
+      emitted_shot_ = radiosity.emitted_shot();
+      reflected_shot_ = radiosity.reflected_shot();
+      times_.radiosity = now;
+      enter(port, Step::read);
+      break;
+    }
+    case Step::read:
+      job_.solution = static_cast<ReadPhase&>(*phase_).take_solution();
+      job_.solution->emitted_shot = emitted_shot_;
+      job_.solution->reflected_shot = reflected_shot_;
+      job_.solution->shots = shots_;
+      times_.read = now;
+      enter(port, Step::load_ray_tracing);
+      break;
+    case Step::load_ray_tracing:
+      times_.loaded_again = now;
+      enter(port, Step::ray_tracing);
+      break;
+    case Step::ray_tracing:
+      rays_ = static_cast<const RayTracingPhase&>(*phase_).sent();
+      times_.ray_tracing = now;
+      enter(port, Step::finished);
+      break;
+    case Step::finished:
+      break;
+  }
+}
+
+const char* RenderProgram::waiting_for() const {
+  return phase_ ? phase_->waiting_for() : "nothing";
+}
+
+std::uint64_t RenderProgram::credits_home() const {
+  if (step_ == Step::radiosity) return static_cast<const RadiosityPhase&>(*phase_).credits_home();
+  if (step_ == Step::ray_tracing) return static_cast<const RayTracingPhase&>(*phase_).credits_home();
+  return job_.setup.credits;
+}
+
+RenderProgress RenderProgram::progress(Cycles now) const {
+  RenderProgress progress{};
+  progress.stage = RenderStage::load;
+  progress.virtual_time = now;
+  progress.credits_total = job_.setup.credits;
+  progress.credits_home = credits_home();
+  // `enough_unshot` is the user's fraction of what was emitted; before the first selection nothing is shot.
+  progress.unshot_fraction = 1;
+  if (step_ == Step::load_radiosity || step_ == Step::load_ray_tracing) {
+    progress.fraction = static_cast<const LoadPhase&>(*phase_).fraction();
+  } else if (step_ == Step::radiosity) {
+    const auto& radiosity = static_cast<const RadiosityPhase&>(*phase_);
+    progress.stage = RenderStage::radiosity;
+    const double target = std::max(1.0, static_cast<double>(job_.radiosity.enough_unshot));
+    const double start = std::max(target, job_.radiosity.emitted);
+    if (radiosity.shots() > 0) progress.unshot_fraction = static_cast<double>(radiosity.unshot()) / start;
+    const double now_unshot = std::clamp(progress.unshot_fraction * start, target, start);
+    // Unshot flux falls about exponentially.
+    progress.fraction = start > target ? std::log(start / now_unshot) / std::log(start / target) : 0;
+  } else if (step_ == Step::ray_tracing) {
+    const auto& rays = static_cast<const RayTracingPhase&>(*phase_);
+    progress.stage = RenderStage::ray_tracing;
+    progress.unshot_fraction = 0;
+    progress.fraction = static_cast<double>(rays.made()) / static_cast<double>(rays.count());
+  } else if (step_ == Step::finished) {
+    progress.stage = RenderStage::ray_tracing;
+    progress.fraction = 1;
+  }
+  return progress;
+}
+
+}  // namespace torolux

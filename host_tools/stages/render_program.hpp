@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The host's whole program of a render: load, radiosity stage, read-out, load again, ray tracing stage.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "emulator/host/host_program.hpp"
+#include "host_tools/mesh/lattice.hpp"
+#include "host_tools/render/setup.hpp"
+#include "host_tools/solution/solution.hpp"
+#include "host_tools/stages/camera_rays.hpp"
+#include "host_tools/stages/phase.hpp"
+#include "host_tools/stages/ray_tracing_phase.hpp"
+
+namespace torolux {
+
+struct RenderJob {
+  const Scene& scene;
+  const RenderSetup& setup;
+  RadiositySettings radiosity;
+  CameraRays rays;
+  RayTracingSettings ray_tracing;
+  std::optional<Solution> solution;  ///< given: the radiosity stage is left out
+};
+
+/// When each step ended, in virtual time.
+struct StageTimes {
+  Cycles loaded = 0, radiosity = 0, read = 0, loaded_again = 0, ray_tracing = 0;
+};
+
+class RenderProgram : public HostProgram {
+ public:
+  explicit RenderProgram(RenderJob job);
+  ~RenderProgram() override;
+
+  void start(HostPort& port) override;
+  void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) override;
+  bool finished() const override { return step_ == Step::finished; }
+  const char* waiting_for() const override;
+
+  RenderProgress progress(Cycles now) const;
+  const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given
+  const StageTimes& times() const { return times_; }
+  std::uint64_t shots() const { return shots_; }
+  std::uint64_t rays() const { return rays_; }
+  std::uint64_t credits_home() const;
+
+ private:
+  enum class Step { load_radiosity, radiosity, read, load_ray_tracing, ray_tracing, finished };
+
+  void enter(HostPort& port, Step step);
+  void leave(HostPort& port);
+  std::unique_ptr<Phase> phase_for(Step step);
+  std::unique_ptr<Phase> loading(protocol::Stage stage);
+
+  RenderJob job_;
+  Step step_ = Step::load_radiosity;
+  std::unique_ptr<Phase> phase_;
+  Lattice lattice_;
+  StageTimes times_;
+  std::uint64_t shots_ = 0;
+  std::uint64_t rays_ = 0;
+  protocol::Flux emitted_shot_{};
+  protocol::Flux reflected_shot_{};
+};
+
+}  // namespace torolux
