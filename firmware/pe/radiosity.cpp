@@ -39,7 +39,7 @@ bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   const protocol::Polygon& polygon = pe.scene.polygons[hit.polygon];
   const Material& material = pe.scene.materials[polygon.material];
   const glm::vec3 in = to_vector(record.direction);
-  const glm::vec3 origin = to_vector(record.origin) + in * hit.t;
+  const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + in * hit.t);
   const glm::vec3 flat = unit_normal(polygon);
   const glm::vec3 round = shading_normal(pe.scene, polygon, hit);
   record.key = protocol::hash_combine(record.key, record.bounce);

@@ -20,6 +20,14 @@ inline glm::vec3 unit_normal(const protocol::Polygon& polygon) {
   return glm::normalize(glm::cross(along, glm::normalize(to_vector(polygon.corner[2]) - a)));
 }
 
+/// Where light leaves a specular polygon that it met at `point`: drawn 2^-15 of the way to the polygon's centre, so
+/// that rounding does not put a point at an edge beyond it, where the next wall could no longer be met.
+inline glm::vec3 leaving_point(const protocol::Polygon& polygon, const glm::vec3& point) {
+  const glm::vec3 centre =
+      (to_vector(polygon.corner[0]) + to_vector(polygon.corner[1]) + to_vector(polygon.corner[2])) * (1.0F / 3.0F);
+  return point + (centre - point) * 0x1p-15F;
+}
+
 /// The normal with which a specular surface reflects: interpolated where the polygon has corner normals.
 glm::vec3 shading_normal(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
 

@@ -36,8 +36,10 @@ bool counts_behind_origin(const Segment& segment, const Polygon& polygon, const 
 void find_nearest(const Scene& scene, const Subspace& here, const Segment& segment, const Walk& walk,
                   const Shear& shear, Reach& reach, Nearest& nearest) {
   const float t_in = segment.first || bits(walk.t_in()) < 0 ? 0.0F : walk.t_in();
-  const float t_out = walk.t_out();
-  reach.set_interval(t_in, t_out);
+  reach.set_interval(t_in, walk.t_out());
+  // The last subspace keeps what rounding puts behind the object space's outer face: walls often lie in it.
+  const bool last = here.neighbour_pe[walk.exit_face()] == kNobody;
+  const float t_out = last ? std::numeric_limits<float>::infinity() : walk.t_out();
   const std::uint32_t* index = scene.polygon_list.data() + here.first_polygon;
   const std::uint32_t* const end = index + here.polygon_count;
   for (; index != end; ++index) {

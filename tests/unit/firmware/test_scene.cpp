@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// Scenes and stores for tests of the firmware.
+#include "tests/unit/firmware/test_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux::test {
+namespace {
+
+using protocol::Vec3f;
+
+/// Is the polygon's bounding box within the cell's box grown by the margin? More than touching, so conservative.
+bool stands_in(const TestPolygon& polygon, const Vec3f& cell_size, const std::array<std::uint32_t, 3>& cell) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto [low, high] = std::minmax({polygon.corner[0][a], polygon.corner[1][a], polygon.corner[2][a]});
+    const float margin = 1.5F * protocol::kSubspaceMargin;
+    if (high < static_cast<float>(cell[a]) * cell_size[a] - margin) return false;
+    if (low > static_cast<float>(cell[a] + 1) * cell_size[a] + margin) return false;
+  }
+  return true;
+}
+
+std::array<double, 3> patch_centre(const TestPolygon& polygon, std::uint32_t path) {
+  const protocol::GridTriangle grid = protocol::grid_triangle(path, polygon.patch_level);
+  std::array<double, 3> centre{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t w = 0; w < 3; ++w) {
+      const double weight = grid.corner[0][w] + grid.corner[1][w] + grid.corner[2][w];
+      centre[a] += weight / (3 << protocol::kMostLevels) * static_cast<double>(polygon.corner[w][a]);
+    }
+  }
+  return centre;
+}
+
+Vec3f plus(const Vec3f& a, const Vec3f& b, float s) {
+  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
+
+/// Numbers of patches of the whole scene, and where each is kept.
+struct PatchPlace {
+  std::uint16_t pe;
+  std::uint32_t local;
+  std::uint32_t subspace;
+};
+std::vector<std::vector<PatchPlace>> place_patches(const TestScene& scene) {
+  std::vector<std::vector<PatchPlace>> places;
+  std::vector<std::uint32_t> count(scene.pes, 0);
+  for (const TestPolygon& polygon : scene.polygons) {
+    std::vector<PatchPlace> of_polygon;
+    for (std::uint32_t path = 0; path < protocol::triangles_of_level(polygon.patch_level); ++path) {
+      const auto cell = scene.cell_of(patch_centre(polygon, path));
+      const std::uint16_t pe = scene.pe_of(cell[0], cell[1], cell[2]);
+      of_polygon.push_back({pe, count[pe]++, local_subspace(scene, cell)});
+    }
+    places.push_back(std::move(of_polygon));
+  }
+  return places;
+}
+
+class Builder {
+ public:
+  Builder(const TestScene& scene, protocol::Stage stage, float lattice_value)
+      : scene_(scene), stage_(stage), lattice_value_(lattice_value), places_(place_patches(scene)) {}
+
+  PeStores build(std::uint16_t pe) {
+    PeStores out;
+    fill_layout(out);
+    out.materials = scene_.materials;
+    for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) add_polygon(out, pe, p);
+    for (std::uint32_t z = 0; z < scene_.cells[2]; ++z)
+      for (std::uint32_t y = 0; y < scene_.cells[1]; ++y)
+        for (std::uint32_t x = 0; x < scene_.cells[0]; ++x)
+          if (scene_.pe_of(x, y, z) == pe) add_subspace(out, {x, y, z});
+    if (stage_ == protocol::Stage::radiosity) out.hemicube = hemicube_table(scene_.hemicube_size);
+    return out;
+  }
+
+ private:
+  void fill_layout(PeStores& out) const {
+    protocol::StageLayout& l = out.layout;
+    l.stage = stage_;
+    l.seed = scene_.seed;
+    l.cells = scene_.cells;
+    for (std::size_t a = 0; a < 3; ++a) l.cell_size[a] = scene_.size[a] / static_cast<float>(scene_.cells[a]);
+    l.own_slots = protocol::own_slots(stage_);
+    l.bounces = scene_.bounces;
+    l.hemicube_size = scene_.hemicube_size;
+    l.shot_points = l.emission_points = scene_.points;
+    l.pixel_scale = scene_.pixel_scale;
+    l.least_weight = scene_.least_weight;
+  }
+
+  /// Every PE holds every polygon here (lists of subspaces name only what stands in them).
+  void add_polygon(PeStores& out, std::uint16_t pe, std::uint32_t number) {
+    const TestPolygon& from = scene_.polygons[number];
+    protocol::Polygon polygon{};
+    polygon.corner = from.corner;
+    polygon.number = number;
+    polygon.normals = protocol::kNoPolygon;
+    polygon.material = from.material;
+    polygon.sides = from.sides;
+    polygon.patch_level = from.patch_level;
+    polygon.element_level = from.element_level;
+    if (stage_ == protocol::Stage::ray_tracing) {
+      polygon.surface = static_cast<std::uint32_t>(out.lattice.size());
+      const std::uint32_t lattices = from.sides == 3 ? 2 : from.sides == 0 ? 0 : 1;
+      out.lattice.insert(out.lattice.end(), lattices * protocol::lattice_size(from.element_level),
+                         {{lattice_value_, lattice_value_, lattice_value_}});
+    } else {
+      polygon.surface = static_cast<std::uint32_t>(out.references.size());
+      for (const PatchPlace& place : places_[number]) out.references.push_back({place.local, place.pe, 0});
+    }
+    out.polygons.push_back(polygon);
+    if (stage_ == protocol::Stage::radiosity) add_patches(out, pe, number);
+  }
+
+  void add_patches(PeStores& out, std::uint16_t pe, std::uint32_t number) {
+    const TestPolygon& from = scene_.polygons[number];
+    std::uint32_t global = 0;
+    for (std::uint32_t p = 0; p < number; ++p) global += static_cast<std::uint32_t>(places_[p].size());
+    for (std::uint32_t path = 0; path < places_[number].size(); ++path) {
+      if (places_[number][path].pe != pe) continue;
+      protocol::Patch patch{
+          global + path, number, path, places_[number][path].subspace, {protocol::kNoSide, protocol::kNoSide}};
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        if ((from.sides & (1U << side)) == 0) continue;
+        patch.side[side] = static_cast<std::uint32_t>(out.sides.size());
+        out.sides.push_back({{}, {}, {}, static_cast<std::uint32_t>(out.elements.size()), 0});
+        out.elements.resize(out.elements.size() + (1U << (2U * (from.element_level - from.patch_level))));
+      }
+      out.patches.push_back(patch);
+    }
+  }
+
+  void add_subspace(PeStores& out, const std::array<std::uint32_t, 3>& cell) {
+    protocol::Subspace s{};
+    for (std::size_t a = 0; a < 3; ++a) s.cell[a] = static_cast<std::uint16_t>(cell[a]);
+    for (std::size_t face = 0; face < protocol::kFaces; ++face) {
+      auto next = cell;
+      next[face / 2] += face % 2 == 1 ? 1U : 0xFFFF'FFFFU;
+      const bool outside = next[face / 2] >= scene_.cells[face / 2];
+      s.neighbour_pe[face] = outside ? protocol::kNobody : scene_.pe_of(next[0], next[1], next[2]);
+      s.neighbour[face] = outside ? 0 : local_subspace(scene_, next);
+    }
+    s.first_polygon = static_cast<std::uint32_t>(out.polygon_list.size());
+    for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
+      if (stands_in(scene_.polygons[p], out.layout.cell_size, cell)) out.polygon_list.push_back(p);
+    }
+    s.polygon_count = static_cast<std::uint32_t>(out.polygon_list.size()) - s.first_polygon;
+    out.subspaces.push_back(s);
+  }
+
+  const TestScene& scene_;
+  protocol::Stage stage_;
+  float lattice_value_;
+  std::vector<std::vector<PatchPlace>> places_;
+};
+
+}  // namespace
+
+std::array<std::uint32_t, 3> TestScene::cell_of(const std::array<double, 3>& point) const {
+  std::array<std::uint32_t, 3> cell{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const float step = size[a] / static_cast<float>(cells[a]);
+    while (cell[a] + 1 < cells[a] && static_cast<float>(point[a]) >= static_cast<float>(cell[a] + 1) * step) ++cell[a];
+  }
+  return cell;
+}
+
+protocol::Material diffuse_material(float reflectance, float emission) {
+  protocol::Material m{};
+  m.kind = protocol::MaterialKind::diffuse;
+  m.diffuse = {reflectance, reflectance, reflectance};
+  m.emission = {emission, emission, emission};
+  m.diffuse_fraction.fill(protocol::to_fraction(static_cast<double>(reflectance)));
+  return m;
+}
+protocol::Material mirror_material(float reflectance) {
+  protocol::Material m{};
+  m.kind = protocol::MaterialKind::mirror;
+  m.specular = {reflectance, reflectance, reflectance};
+  m.specular_fraction.fill(protocol::to_fraction(static_cast<double>(reflectance)));
+  return m;
+}
+protocol::Material glass_material(float refractive_index, float transmittance) {
+  protocol::Material m{};
+  m.kind = protocol::MaterialKind::glass;
+  m.refractive_index = refractive_index;
+  m.transmittance = {transmittance, transmittance, transmittance};
+  m.transmittance_fraction.fill(protocol::to_fraction(static_cast<double>(transmittance)));
+  return m;
+}
+
+pe::Scene PeStores::scene() {
+  pe::Scene s;
+  s.layout = layout;
+  s.subspaces = subspaces;
+  s.polygon_list = polygon_list;
+  s.polygons = polygons;
+  s.materials = materials;
+  s.normals = normals;
+  s.patch_references = references;
+  s.patches = patches;
+  s.patch_sides = sides;
+  s.elements = elements;
+  s.hemicube = hemicube;
+  s.lattice = lattice;
+  return s;
+}
+
+std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float lattice_value) {
+  Builder builder(scene, stage, lattice_value);
+  std::vector<PeStores> all;
+  for (std::uint32_t pe = 0; pe < scene.pes; ++pe) all.push_back(builder.build(static_cast<std::uint16_t>(pe)));
+  return all;
+}
+
+std::uint32_t local_subspace(const TestScene& scene, const std::array<std::uint32_t, 3>& cell) {
+  const std::uint16_t pe = scene.pe_of(cell[0], cell[1], cell[2]);
+  std::uint32_t number = 0;
+  for (std::uint32_t z = 0; z < scene.cells[2]; ++z)
+    for (std::uint32_t y = 0; y < scene.cells[1]; ++y)
+      for (std::uint32_t x = 0; x < scene.cells[0]; ++x) {
+        if (std::array{x, y, z} == cell) return number;
+        number += scene.pe_of(x, y, z) == pe ? 1 : 0;
+      }
+  return protocol::kNoPolygon;
+}
+
+std::vector<std::uint32_t> hemicube_table(std::uint32_t n) {
+  // Form factor from a point to the rectangle (0,0)..(x,y) of a face: the corner formula of a differential area.
+  const auto top = [](double x, double y) {
+    const double a = std::sqrt(1 + x * x), b = std::sqrt(1 + y * y);
+    return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2 * std::numbers::pi);
+  };
+  const auto side = [](double y, double z) {  // face x = 1, from z = 0 up
+    return (std::atan(y) - std::atan(y / std::sqrt(1 + z * z)) / std::sqrt(1 + z * z)) / (2 * std::numbers::pi);
+  };
+  const auto cell = [n](const auto& f, std::uint32_t i, std::uint32_t j) {
+    const double u = 2.0 / n;
+    return f(u * (i + 1), u * (j + 1)) - f(u * i, u * (j + 1)) - f(u * (i + 1), u * j) + f(u * i, u * j);
+  };
+  const std::uint32_t half = n / 2;
+  std::vector<std::uint32_t> table;
+  std::uint64_t sum = 0;
+  for (std::uint32_t j = 0; j < half; ++j)
+    for (std::uint32_t i = 0; i < half; ++i) {
+      table.push_back(static_cast<std::uint32_t>(std::lround(cell(top, i, j) * 0x1p32)));
+      sum += 4ULL * table.back();
+    }
+  for (std::uint32_t j = 0; j < half; ++j)
+    for (std::uint32_t i = 0; i < half; ++i) {
+      table.push_back(static_cast<std::uint32_t>(std::lround(cell(side, i, j) * 0x1p32)));
+      sum += 8ULL * table.back();
+    }
+  table[0] += static_cast<std::uint32_t>(((std::int64_t{1} << 32) - static_cast<std::int64_t>(sum)) / 4);
+  return table;
+}
+
+void add_wall(TestScene& scene, const Vec3f& corner, const Vec3f& a, const Vec3f& b, std::uint32_t n,
+              std::uint16_t material) {
+  const auto at = [&](std::uint32_t i, std::uint32_t j) {
+    const auto part = [n](std::uint32_t k) { return static_cast<float>(k) / static_cast<float>(n); };
+    return plus(plus(corner, a, part(i)), b, part(j));
+  };
+  for (std::uint32_t j = 0; j < n; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      scene.polygons.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, material});
+      scene.polygons.push_back({{at(i, j), at(i + 1, j + 1), at(i, j + 1)}, material});
+    }
+}
+
+void add_room(TestScene& scene, const Vec3f& low, const Vec3f& high, std::uint32_t n, std::uint16_t material) {
+  const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+  add_wall(scene, low, {x, 0, 0}, {0, y, 0}, n, material);  // z low, front +z
+  add_wall(scene, {low[0], low[1], high[2]}, {0, y, 0}, {x, 0, 0}, n, material);
+  add_wall(scene, low, {0, y, 0}, {0, 0, z}, n, material);  // x low, front +x
+  add_wall(scene, {high[0], low[1], low[2]}, {0, 0, z}, {0, y, 0}, n, material);
+  add_wall(scene, low, {0, 0, z}, {x, 0, 0}, n, material);  // y low, front +y
+  add_wall(scene, {low[0], high[1], low[2]}, {x, 0, 0}, {0, 0, z}, n, material);
+}
+
+void add_ball(TestScene& scene, const Vec3f& centre, float radius, std::uint32_t n, std::uint16_t material,
+              bool front_outside) {
+  const auto at = [&](std::uint32_t i, std::uint32_t j) -> Vec3f {
+    const double theta = std::numbers::pi * j / n;
+    const double phi = std::numbers::pi * (i % (2 * n)) / n;
+    if (j == 0 || j == n) return {centre[0], centre[1], centre[2] + (j == 0 ? radius : -radius)};
+    return {centre[0] + radius * static_cast<float>(std::sin(theta) * std::cos(phi)),
+            centre[1] + radius * static_cast<float>(std::sin(theta) * std::sin(phi)),
+            centre[2] + radius * static_cast<float>(std::cos(theta))};
+  };
+  const auto add = [&](const Vec3f& p, const Vec3f& q, const Vec3f& r) {
+    scene.polygons.push_back({front_outside ? std::array{p, q, r} : std::array{p, r, q}, material});
+  };
+  for (std::uint32_t j = 0; j < n; ++j)
+    for (std::uint32_t i = 0; i < 2 * n; ++i) {
+      if (j > 0) add(at(i, j), at(i, j + 1), at(i + 1, j));
+      if (j + 1 < n) add(at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
+    }
+}
+
+}  // namespace torolux::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Small scenes for tests of the firmware, and their stores laid out by hand for any number of PEs: independent of what
+// the host tools do.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "firmware/pe/scene.hpp"
+#include "firmware/protocol/stores.hpp"
+
+namespace torolux::test {
+
+struct TestPolygon {
+  std::array<protocol::Vec3f, 3> corner;
+  std::uint16_t material = 0;
+  std::uint8_t sides = protocol::kFrontPresent;
+  std::uint8_t patch_level = 0;
+  std::uint8_t element_level = 0;
+};
+
+struct TestScene {
+  std::vector<TestPolygon> polygons;
+  std::vector<protocol::Material> materials;
+  std::array<std::uint32_t, 3> cells{1, 1, 1};
+  protocol::Vec3f size{1, 1, 1};  ///< of the object space
+  std::uint32_t pes = 1;
+  std::uint32_t seed = 1;
+  std::uint32_t bounces = 32;
+  std::uint32_t hemicube_size = 4;
+  std::uint32_t points = 1;
+  float pixel_scale = 0x1p20F;
+  float least_weight = 0;
+
+  std::uint16_t pe_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+    return static_cast<std::uint16_t>((x + 3 * y + 5 * z) % pes);
+  }
+  std::array<std::uint32_t, 3> cell_of(const std::array<double, 3>& point) const;
+};
+
+protocol::Material diffuse_material(float reflectance, float emission = 0);
+protocol::Material mirror_material(float reflectance);
+protocol::Material glass_material(float refractive_index, float transmittance = 1);
+
+/// The stores of one PE.
+struct PeStores {
+  protocol::StageLayout layout{};  ///< its stores' addresses are not set
+  std::vector<protocol::Subspace> subspaces;
+  std::vector<std::uint32_t> polygon_list;
+  std::vector<protocol::Polygon> polygons;
+  std::vector<protocol::Material> materials;
+  std::vector<protocol::Vec3f> normals;
+  std::vector<protocol::PatchReference> references;
+  std::vector<protocol::Patch> patches;
+  std::vector<protocol::PatchSide> sides;
+  std::vector<protocol::Element> elements;
+  std::vector<std::uint32_t> hemicube;
+  std::vector<protocol::LatticeValue> lattice;  ///< all `lattice_value`
+
+  /// Spans over these vectors, for handlers called directly.
+  pe::Scene scene();
+};
+
+/// By PE. lattice_value: irradiance / pi at every lattice vertex.
+std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float lattice_value = 1);
+
+/// Local number of the subspace at a cell, at its PE.
+std::uint32_t local_subspace(const TestScene& scene, const std::array<std::uint32_t, 3>& cell);
+
+/// Exact delta form factors, normalised (see stores.hpp).
+std::vector<std::uint32_t> hemicube_table(std::uint32_t n);
+
+/// Two triangles for each of n * n cells of a wall. a, b: edge vectors; the front is where a x b points.
+void add_wall(TestScene& scene, const protocol::Vec3f& corner, const protocol::Vec3f& a, const protocol::Vec3f& b,
+              std::uint32_t n, std::uint16_t material);
+/// Six walls of the box [low, high], fronts inside.
+void add_room(TestScene& scene, const protocol::Vec3f& low, const protocol::Vec3f& high, std::uint32_t n,
+              std::uint16_t material);
+/// A closed ball of 2 * n * n facets around the latitudes, fronts outside or inside.
+void add_ball(TestScene& scene, const protocol::Vec3f& centre, float radius, std::uint32_t n, std::uint16_t material,
+              bool front_outside);
+
+}  // namespace torolux::test

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Proves: from inside a closed room no ray escapes, whatever the grid and wherever it is aimed, edges, vertices and
+// walls in subspace planes included; and the hit is the one that a search of all polygons without subspaces finds.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "firmware/pe/intersect.hpp"
+#include "firmware/pe/specular.hpp"
+#include "firmware/pe/surface.hpp"
+#include "firmware/pe/traverse.hpp"
+#include "tests/unit/firmware/test_scene.hpp"
+
+namespace torolux::test {
+namespace {
+
+using pe::Segment;
+
+/// Half of the rays go to edges and vertices of polygons, half anywhere.
+class Aim {
+ public:
+  Aim(const TestScene& scene, std::uint32_t seed) : scene_(scene), random_(seed) {}
+
+  Segment from(const glm::vec3& origin) {
+    glm::vec3 target = uniform_point();
+    if (random_() % 2 == 0) {
+      const TestPolygon& polygon = scene_.polygons[random_() % scene_.polygons.size()];
+      const std::size_t a = random_() % 3;
+      const float s = random_() % 2 == 0 ? 0.0F : uniform();
+      target = pe::to_vector(polygon.corner[a]) * (1.0F - s) + pe::to_vector(polygon.corner[(a + 1) % 3]) * s;
+    }
+    glm::vec3 direction = target - origin;
+    if (random_() % 16 == 0) direction[static_cast<int>(random_() % 3)] = 0.0F;
+    if (glm::dot(direction, direction) < 1e-12F) direction = {1, 0, 0};
+    Segment s{origin, glm::normalize(direction), 0, protocol::kNoPolygon, false, true, 0};
+    s.subspace = local_subspace(scene_, scene_.cell_of({s.origin.x, s.origin.y, s.origin.z}));
+    return s;
+  }
+  float uniform() { return static_cast<float>(random_() >> 8U) * 0x1p-24F; }
+  glm::vec3 uniform_point() {
+    return {uniform() * scene_.size[0], uniform() * scene_.size[1], uniform() * scene_.size[2]};
+  }
+  std::uint32_t number() { return static_cast<std::uint32_t>(random_()); }
+
+ private:
+  const TestScene& scene_;
+  std::mt19937 random_;
+};
+
+struct Found {
+  std::uint32_t polygon = protocol::kNoPolygon;
+  float t = std::numeric_limits<float>::infinity();
+};
+
+Found brute_force(const pe::Scene& scene, const Segment& s) {
+  Found best;
+  const pe::Shear shear(s.origin, s.direction, pe::Inverse(s.direction));
+  for (const protocol::Polygon& p : scene.polygons) {
+    pe::Crossing c;
+    if (pe::cross_triangle(shear, p, c) && c.t > 0.0F && c.t < best.t) best = {p.number, c.t};
+  }
+  return best;
+}
+
+/// Origins half a step inside the walls: t = 0 rules are tested elsewhere.
+glm::vec3 origin_in(Aim& aim, const glm::vec3& low, const glm::vec3& high) {
+  return low + (high - low) * (0.02F + 0.96F * (aim.uniform_point()));
+}
+
+struct Case {
+  TestScene scene;
+  glm::vec3 low, high;  ///< where rays start
+  std::uint32_t rays;
+};
+
+void no_ray_escapes(Case& c, std::uint32_t seed) {
+  std::vector<PeStores> stores = build_stores(c.scene, protocol::Stage::ray_tracing);
+  const pe::Scene scene = stores[0].scene();
+  Aim aim(c.scene, seed);
+  for (std::uint32_t i = 0; i < c.rays; ++i) {
+    const Segment start = aim.from(origin_in(aim, c.low, c.high));
+    Segment s = start;
+    const pe::Way way = pe::traverse(scene, 0, s);
+    ASSERT_EQ(way.end, pe::WayEnd::hit) << "ray " << i << " escaped";
+    if (i % 16 == 0) {
+      const Found all = brute_force(scene, start);
+      ASSERT_EQ(scene.polygons[way.hit.polygon].number, all.polygon) << "ray " << i;
+      ASSERT_EQ(way.hit.t, all.t) << "ray " << i;
+    }
+  }
+}
+
+Case room(std::uint32_t n, std::array<std::uint32_t, 3> cells, const protocol::Vec3f& size) {
+  Case c{{}, {0, 0, 0}, {size[0], size[1], size[2]}, 50'000};
+  c.scene.materials = {diffuse_material(0.5F)};
+  c.scene.size = size;
+  c.scene.cells = cells;
+  add_room(c.scene, {0, 0, 0}, size, n, 0);
+  return c;
+}
+
+// Ten grids, a hundred thousand rays each in two rooms: a million in all.
+TEST(Watertight, NoRayEscapesFromARoomWhateverTheGrid) {
+  const std::array<std::array<std::uint32_t, 3>, 10> grids = {{{1, 1, 1},
+                                                               {2, 2, 2},
+                                                               {3, 3, 3},
+                                                               {4, 4, 4},
+                                                               {5, 7, 3},
+                                                               {8, 8, 8},
+                                                               {1, 16, 1},
+                                                               {7, 1, 11},
+                                                               {13, 13, 13},
+                                                               {32, 2, 9}}};
+  std::uint32_t seed = 1;
+  for (const auto& grid : grids) {
+    Case even = room(4, grid, {1, 1, 1});
+    no_ray_escapes(even, seed++);
+    Case odd = room(3, grid, {1.0F, 0.71F, 0.37F});
+    no_ray_escapes(odd, seed++);
+    if (HasFatalFailure()) FAIL() << "grid " << grid[0] << " " << grid[1] << " " << grid[2];
+  }
+}
+
+// Inner walls in subspace planes: x = 0.25, 0.5 of a grid of eight.
+TEST(Watertight, WallsInSubspacePlanesHold) {
+  Case c{{}, {0.25F, 0.25F, 0.5F}, {0.5F, 0.75F, 0.75F}, 100'000};
+  c.scene.materials = {diffuse_material(0.5F)};
+  c.scene.cells = {8, 8, 8};
+  add_room(c.scene, {0.25F, 0.25F, 0.5F}, {0.5F, 0.75F, 0.75F}, 3, 0);
+  no_ray_escapes(c, 77);
+}
+
+TEST(Watertight, NoRayEscapesFromABall) {
+  for (const std::uint32_t g : {1U, 4U, 9U}) {
+    Case c{{}, {0.3F, 0.3F, 0.3F}, {0.7F, 0.7F, 0.7F}, 40'000};
+    c.scene.materials = {diffuse_material(0.5F)};
+    c.scene.cells = {g, g, g};
+    add_ball(c.scene, {0.5F, 0.5F, 0.5F}, 0.5F, 12, 0, false);
+    no_ray_escapes(c, g);
+  }
+}
+
+// Every hand-over between PEs leaves the ray's hit as it was, bit for bit.
+TEST(Watertight, HandOverChangesNothing) {
+  Case one = room(4, {5, 6, 7}, {1, 1, 1});
+  add_ball(one.scene, {0.5F, 0.4F, 0.6F}, 0.2F, 8, 0, true);
+  TestScene many = one.scene;
+  many.pes = 6;
+  std::vector<PeStores> single = build_stores(one.scene, protocol::Stage::ray_tracing);
+  std::vector<PeStores> spread = build_stores(many, protocol::Stage::ray_tracing);
+  std::vector<pe::Scene> scenes;
+  for (PeStores& s : spread) scenes.push_back(s.scene());
+  const pe::Scene alone = single[0].scene();
+  Aim aim(one.scene, 5);
+  std::uint32_t hand_overs = 0;
+  for (std::uint32_t i = 0; i < 50'000; ++i) {
+    const Segment start = aim.from(origin_in(aim, one.low, one.high));
+    Segment a = start;
+    const pe::Way expected = pe::traverse(alone, 0, a);
+    const auto cell = many.cell_of({start.origin.x, start.origin.y, start.origin.z});
+    std::uint16_t at = many.pe_of(cell[0], cell[1], cell[2]);
+    protocol::RayRecord record{};  // through the record, as on the torus
+    record.origin = pe::to_array(start.origin);
+    record.direction = pe::to_array(start.direction);
+    record.subspace = local_subspace(many, cell);
+    record.polygon = start.polygon;
+    record.flags = protocol::kFirst;
+    pe::Way way{};
+    for (;;) {
+      Segment b = pe::segment_of(record);
+      way = pe::traverse(scenes[at], at, b);
+      pe::note_progress(record, b);
+      if (way.end != pe::WayEnd::handed_on) break;
+      at = way.next;
+      ++hand_overs;
+    }
+    ASSERT_EQ(way.end, expected.end);
+    ASSERT_EQ(scenes[at].polygons[way.hit.polygon].number, alone.polygons[expected.hit.polygon].number);
+    ASSERT_EQ(way.hit.t, expected.hit.t);
+    ASSERT_EQ(way.hit.b1, expected.hit.b1);
+    ASSERT_EQ(way.hit.b2, expected.hit.b2);
+    ASSERT_EQ(way.hit.front, expected.hit.front);
+  }
+  EXPECT_GT(hand_overs, 50'000U);
+}
+
+// Rays that leave a wall close to an edge or corner, from a point that rounding put behind the neighbouring wall, meet
+// that wall all the same.
+TEST(Watertight, RoundedOriginsBehindTheNextWallDoNotLeak) {
+  for (const std::uint32_t g : {1U, 4U, 7U}) {
+    Case c = room(2, {g, g, g}, {1, 1, 1});
+    std::vector<PeStores> stores = build_stores(c.scene, protocol::Stage::ray_tracing);
+    const pe::Scene scene = stores[0].scene();
+    Aim aim(c.scene, g);
+    std::uint32_t behind = 0;
+    for (std::uint32_t i = 0; i < 100'000; ++i) {
+      // Near the wall y = 0, within some 1e-7 of the wall x = 1, on either side of it.
+      const float off = (aim.uniform() - 0.5F) * 0x1p-21F;
+      const glm::vec3 origin{1.0F + off, 0x1p-16F, 0.02F + 0.96F * aim.uniform()};
+      behind += origin.x > 1.0F ? 1U : 0U;
+      const glm::vec3 direction =
+          glm::normalize(glm::vec3{0.05F + aim.uniform(), 0.02F + aim.uniform(), aim.uniform() - 0.5F});
+      Segment s{origin, direction, 0, protocol::kNoPolygon, false, true, 0};
+      s.subspace = local_subspace(c.scene, c.scene.cell_of({origin.x, origin.y, origin.z}));
+      const pe::Way way = pe::traverse(scene, 0, s);
+      ASSERT_EQ(way.end, pe::WayEnd::hit) << "off " << off;
+      ASSERT_TRUE(way.hit.front);
+    }
+    EXPECT_GT(behind, 10'000U);
+  }
+}
+
+// A room of mirrors, rays aimed at edges and vertices: each is reflected eight times and none gets out.
+TEST(Watertight, NoRayEscapesFromARoomOfMirrors) {
+  for (const std::uint32_t g : {1U, 4U, 9U}) {
+    Case c = room(3, {g, g, g}, {1.0F, 0.71F, 0.37F});
+    std::vector<PeStores> stores = build_stores(c.scene, protocol::Stage::ray_tracing);
+    const pe::Scene scene = stores[0].scene();
+    Aim aim(c.scene, g);
+    for (std::uint32_t i = 0; i < 30'000; ++i) {
+      Segment s = aim.from(origin_in(aim, c.low, c.high));
+      for (std::uint32_t bounce = 0; bounce < 8; ++bounce) {
+        const pe::Way way = pe::traverse(scene, 0, s);
+        ASSERT_EQ(way.end, pe::WayEnd::hit) << "ray " << i << " bounce " << bounce;
+        ASSERT_TRUE(way.hit.front) << "ray " << i << " bounce " << bounce;
+        const protocol::Polygon& polygon = scene.polygons[way.hit.polygon];
+        const glm::vec3 n = pe::unit_normal(polygon);
+        s.origin = pe::leaving_point(polygon, s.origin + s.direction * way.hit.t);
+        s.direction = pe::reflect(s.direction, n, n);
+        s.polygon = polygon.number;
+        s.first = true;
+      }
+    }
+  }
+}
+
+// A point covered by a coincident polygon that faces it is blocked.
+TEST(Watertight, CoincidentOppositePolygonBlocks) {
+  Case c{{}, {0, 0, 0}, {1, 1, 1}, 0};
+  c.scene.materials = {diffuse_material(0.5F)};
+  add_wall(c.scene, {0, 0, 0.5F}, {1, 0, 0}, {0, 1, 0}, 1, 0);  // polygons 0, 1: front +z
+  add_wall(c.scene, {0, 0, 0.5F}, {0, 1, 0}, {1, 0, 0}, 1, 0);  // polygons 2, 3: front -z, the same place
+  std::vector<PeStores> stores = build_stores(c.scene, protocol::Stage::ray_tracing);
+  const pe::Scene scene = stores[0].scene();
+  Segment s{{0.7F, 0.3F, 0.5F}, glm::normalize(glm::vec3{0.1F, 0.2F, 1.0F}), 0, 0, false, true, 0};
+  const pe::Way way = pe::traverse(scene, 0, s);
+  ASSERT_EQ(way.end, pe::WayEnd::hit);
+  EXPECT_GE(scene.polygons[way.hit.polygon].number, 2U);
+}
+
+}  // namespace
+}  // namespace torolux::test
