@@ -26,6 +26,7 @@ struct PeMemory {
 /// Bytes to map as PeMemory::local for a PE with this much local memory: engines may need room behind it.
 std::size_t mapped_bytes_for(std::uint32_t local_memory_bytes);
 
+/// What it refers to must outlive the engine.
 struct EngineSetup {
   const MachineDescription& machine;
   const Image& image;

@@ -177,6 +177,8 @@ std::vector<ImageSymbol> read_symbols(const ElfReader& reader, const Elf32_Ehdr&
   if (header.e_shnum != 0 && header.e_shentsize != sizeof(Elf32_Shdr)) {
     reader.fail("has section headers of " + std::to_string(header.e_shentsize) + " bytes, expected 40");
   }
+  // All of them are asked for, needed or not: they stand at the end, where a file that was cut off shows it.
+  reader.bytes(header.e_shoff, std::uint64_t{header.e_shnum} * sizeof(Elf32_Shdr), "section headers");
   const auto section_at = [&](std::uint64_t number) {
     if (number >= header.e_shnum) {
       reader.fail("names section " + std::to_string(number) + ", which it does not have");

@@ -20,6 +20,8 @@ using Clock = std::chrono::steady_clock;
 
 /// A PE whose plugin shows no sign of life for so long is given up. Generous: a thousand processes may share one core.
 constexpr std::chrono::seconds kLongestSilence{120};
+/// Nor does a PE run that counts nothing and yet uses so much of a host core [s]: it traps to where nothing is.
+constexpr double kMostFruitlessCpuSeconds = 5;
 
 /// RV32IMAFC_Zicsr_Zifencei and nothing more, in machine mode alone; everything else traps.
 constexpr const char* kCpu =
@@ -74,6 +76,7 @@ class QemuPe {
   double cpu_seconds() const { return process_.cpu_seconds(); }
 
  private:
+  void watch_progress(std::uint64_t cycles, Clock::duration tick);
   [[noreturn]] void fail(const std::string& what) const;
   static PluginShare& prepare(SharedMemory& memory, const EngineSetup& setup, const PeMemory& pe);
   static QemuProcess launch(const PeMemory& pe, const SharedMemory& share, const std::string& plugin,
@@ -86,6 +89,7 @@ class QemuPe {
   std::uint64_t last_cycles_ = 0;
   std::uint64_t last_hints_ = 0;
   Clock::duration silence_{};
+  double cpu_seconds_before_silence_ = 0;
 };
 
 QemuPe::QemuPe(std::size_t number, const EngineSetup& setup, const std::string& plugin, std::span<const int> cores)
@@ -158,12 +162,26 @@ void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick
          " cycles: an endless loop? (processor.most_cycles_between_hints = " +
          std::to_string(most_cycles_between_hints) + ")");
   }
+  watch_progress(cycles, tick);
+}
+
+void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
   const std::uint64_t hints = share_.hints.load(std::memory_order_relaxed);
-  silence_ = cycles == last_cycles_ && hints == last_hints_ ? silence_ + tick : Clock::duration::zero();
-  last_cycles_ = cycles;
-  last_hints_ = hints;
+  if (cycles != last_cycles_ || hints != last_hints_) {
+    last_cycles_ = cycles;
+    last_hints_ = hints;
+    silence_ = Clock::duration::zero();
+    return;
+  }
+  if (silence_ == Clock::duration::zero()) {
+    cpu_seconds_before_silence_ = cpu_seconds();
+  }
+  silence_ += tick;
   if (silence_ > kLongestSilence) {
     fail("its QEMU process has stopped answering");
+  }
+  if (cpu_seconds() - cpu_seconds_before_silence_ > kMostFruitlessCpuSeconds) {
+    fail("executes no instructions any more: did it trap before mtvec was set?");
   }
 }
 

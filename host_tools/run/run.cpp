@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The host program behind `torolux run`: it listens and says nothing.
+#include "host_tools/run/run.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/niu_window.hpp"
+#include "host_tools/version.hpp"
+
+namespace torolux {
+namespace {
+
+class Listener final : public HostProgram {
+ public:
+  explicit Listener(const std::function<void(const PeText&)>& on_text) : on_text_(on_text) {}
+
+  void start(HostPort& /*port*/) override {}
+
+  void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) override {
+    if (kind != static_cast<std::uint16_t>(protocol::MachineMessage::text)) {
+      throw MachineFailure("PE " + std::to_string(source) + " sent the host a message of kind " + std::to_string(kind) +
+                           "; `torolux run` understands text (kind 1) alone");
+    }
+    std::string text(contents.size(), ' ');
+    std::transform(contents.begin(), contents.end(), text.begin(), [](std::byte b) {
+      const auto c = static_cast<unsigned char>(b);
+      return c < 0x20 || c == 0x7F ? '?' : static_cast<char>(c);
+    });
+    on_text_({port.now(), source, std::move(text)});
+  }
+
+  /// It never has anything more to do: what counts is that the PEs have halted.
+  bool finished() const override { return true; }
+  const char* waiting_for() const override { return "text from the PEs"; }
+
+ private:
+  const std::function<void(const PeText&)>& on_text_;
+};
+
+}  // namespace
+
+MachineFigures run_image(const MachineSetup& setup, const Image& image,
+                         const std::function<void(const PeText&)>& on_text,
+                         const std::function<bool(Cycles)>& progress) {
+  Machine machine(setup, image);
+  Listener listener(on_text);
+  machine.run(listener, progress);
+  return machine.figures();
+}
+
+std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figures, double wall_seconds) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  json["version"] = kVersion;
+  json["engine"] = setup.engine;
+  json["virtual_cycles"] = {{"total", figures.now}};
+  std::uint64_t sent = 0;
+  std::uint64_t delivered = 0;
+  std::uint64_t diverted = 0;
+  Json pes = Json::array();
+  for (const PeFigures& pe : figures.pes) {
+    sent += pe.packets_sent;
+    delivered += pe.packets_delivered;
+    diverted += pe.records_diverted;
+    pes.push_back({{"busy_cycles", pe.busy_cycles},
+                   {"idle_cycles", pe.idle_cycles},
+                   {"instructions", pe.instructions},
+                   {"record_slots_high_water", pe.record_slots_high_water},
+                   {"packets_sent", pe.packets_sent},
+                   {"packets_delivered", pe.packets_delivered},
+                   {"records_diverted", pe.records_diverted}});
+  }
+  json["packets"] = {{"sent", sent}, {"delivered", delivered}, {"link_retries", figures.link_retries}};
+  json["records"] = {{"diverted", diverted}};
+  json["hops"] = {{"mean", delivered > 0 ? static_cast<double>(figures.hops) / static_cast<double>(delivered) : 0},
+                  {"total", figures.hops}};
+  json["bus"] = {{"busy_cycles", figures.bus_busy_cycles}, {"messages", figures.bus_messages}};
+  json["settings"] = {{"pes", {setup.columns, setup.rows}}, {"pe_memory", setup.local_memory_bytes}};
+  json["pes"] = std::move(pes);
+  json["wall_seconds"] = wall_seconds;
+  json["host"] = {{"threads", setup.threads},
+                  {"scheduler_seconds", figures.scheduler_seconds},
+                  {"engine_seconds", figures.engine_seconds}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace torolux
