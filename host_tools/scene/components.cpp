@@ -70,7 +70,8 @@ std::vector<Component> components(const Scene& scene) {
     }
     const std::size_t count = end - i;
     open[edges[i].triangle] = open[edges[i].triangle] || count % 2 != 0 || 2 * upwards != count;
-    twice[edges[i].triangle] = twice[edges[i].triangle] || upwards > 1 || count - upwards > 1;
+    // An edge that three or more meet has no one way to be wound.
+    twice[edges[i].triangle] = twice[edges[i].triangle] || (count == 2 && upwards != 1);
     i = end;
   }
   std::map<std::uint32_t, std::size_t> number;

@@ -15,7 +15,7 @@ struct Component {
   vec::Box box;
   bool closed = false;   ///< every edge is met once in each direction
   double volume = 0;     ///< of a closed one; above 0: fronts outwards [scene units^3]
-  bool one_way = false;  ///< no edge is met twice in one direction: the winding is consistent
+  bool one_way = false;  ///< no edge of two triangles is met twice in one direction: the winding is consistent
 };
 
 /// By shared edges among triangles of the same kind (diffuse, mirror, glass); in the order of their first triangles.

@@ -155,7 +155,8 @@ void inspect_winding(const Scene& scene, double size, std::vector<std::string>& 
     const bool room = look_for_rooms && is_room(all, component, size);
     if (room && component.volume > 0 && kind == SurfaceKind::diffuse)
       tell("closed room " + name_of(scene, component) + " has its fronts outwards; they are expected inwards");
-    if (!room && component.volume < 0)
+    const bool whole = vec::largest(component.box.extent()) >= size;
+    if (!room && !whole && component.volume < 0)
       tell("closed solid " + name_of(scene, component) + " has its fronts inwards; they are expected outwards");
   }
   if (left_out > 0) found.push_back(std::to_string(left_out) + " more surfaces look inverted or open");
