@@ -31,6 +31,8 @@ int guarded(Work work) {
   try {
     const int result = work();
     return interrupted() ? kInterrupted : result;
+  } catch (const Interrupted&) {
+    return kInterrupted;
   } catch (const UsageError& error) {
     return fail((std::string(error.what()) + " (see --help)").c_str(), ExitCode::usage);
   } catch (const InputError& error) {

@@ -81,15 +81,19 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
     return add_value(command, name, "FILE", help, [&to](const std::string& text) { take_path(to, text); })
         ->group(group);
   };
-  add_value(command, "--output", "FILE",
-            "Picture: .png (8 bits, sRGB, tone-mapped), .exr or .pfm (linear radiance, "
-            "W/(m^2 sr)). May be repeated [the scene's name with .png, in the current folder]",
-            [&options](const std::string& text) {
-              if (text.empty()) throw UsageError("the name is empty");
-              options.outputs.emplace_back(text);
-            })
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->expected(1)
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--output",
+          [&options](const std::vector<std::string>& names) {
+            for (const std::string& name : names) {
+              if (name.empty()) throw UsageError("--output: the name is empty");
+              options.outputs.emplace_back(name);
+            }
+          },
+          "Picture: .png (8 bits, sRGB, tone-mapped), .exr or .pfm (linear radiance, W/(m^2 sr)). May be repeated [the "
+          "scene's name with .png, in the current folder]")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
       ->group(group);
   add_value(command, "--exposure", "EV",
             "Exposure of a .png in EV (1 is twice as bright); 0 shows the picture's "
@@ -187,6 +191,10 @@ void add_machine_options(CLI::App& command, RenderOptions& options) {
               options.allocation = text;
             })
       ->default_str(built_in.allocation)
+      ->group(group);
+  command
+      .add_flag("--enter-empty", options.enter_empty,
+                "Camera rays begin in the outermost subspace on their way, not in the first one with anything in it")
       ->group(group);
   add_value(command, "--machine", "FILE.toml", "Parameters of the machine [built in]",
             [&options](const std::string& text) { take_path(options.machine, text); })

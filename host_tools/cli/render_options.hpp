@@ -51,6 +51,7 @@ struct RenderOptions {
   std::optional<std::uint32_t> pe_memory;
   std::optional<SubspacesOption> subspaces;
   std::optional<std::string> allocation, engine;
+  bool enter_empty = false;
   std::optional<std::filesystem::path> machine;
   std::optional<std::uint32_t> threads;
 };
@@ -63,7 +64,7 @@ void add_output_options(CLI::App& command, RenderOptions& options);
 void add_view_options(CLI::App& command, RenderOptions& options);
 /// --patches, --elements, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights, --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
-/// --pes, --pe-memory, --subspaces, --allocation, --machine, --engine, --threads.
+/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --engine, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
 
 /// Throws UsageError unless `name` is an allocation; the message lists them all.

@@ -71,6 +71,7 @@ MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   if (!options.allocation && scene.defaults.allocation)
     from_scene(scene, "allocation", [&] { check_allocation(*scene.defaults.allocation); });
   pick(machine.allocation, options.allocation, scene.defaults.allocation);
+  machine.skip_empty_subspaces = !options.enter_empty;
   if (options.engine) machine.engine = *options.engine;
   machine.threads = options.threads.value_or(0);
   return machine;

@@ -10,7 +10,8 @@ namespace torolux {
 namespace {
 
 constexpr std::chrono::milliseconds kInterval{200};
-constexpr double kLeastFraction = 0.01;  ///< below this no time left is foretold
+constexpr double kLeastFraction = 0.01;  ///< below these no time left is foretold
+constexpr double kLeastSeconds = 1;
 constexpr std::size_t kWidth = 79;
 
 }  // namespace
@@ -51,7 +52,8 @@ void ProgressLine::show(const RenderProgress& progress) {
   last_ = now;
   const double spent = std::chrono::duration<double>(now - stage_begin_).count();
   const double fraction = std::min(progress.fraction, 1.0);
-  const double seconds_left = fraction >= kLeastFraction ? spent * (1 - fraction) / fraction : -1;
+  const double seconds_left =
+      fraction >= kLeastFraction && spent >= kLeastSeconds ? spent * (1 - fraction) / fraction : -1;
   out_ << "\r\x1b[K" << progress_text(progress, hertz_, seconds_left) << std::flush;
   visible_ = true;
 }

@@ -64,6 +64,7 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"pe_memory", figures.local_memory_bytes},
           {"subspaces", figures.subspaces},
           {"allocation", machine.allocation},
+          {"skip_empty_subspaces", machine.skip_empty_subspaces},
           {"clock_hertz", machine.description.processor.clock_hertz}};
 }
 

@@ -76,7 +76,7 @@ std::string traffic(const RenderFigures& figures) {
   const double hops = delivered > 0 ? static_cast<double>(figures.machine.hops) / static_cast<double>(delivered) : 0;
   return left("packets", kLabel) + "  " + grouped(sent) + " sent, " + grouped(delivered) + " delivered, " +
          fixed(hops, 2) + " hops on average\n" + left("records", kLabel) + "  " + grouped(figures.radiosity_records) +
-         " of " + grouped(figures.shots) + " shots, " + grouped(figures.rays) + " rays; " + grouped(diverted) +
+         " from " + grouped(figures.shots) + " shots, " + grouped(figures.rays) + " rays; " + grouped(diverted) +
          " diverted\n" + left("credits", kLabel) + "  " + grouped(figures.credits_home) + " of " +
          grouped(figures.credits_total) + " home\n";
 }

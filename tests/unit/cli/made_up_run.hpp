@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A run that never was, with every figure different, for tests of reports.
+#pragma once
+
+#include "host_tools/report/figures.hpp"
+
+namespace torolux::testing_support {
+
+inline RunDescription made_up_run() {
+  RunDescription run;
+  run.scene = "room";
+  run.quality.width = 320;
+  run.quality.height = 240;
+  run.quality.element_length = 0.5;
+  run.machine.columns = 2;
+  run.machine.rows = 1;
+  run.machine.threads = 7;
+  run.pictures = {"room.png", "out/room.exr"};
+  return run;
+}
+
+inline RenderFigures made_up_figures() {
+  RenderFigures figures;
+  figures.load_cycles = 1'000'000;
+  figures.radiosity_cycles = 23'456'789;
+  figures.ray_tracing_cycles = 3'000'500;
+  figures.shots = 42;
+  figures.radiosity_records = 123'456;
+  figures.rays = 307'200;
+  figures.credits_total = 512;
+  figures.credits_home = 512;
+  figures.wall_seconds = 83.21;
+  figures.local_memory_bytes = 2U << 20U;
+  figures.subspaces = {8, 4, 8};
+  MachineFigures& machine = figures.machine;
+  machine.now = 27'457'289;
+  machine.hops = 2500;
+  machine.link_retries = 3;
+  machine.bus_busy_cycles = 77;
+  machine.bus_messages = 78;
+  machine.frame_buffer_busy_cycles = 79;
+  machine.pixels_added = 80;
+  machine.scheduler_seconds = 1.5;
+  machine.engine_seconds = 160.25;
+  machine.pes.resize(2);
+  machine.pes[0] = {750, 250, 1000, 600, 400, 5, 33, {10, 20, 30}};
+  machine.pes[1] = {500, 500, 2000, 400, 600, 6, 44, {1, 2, 3}};
+  EnergyBalance& energy = figures.energy;
+  energy.emitted = {100, 200, 50};
+  energy.absorbed = {60, 150, 40};
+  energy.absorbed_specular = {10, 5, 1};
+  energy.unshot = {1, 2, 0.5};
+  energy.escaped = {20, 30, 5};
+  energy.cut_off = {5, 8, 2};
+  energy.back_side = {3.999, 5, 1.5};
+  return figures;
+}
+
+}  // namespace torolux::testing_support

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Proves: every way to end a command has its exit code, messages name what was wrong, help is complete, compare works
+// from the command line.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "host_tools/cli/command.hpp"
+#include "host_tools/cli/interruption.hpp"
+#include "host_tools/picture/picture.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace torolux {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::TemporaryFolder;
+
+struct Outcome {
+  int code;
+  std::string out, err;
+};
+
+Outcome torolux(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "torolux");
+  std::vector<const char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = torolux_main(static_cast<int>(argv.size()), argv.data());
+  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+TEST(Main, HelpAndVersionAreNoErrors) {
+  EXPECT_EQ(torolux({"--help"}).code, 0);
+  EXPECT_EQ(torolux({"render", "--help"}).code, 0);
+  const Outcome version = torolux({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_THAT(version.out, testing::StartsWith("torolux "));
+}
+
+TEST(Main, HelpOfRenderIsComplete) {
+  const std::string help = torolux({"render", "--help"}).out;
+  for (const char* option : {"SCENE",
+                             "--output",
+                             "--size",
+                             "--samples",
+                             "--eye",
+                             "--look-at",
+                             "--up",
+                             "--fov",
+                             "--exposure",
+                             "--pes",
+                             "--pe-memory",
+                             "--subspaces",
+                             "--allocation",
+                             "--machine",
+                             "--engine",
+                             "--patches",
+                             "--elements",
+                             "--hemicube",
+                             "--shot-points",
+                             "--unshot",
+                             "--max-shots",
+                             "--bounces",
+                             "--two-sided-lights",
+                             "--save-radiosity",
+                             "--radiosity",
+                             "--stats",
+                             "--seed",
+                             "--threads",
+                             "--quiet",
+                             "--studio",
+                             "--enter-empty"})
+    EXPECT_THAT(help, HasSubstr(option));
+  for (const char* text : {"[256x256]", "[4x4]", "[skewed]", "[16]", "[0.01]", "[32]", "degrees", "scene units"})
+    EXPECT_THAT(help, HasSubstr(text));
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(Main, UsageErrors) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"paint"},
+                                             {"render"},
+                                             {"render", "scene", "--colour"},
+                                             {"render", "scene", "--size"},
+                                             {"render", "scene", "--size", "640"},
+                                             {"render", "scene", "--eye", "1,2"},
+                                             {"render", "scene", "--pes", "4"},
+                                             {"render", "scene", "--pe-memory", "1G"},
+                                             {"render", "scene", "--engine", "steam"},
+                                             {"render", "scene", "--allocation", "heaps"},
+                                             {"render", "scene", "--output", ""},
+                                             {"compare", "a.pfm"}}) {
+    const Outcome outcome = torolux(arguments);
+    EXPECT_EQ(outcome.code, 1) << testing::PrintToString(arguments);
+    EXPECT_NE(outcome.err, "") << testing::PrintToString(arguments);
+  }
+}
+
+TEST(Main, ValuesThatAreNotAllowedAreBadInputAndNameTheOption) {
+  const std::vector<std::array<const char*, 2>> cases = {
+      {"--pes", "0x4"},        {"--pes", "256x256"},  {"--size", "0x10"},       {"--samples", "0"},
+      {"--hemicube", "15"},    {"--hemicube", "258"}, {"--shot-points", "0"},   {"--unshot", "0"},
+      {"--unshot", "1.5"},     {"--bounces", "256"},  {"--fov", "180"},         {"--fov", "0"},
+      {"--pe-memory", "128K"}, {"--patches", "0"},    {"--subspaces", "0x1x1"}, {"--threads", "0"},
+      {"--exposure", "1000"}};
+  for (const auto& [option, value] : cases) {
+    const Outcome outcome = torolux({"render", "scene", option, value});
+    EXPECT_EQ(outcome.code, 2) << option << " " << value;
+    EXPECT_THAT(outcome.err, HasSubstr(option));
+    EXPECT_THAT(outcome.err, HasSubstr(value));
+  }
+}
+
+TEST(Main, NegativeCoordinatesAreValuesNotOptions) {
+  // It gets as far as the scene, which is not there.
+  const Outcome outcome =
+      torolux({"render", "/nowhere", "--eye", "-1,2,3", "--look-at", "-.5,0,0", "--exposure", "-1"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("/nowhere"));
+}
+
+TEST(Main, MissingSceneIsBadInput) {
+  for (const char* command : {"render", "info"}) {
+    const Outcome outcome = torolux({command, "/nowhere/scene"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("/nowhere/scene"));
+  }
+}
+
+/// A room with a lamp: enough to get past the scene.
+std::filesystem::path write_small_scene(const std::filesystem::path& folder) {
+  std::ofstream(folder / "room.mtl") << "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n";
+  std::ofstream(folder / "room.obj") << "mtllib room.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
+                                        "usemtl wall\nf 1 2 3\nusemtl lamp\nf 6 5 4\n";
+  return folder / "room.obj";
+}
+
+TEST(Main, OutputsAreCheckedBeforeTheWork) {
+  const TemporaryFolder folder;
+  const std::string scene = write_small_scene(folder.path()).string();
+  EXPECT_EQ(torolux({"render", scene, "--output", "a.jpg"}).code, 1);
+  for (const char* option : {"--output", "--stats", "--save-radiosity"}) {
+    const Outcome outcome =
+        torolux({"render", scene, "--output", folder.path() / "good.png", option, folder.path() / "missing" / "a.png"});
+    EXPECT_EQ(outcome.code, 2) << option;
+    EXPECT_THAT(outcome.err, HasSubstr("missing/a.png"));
+  }
+  EXPECT_EQ(folder.files(), 2U) << "only the scene";
+}
+
+TEST(Main, MissingFirmwareIsBadInputAndSaysWhatToDo) {
+  const TemporaryFolder folder;
+  const std::string scene = write_small_scene(folder.path()).string();
+  ::setenv("TOROLUX_FIRMWARE", folder.path().c_str(), 1);
+  const Outcome outcome = torolux({"render", scene, "--output", folder.path() / "a.png"});
+  ::unsetenv("TOROLUX_FIRMWARE");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("pe.elf"));
+  EXPECT_THAT(outcome.err, HasSubstr("TOROLUX_FIRMWARE"));
+}
+
+TEST(Main, CompareTellsTheDifferenceAndWritesIt) {
+  const TemporaryFolder folder;
+  write_picture({2, 1, {{1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm", 0);
+  write_picture({2, 1, {{1, 1, 1}, {2, 2, 4}}}, folder.path() / "b.exr", 0);
+  const Outcome outcome = torolux(
+      {"compare", folder.path() / "a.pfm", folder.path() / "b.exr", "--output", folder.path() / "difference.pfm"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("(B of pixel 1, 0)"));
+  const Picture difference = read_picture(folder.path() / "difference.pfm");
+  EXPECT_EQ(difference.pixels[1], (std::array<float, 3>{0, 0, 2}));
+}
+
+TEST(Main, CompareRefusesOtherSizes) {
+  const TemporaryFolder folder;
+  write_picture({2, 1, {{1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm", 0);
+  write_picture({1, 1, {{1, 1, 1}}}, folder.path() / "b.pfm", 0);
+  EXPECT_EQ(torolux({"compare", folder.path() / "a.pfm", folder.path() / "b.pfm"}).code, 2);
+  EXPECT_EQ(torolux({"compare", folder.path() / "a.pfm", folder.path() / "a.pfm", "--output", "x.gif"}).code, 1);
+}
+
+TEST(Interruption, SignalsSetTheFlagAndHandlersComeBack) {
+  {
+    const InterruptionGuard guard;
+    EXPECT_FALSE(interrupted());
+    ::raise(SIGTERM);
+    EXPECT_TRUE(interrupted());
+  }
+  struct sigaction now {};
+  ::sigaction(SIGTERM, nullptr, &now);
+  EXPECT_EQ(now.sa_handler, SIG_DFL);
+  const InterruptionGuard another;
+  EXPECT_FALSE(interrupted()) << "a new command begins without it";
+}
+
+}  // namespace
+}  // namespace torolux

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Proves: an option given outweighs the scene's default, which outweighs the built-in one, for each of them.
+#include "host_tools/cli/settle.hpp"
+
+#include <gmock/gmock.h>
+
+#include "emulator/errors.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace torolux {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::message_of;
+
+Scene scene_with_defaults() {
+  Scene scene;
+  scene.name = "room";
+  scene.camera = Camera{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 55};
+  SceneDefaults& d = scene.defaults;
+  d.width = 101;
+  d.height = 102;
+  d.samples = 103;
+  d.hemicube = 104;
+  d.shot_points = 5;
+  d.max_shots = 106;
+  d.bounces = 107;
+  d.exposure_ev = 1.5;
+  d.patch_length = 2.5;
+  d.element_length = 3.5;
+  d.unshot = 0.25;
+  d.subspaces = "2x3x4";
+  d.allocation = "block";
+  d.seed = 99;
+  d.two_sided_lights = true;
+  return scene;
+}
+
+Scene bare_scene() {
+  Scene scene;
+  scene.name = "bare";
+  scene.camera = Camera{};
+  return scene;
+}
+
+TEST(Settle, BuiltInValues) {
+  const Settled settled = settle({}, bare_scene());
+  const Quality built_in;
+  EXPECT_EQ(settled.quality.width, built_in.width);
+  EXPECT_EQ(settled.quality.hemicube, built_in.hemicube);
+  EXPECT_EQ(settled.quality.unshot, built_in.unshot);
+  EXPECT_EQ(settled.quality.patch_length, std::nullopt);
+  EXPECT_FALSE(settled.quality.two_sided_lights);
+  EXPECT_EQ(settled.machine.columns, 4U);
+  EXPECT_EQ(settled.machine.subspaces, std::nullopt);
+  EXPECT_EQ(settled.machine.allocation, "skewed");
+  EXPECT_EQ(settled.exposure_ev, 0);
+  EXPECT_THAT(settled.outputs, testing::ElementsAre("bare.png"));
+}
+
+TEST(Settle, SceneOutweighsBuiltIn) {
+  const Settled settled = settle({}, scene_with_defaults());
+  const Quality& q = settled.quality;
+  EXPECT_EQ(q.width, 101U);
+  EXPECT_EQ(q.height, 102U);
+  EXPECT_EQ(q.samples, 103U);
+  EXPECT_EQ(q.hemicube, 104U);
+  EXPECT_EQ(q.shot_points, 5U);
+  EXPECT_EQ(q.max_shots, 106U);
+  EXPECT_EQ(q.bounces, 107U);
+  EXPECT_EQ(q.patch_length, 2.5);
+  EXPECT_EQ(q.element_length, 3.5);
+  EXPECT_EQ(q.unshot, 0.25);
+  EXPECT_EQ(q.seed, 99U);
+  EXPECT_TRUE(q.two_sided_lights);
+  EXPECT_EQ(settled.exposure_ev, 1.5);
+  EXPECT_EQ(settled.machine.subspaces, (std::array<std::uint32_t, 3>{2, 3, 4}));
+  EXPECT_EQ(settled.machine.allocation, "block");
+  EXPECT_EQ(settled.camera.field_of_view_degrees, 55);
+}
+
+RenderOptions all_given() {
+  RenderOptions options;
+  options.size = {{11, 12}};
+  options.samples = 13;
+  options.hemicube = 14;
+  options.shot_points = 15;
+  options.max_shots = 16;
+  options.bounces = 17;
+  options.patches = LengthOption{};  // auto, given
+  options.elements = LengthOption{18};
+  options.unshot = 0.19;
+  options.seed = 20;
+  options.exposure_ev = -2;
+  options.subspaces = SubspacesOption{};  // auto, given
+  options.allocation = "modulo";
+  options.pes = {{3, 5}};
+  options.pe_memory = 1U << 20U;
+  options.threads = 2;
+  options.eye = {{1, 2, 3}};
+  options.field_of_view_degrees = 33;
+  options.outputs = {"a.exr", "b.pfm"};
+  return options;
+}
+
+TEST(Settle, OptionsOutweighTheScene) {
+  const Settled settled = settle(all_given(), scene_with_defaults());
+  const Quality& q = settled.quality;
+  EXPECT_EQ(q.width, 11U);
+  EXPECT_EQ(q.height, 12U);
+  EXPECT_EQ(q.samples, 13U);
+  EXPECT_EQ(q.hemicube, 14U);
+  EXPECT_EQ(q.shot_points, 15U);
+  EXPECT_EQ(q.max_shots, 16U);
+  EXPECT_EQ(q.bounces, 17U);
+  EXPECT_EQ(q.patch_length, std::nullopt);
+  EXPECT_EQ(q.element_length, 18);
+  EXPECT_EQ(q.unshot, 0.19);
+  EXPECT_EQ(q.seed, 20U);
+  EXPECT_EQ(settled.exposure_ev, -2);
+  EXPECT_EQ(settled.machine.subspaces, std::nullopt);
+  EXPECT_EQ(settled.machine.allocation, "modulo");
+  EXPECT_EQ(settled.machine.columns, 3U);
+  EXPECT_EQ(settled.machine.rows, 5U);
+  EXPECT_EQ(settled.machine.pe_memory, 1U << 20U);
+  EXPECT_EQ(settled.machine.threads, 2U);
+  EXPECT_EQ(settled.camera.eye, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(settled.camera.look_at, (Vec3d{0, 0, 0})) << "not given: the scene's";
+  EXPECT_EQ(settled.camera.field_of_view_degrees, 33);
+  EXPECT_THAT(settled.outputs, testing::ElementsAre("a.exr", "b.pfm"));
+}
+
+TEST(Settle, FaultsOfTheSceneNameTheScene) {
+  Scene scene = scene_with_defaults();
+  scene.defaults.subspaces = "2x3";
+  EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }), HasSubstr("room"));
+  scene = scene_with_defaults();
+  scene.defaults.allocation = "heaps";
+  EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }), HasSubstr("heaps"));
+  RenderOptions options;
+  options.allocation = "block";
+  EXPECT_NO_THROW(settle(options, scene)) << "outweighed, so it does not matter";
+}
+
+TEST(Settle, ACameraThatLooksNowhereIsRefused) {
+  RenderOptions options;
+  options.eye = {{0, 0, 0}};
+  EXPECT_THROW(settle(options, scene_with_defaults()), InputError);
+  options.look_at = {{0, 1, 0}};
+  EXPECT_THROW(settle(options, scene_with_defaults()), InputError) << "along up";
+  EXPECT_THROW(scene_options(options), InputError);
+}
+
+TEST(Settle, MissingMachineFileIsRefused) {
+  RenderOptions options;
+  options.machine = "/nowhere/machine.toml";
+  EXPECT_THROW(settle(options, bare_scene()), InputError);
+}
+
+}  // namespace
+}  // namespace torolux
