@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// Proves, with whole PEs and fake NIUs: flux is neither lost nor made, every credit comes home exactly once, and the
+// sums are the same bits for any number of PEs, grid and number of slots.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <map>
+
+#include "tests/unit/firmware/fake_machine.hpp"
+
+namespace torolux::test {
+namespace {
+
+using protocol::Flux;
+using protocol::ShotKind;
+using protocol::Stage;
+
+constexpr std::int64_t kEmitted = std::int64_t{1} << 40U;
+
+/// A room with a lamp, a mirror ball and a glass ball, all polygons with elements, both sides of the lamp.
+TestScene room_with_balls(std::uint32_t pes, std::array<std::uint32_t, 3> cells) {
+  TestScene s;
+  s.pes = pes;
+  s.cells = cells;
+  s.hemicube_size = 8;
+  s.points = 2;
+  s.materials = {diffuse_material(0.7F), diffuse_material(0.3F, 1), mirror_material(0.9F), glass_material(1.5F, 0.95F)};
+  add_room(s, {0, 0, 0}, {1, 1, 1}, 2, 0);
+  for (TestPolygon& p : s.polygons) p.element_level = 2;
+  for (std::size_t i = 0; i < s.polygons.size(); i += 3) s.polygons[i].patch_level = 1;
+  add_wall(s, {0.4F, 0.4F, 0.97F}, {0, 0.2F, 0}, {0.2F, 0, 0}, 1, 1);
+  s.polygons.back().sides = 3;
+  s.polygons.back().element_level = s.polygons.back().patch_level = 1;
+  add_ball(s, {0.3F, 0.3F, 0.3F}, 0.2F, 6, 2, true);
+  add_ball(s, {0.7F, 0.6F, 0.4F}, 0.2F, 6, 3, true);
+  for (TestPolygon& p : s.polygons) {
+    if (p.material >= 2) p.sides = 0;
+  }
+  return s;
+}
+
+/// Sets all emission of the lamp, unevenly by channel.
+void light_lamp(PeStores& stores) {
+  for (const protocol::Patch& patch : stores.patches) {
+    if (stores.polygons[patch.polygon].material == 1 && patch.side[0] != protocol::kNoSide) {
+      stores.sides[patch.side[0]].emission = {kEmitted, kEmitted / 3, 12345};
+    }
+  }
+}
+
+struct Outcome {
+  /// By global patch and side: incident flux and elements' flux, direct apart.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Flux>> flux;
+  Flux specular{}, escaped{}, cut_off{}, back{};
+  std::int64_t carried = 0;  ///< by all shots, R + G + B
+  std::uint64_t records = 0;
+};
+
+void add_to(Flux& sum, const Flux& f) {
+  for (std::size_t c = 0; c < 3; ++c) sum[c] += f[c];
+}
+
+void gather(FakeMachine& machine, Outcome& out) {
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
+    const auto tally = machine.tally(p);
+    add_to(out.specular, tally.absorbed_specular);
+    add_to(out.escaped, tally.escaped);
+    add_to(out.cut_off, tally.cut_off);
+    add_to(out.back, tally.back_side);
+    const auto& stores = machine.stores[p];
+    const auto sides = machine.store<protocol::PatchSide>(p, stores.layout.patch_sides);
+    const auto elements = machine.store<protocol::Element>(p, stores.layout.elements);
+    for (const protocol::Patch& patch : stores.patches) {
+      const protocol::Polygon& polygon = stores.polygons[patch.polygon];
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        if (patch.side[side] == protocol::kNoSide) continue;
+        const protocol::PatchSide& s = sides[patch.side[side]];
+        auto& list = out.flux[{patch.number, side}];
+        Flux sum{};
+        list.push_back(s.incident);
+        for (std::uint32_t e = 0; e < pe::Scene::elements_per_patch(polygon); ++e) {
+          list.push_back(elements[s.first_element + e].flux);
+          list.push_back(elements[s.first_element + e].direct);
+          add_to(sum, elements[s.first_element + e].flux);
+        }
+        EXPECT_EQ(sum, s.incident) << "patch " << patch.number;
+      }
+    }
+  }
+}
+
+/// Shoots the best side of the whole machine `shots` times, as a host would, one at a time.
+Outcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits) {
+  FakeMachine machine(scene.pes);
+  machine.load(scene, Stage::radiosity, niu_slots, 1, light_lamp);
+  for (std::uint16_t p = 0; p < scene.pes; ++p) machine.message(p, protocol::MessageKind::begin);
+  machine.run();
+  Outcome out;
+  for (std::uint32_t shot = 0; shot < shots; ++shot) {
+    std::uint16_t where = 0;
+    protocol::Candidate best{};
+    for (std::uint16_t p = 0; p < scene.pes; ++p) {
+      for (const auto& c : machine.select(p, 1, 0)) {
+        if (c.unshot > best.unshot || (c.unshot == best.unshot && c.number < best.number)) {
+          best = c;
+          where = p;
+        }
+      }
+    }
+    if (best.unshot == 0) break;
+    out.carried += best.unshot;
+    out.records += machine.shoot(where, {best.amount, best.patch, best.side, best.kind, shot}, credits);
+  }
+  gather(machine, out);
+  machine.stop();
+  return out;
+}
+
+/// Everything that shots carried has landed somewhere. R + G + B.
+void expect_balance(const Outcome& out) {
+  std::int64_t ended = 0;
+  const auto count = [&](const Flux& f) { ended += f[0] + f[1] + f[2]; };
+  for (const auto& [place, list] : out.flux) count(list[0]);
+  for (const Flux* f : {&out.specular, &out.escaped, &out.cut_off, &out.back}) count(*f);
+  EXPECT_EQ(ended, out.carried);
+}
+
+TEST(Radiosity, FluxIsNeitherLostNorMade) {
+  const Outcome out = radiate(room_with_balls(4, {4, 4, 4}), 12, 64, 100);
+  expect_balance(out);
+  EXPECT_EQ(out.escaped, Flux{});
+  EXPECT_EQ(out.back, Flux{});
+  EXPECT_GT(out.specular[0], 0);
+  EXPECT_GT(out.records, 5'000U);
+}
+
+TEST(Radiosity, WhatLeavesOrFallsOnMissingSidesIsCounted) {
+  TestScene scene = room_with_balls(2, {3, 3, 3});
+  scene.bounces = 2;
+  for (std::size_t i = 0; i < 8; ++i) scene.polygons[i].sides = protocol::kBackPresent;  // the floor, from inside
+  scene.polygons.erase(scene.polygons.begin() + 8, scene.polygons.begin() + 12);
+  const Outcome out = radiate(scene, 4, 64, 50);
+  expect_balance(out);
+  EXPECT_GT(out.escaped[0], 0);
+  EXPECT_GT(out.back[0], 0);
+  EXPECT_GT(out.cut_off[0], 0);
+}
+
+// Sums are integers, rays do not change at hand-over: the machine makes no difference, to the bit.
+TEST(Radiosity, SameSumsWhateverTheMachine) {
+  const Outcome one = radiate(room_with_balls(1, {1, 1, 1}), 10, 64, 1'000'000);
+  struct Machine {
+    std::uint32_t pes;
+    std::array<std::uint32_t, 3> cells;
+    std::uint32_t slots, credits;
+  };
+  for (const Machine& m : {Machine{1, {5, 3, 4}, 64, 77}, Machine{2, {2, 2, 2}, 64, 100},
+                           Machine{5, {4, 7, 3}, 200, 999}, Machine{12, {6, 6, 6}, 16, 300}}) {
+    const Outcome other = radiate(room_with_balls(m.pes, m.cells), 10, m.slots, m.credits);
+    EXPECT_EQ(other.flux, one.flux) << m.pes << " PEs";
+    EXPECT_EQ(other.specular, one.specular);
+    EXPECT_EQ(other.records, one.records);
+  }
+}
+
+// Direct flux: only what came straight from the lamp. Behind a mirror or glass the mark is gone.
+TEST(Radiosity, DirectFluxIsKeptApart) {
+  TestScene scene = room_with_balls(3, {3, 3, 3});
+  const Outcome lamp = radiate(scene, 5, 64, 200);  // the lamp has five patches: emission only
+  std::int64_t direct = 0;
+  std::int64_t all = 0;
+  for (const auto& [place, list] : lamp.flux) {
+    for (std::size_t e = 1; e + 1 < list.size(); e += 2) {
+      all += list[e][0];
+      direct += list[e + 1][0];
+      EXPECT_GE(list[e][0], list[e + 1][0]);
+    }
+  }
+  EXPECT_GT(direct, all / 2);
+  EXPECT_LT(direct, all);
+  scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
+  const Outcome bare = radiate(scene, 5, 64, 200);
+  for (const auto& [place, list] : bare.flux) {
+    for (std::size_t e = 1; e + 1 < list.size(); e += 2) EXPECT_EQ(list[e], list[e + 1]);
+  }
+}
+
+// Random little scenes on random machines: credits (checked at every grant by FakeMachine::shoot), slots and flux
+// close.
+TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
+  const bool holds = rc::check([] {
+    const auto pick = [](std::uint32_t low, std::uint32_t high) { return *rc::gen::inRange(low, high); };
+    TestScene s;
+    s.pes = pick(1, 9);
+    s.cells = {pick(1, 6), pick(1, 6), pick(1, 6)};
+    s.hemicube_size = 2 * pick(1, 4);
+    s.points = pick(1, 4);
+    s.seed = pick(0, 1'000'000);
+    s.bounces = pick(1, 9);
+    s.materials = {diffuse_material(0.5F), diffuse_material(0.5F, 1), mirror_material(0.9F),
+                   glass_material(1.5F, 0.9F)};
+    const std::uint32_t polygons = pick(2, 30);
+    for (std::uint32_t p = 0; p < polygons; ++p) {
+      TestPolygon polygon{};
+      for (auto& corner : polygon.corner) {
+        for (float& x : corner) x = static_cast<float>(pick(0, 17)) / 16.0F;
+      }
+      const glm::vec3 a = pe::to_vector(polygon.corner[1]) - pe::to_vector(polygon.corner[0]);
+      const glm::vec3 b = pe::to_vector(polygon.corner[2]) - pe::to_vector(polygon.corner[0]);
+      if (glm::length(glm::cross(a, b)) == 0.0F) continue;
+      polygon.material = p == 0 ? std::uint16_t{1} : static_cast<std::uint16_t>(pick(0, 4));
+      polygon.sides = polygon.material >= 2 ? std::uint8_t{0} : static_cast<std::uint8_t>(pick(1, 4));
+      polygon.patch_level = static_cast<std::uint8_t>(pick(0, 2));
+      polygon.element_level = static_cast<std::uint8_t>(polygon.patch_level + pick(0, 3));
+      s.polygons.push_back(polygon);
+    }
+    expect_balance(radiate(s, 3, pick(16, 65), pick(1, 200)));
+    RC_ASSERT(!::testing::Test::HasFailure());
+  });
+  EXPECT_TRUE(holds);
+}
+
+// A shot that is over before its credits are used gives them back before it says so; one without flux needs none.
+TEST(Radiosity, UnusedCreditsComeHomeBeforeShotDone) {
+  const TestScene scene = room_with_balls(2, {2, 2, 2});
+  FakeMachine machine(2);
+  machine.load(scene, Stage::radiosity, 64, 1, light_lamp);
+  for (std::uint16_t p = 0; p < 2; ++p) machine.message(p, protocol::MessageKind::begin);
+  machine.run();
+  for (std::uint16_t p = 0; p < 2; ++p) {
+    const auto best = machine.select(p, 1, 0);
+    if (best.empty()) continue;
+    machine.message(p, protocol::MessageKind::shoot,
+                    protocol::Shoot{{0, 0, 0}, best[0].patch, 0, ShotKind::emitted, 0});
+    machine.run();
+    EXPECT_EQ(machine.take(protocol::MessageKind::shot_done).size(), 1U);
+    machine.message(p, protocol::MessageKind::shoot,
+                    protocol::Shoot{best[0].amount, best[0].patch, 0, ShotKind::emitted, 1});
+    machine.message(p, protocol::MessageKind::grant, protocol::Grant{1'000'000});
+    machine.message(p, protocol::MessageKind::grant, protocol::Grant{17});  // sent before the host knew
+    machine.run();
+    EXPECT_EQ(machine.take_credits(), 1'000'017U);
+    EXPECT_EQ(machine.take(protocol::MessageKind::shot_done).size(), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace torolux::test
