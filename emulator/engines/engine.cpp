@@ -15,7 +15,7 @@ namespace {
 using Registry = std::map<std::string, EngineFactory, std::less<>>;
 
 Registry& registry() {
-  static Registry engines = {{"qemu", make_qemu_engine}};
+  static Registry engines = {{"qemu", [](const EngineSetup& setup) { return make_qemu_engine(setup); }}};
   return engines;
 }
 

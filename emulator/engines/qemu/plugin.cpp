@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "emulator/engines/isa/instruction_class.hpp"
+#include "emulator/engines/qemu/hint_log.hpp"
 #include "emulator/engines/qemu/plugin_api.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/niu/processor_side.hpp"
@@ -53,7 +54,14 @@ class Plugin {
   void translated(qemu_plugin_tb* block);
   void hint(const HintPlace& place);
 
+  // At most one of the two is there.
+  std::optional<HintRecorder> recorder;
+  std::optional<HintReplayer> replayer;
+
  private:
+  NiuProcessorSide::Result answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
+  [[noreturn]] void end();
+
   PluginShare& share_;
   NiuProcessorSide side_;
   // PE clock = counted cycles - cycle_offset_; the same for instructions. Modulo 2^64: waiting makes it "negative".
@@ -102,6 +110,23 @@ void Plugin::translated(qemu_plugin_tb* block) {
                                            rest.instructions_left);
 }
 
+NiuProcessorSide::Result Plugin::answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
+  if (replayer) {
+    return replayer->hint(immediate, clock);
+  }
+  const NiuProcessorSide::Result result = side_.hint(immediate, clock, instructions);
+  if (recorder && result.outcome == NiuProcessorSide::Outcome::done) {
+    recorder->happened(immediate, result.clock, instructions);
+  }
+  return result;
+}
+
+void Plugin::end() {
+  share_.diverged.store(replayer && !replayer->at_end() ? 1 : 0, std::memory_order_relaxed);
+  share_.stopped.store(1, std::memory_order_release);
+  _exit(0);
+}
+
 void Plugin::hint(const HintPlace& place) {
   const std::uint64_t counted = share_.cycles - place.cycles_left;
   const std::uint64_t counted_instructions = share_.instructions - place.instructions_left;
@@ -111,10 +136,9 @@ void Plugin::hint(const HintPlace& place) {
   }
   const std::uint64_t clock = counted - cycle_offset_;
   const std::uint64_t instructions = counted_instructions - instruction_offset_;
-  const NiuProcessorSide::Result result = side_.hint(place.immediate, clock, instructions);
+  const NiuProcessorSide::Result result = answer(place.immediate, clock, instructions);
   if (result.outcome == NiuProcessorSide::Outcome::stop) {
-    share_.stopped.store(1, std::memory_order_release);
-    _exit(0);
+    end();
   }
   retrying_ = result.outcome == NiuProcessorSide::Outcome::retry;
   if (retrying_) {
@@ -165,9 +189,20 @@ const char* install(qemu_plugin_id_t id, const qemu_info_t& info, std::string_vi
   if (!channel || !local || channel->size() < niu_channel_bytes() || local->size() < share.local_memory_bytes) {
     return "channel or local memory cannot be mapped";
   }
-  plugin = std::make_unique<Plugin>(
-      share,
-      NiuProcessorSide(*niu_channel_at(channel->data()), local->first(share.local_memory_bytes), share.window_offset));
+  const std::span<std::byte> memory = local->first(share.local_memory_bytes);
+  plugin =
+      std::make_unique<Plugin>(share, NiuProcessorSide(*niu_channel_at(channel->data()), memory, share.window_offset));
+  if (share.log_use != HintLogUse::none) {
+    const auto log = map_descriptor(share.log_descriptor);
+    if (!log || log->size() < sizeof(HintLogHead)) {
+      return "the log of HINTs cannot be mapped";
+    }
+    if (share.log_use == HintLogUse::record) {
+      plugin->recorder.emplace(*log, memory, share.window_offset);
+    } else {
+      plugin->replayer.emplace(*log, memory);
+    }
+  }
   qemu_plugin_register_vcpu_tb_trans_cb(id, on_translated);
   return nullptr;
 }

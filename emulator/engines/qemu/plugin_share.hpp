@@ -11,6 +11,8 @@ namespace torolux {
 
 inline constexpr std::uint32_t kPluginShareVersion = 1;
 
+enum class HintLogUse : std::uint32_t { none, record, replay };
+
 struct PluginShare {
   // Set by the engine before QEMU starts.
   std::uint32_t version;             ///< kPluginShareVersion
@@ -18,6 +20,8 @@ struct PluginShare {
   std::uint32_t local_memory_bytes;  ///< the PE's
   std::int32_t channel_descriptor;   ///< NiuChannel, open in QEMU's process
   std::int32_t local_descriptor;     ///< local memory, likewise
+  std::int32_t log_descriptor;       ///< see hint_log.hpp; only where it is used
+  HintLogUse log_use;
   LatencyTable latency;
 
   // Counted by the translated code at the start of each block, so ahead of the PE by up to a block.
@@ -28,6 +32,7 @@ struct PluginShare {
   std::atomic<std::uint64_t> cycles_at_hint;  ///< `cycles` at the end of the last HINT
   std::atomic<std::uint64_t> hints;           ///< so far, retries included: shows that the plugin is alive
   std::atomic<std::uint32_t> stopped;         ///< 1: the process ended because the machine or the PE had ended
+  std::atomic<std::uint32_t> diverged;        ///< 1: a replayed PE did not do what it had done when it was recorded
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free);
 

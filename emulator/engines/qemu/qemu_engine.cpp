@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "emulator/engines/qemu/plugin_share.hpp"
@@ -66,9 +67,17 @@ std::vector<int> cores_for(unsigned threads) {
   return cores;
 }
 
+/// What is the same for all PEs of an engine.
+struct Launch {
+  EngineSetup setup;
+  std::optional<QemuHintLogs> logs;
+  std::string plugin;  // as QEMU's option takes it
+  std::vector<int> cores;
+};
+
 class QemuPe {
  public:
-  QemuPe(std::size_t number, const EngineSetup& setup, const std::string& plugin, std::span<const int> cores);
+  QemuPe(std::size_t number, const Launch& launch);
 
   /// Throws MachineFailure where the PE cannot go on. tick: wall time since the last look.
   void check(std::uint64_t most_cycles_between_hints, Clock::duration tick);
@@ -78,9 +87,8 @@ class QemuPe {
  private:
   void watch_progress(std::uint64_t cycles, Clock::duration tick);
   [[noreturn]] void fail(const std::string& what) const;
-  static PluginShare& prepare(SharedMemory& memory, const EngineSetup& setup, const PeMemory& pe);
-  static QemuProcess launch(const PeMemory& pe, const SharedMemory& share, const std::string& plugin,
-                            std::span<const int> cores);
+  static PluginShare& prepare(SharedMemory& memory, std::size_t number, const Launch& launch);
+  static QemuProcess start(std::size_t number, const Launch& launch, const SharedMemory& share);
 
   std::size_t number_;
   SharedMemory share_memory_;
@@ -92,25 +100,28 @@ class QemuPe {
   double cpu_seconds_before_silence_ = 0;
 };
 
-QemuPe::QemuPe(std::size_t number, const EngineSetup& setup, const std::string& plugin, std::span<const int> cores)
+QemuPe::QemuPe(std::size_t number, const Launch& launch)
     : number_(number),
       share_memory_("torolux-share", sizeof(PluginShare)),
-      share_(prepare(share_memory_, setup, setup.pes[number])),
-      process_(launch(setup.pes[number], share_memory_, plugin, cores)) {}
+      share_(prepare(share_memory_, number, launch)),
+      process_(start(number, launch, share_memory_)) {}
 
-PluginShare& QemuPe::prepare(SharedMemory& memory, const EngineSetup& setup, const PeMemory& pe) {
+PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Launch& launch) {
+  const PeMemory& pe = launch.setup.pes[number];
   auto& share = *new (memory.bytes().data()) PluginShare{};  // placed in memory that SharedMemory owns
   share.version = kPluginShareVersion;
-  share.window_offset = setup.image.niu_window - protocol::kLocalMemoryBase;
+  share.window_offset = launch.setup.image.niu_window - protocol::kLocalMemoryBase;
   share.local_memory_bytes = pe.local_memory_bytes;
   share.channel_descriptor = pe.channel.descriptor();
   share.local_descriptor = pe.local.descriptor();
-  share.latency = setup.machine.processor.latency;
+  share.log_descriptor = launch.logs ? launch.logs->logs[number].descriptor() : -1;
+  share.log_use = launch.logs ? launch.logs->use : HintLogUse::none;
+  share.latency = launch.setup.machine.processor.latency;
   return share;
 }
 
-QemuProcess QemuPe::launch(const PeMemory& pe, const SharedMemory& share, const std::string& plugin,
-                           std::span<const int> cores) {
+QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const SharedMemory& share) {
+  const PeMemory& pe = launch.setup.pes[number];
   const std::string memory = std::to_string(pe.local.bytes().size());
   const std::string descriptor = std::to_string(pe.local.descriptor());
   const std::vector<std::string> arguments = {
@@ -133,9 +144,12 @@ QemuProcess QemuPe::launch(const PeMemory& pe, const SharedMemory& share, const 
       "-display",
       "none",
       "-plugin",
-      plugin + ",share=" + std::to_string(share.descriptor())};
-  const int inherited[] = {pe.channel.descriptor(), pe.local.descriptor(), share.descriptor()};
-  return QemuProcess(arguments, inherited, cores);
+      launch.plugin + ",share=" + std::to_string(share.descriptor())};
+  std::vector<int> inherited = {pe.channel.descriptor(), pe.local.descriptor(), share.descriptor()};
+  if (launch.logs) {
+    inherited.push_back(launch.logs->logs[number].descriptor());
+  }
+  return QemuProcess(arguments, inherited, launch.cores);
 }
 
 void QemuPe::fail(const std::string& what) const {
@@ -146,6 +160,9 @@ void QemuPe::fail(const std::string& what) const {
 void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick) {
   const bool had_stopped = share_.stopped.load(std::memory_order_acquire) != 0;
   if (had_stopped) {
+    if (share_.diverged.load(std::memory_order_relaxed) != 0) {
+      fail("did not repeat what it had done when it was recorded");
+    }
     return;  // the PE has halted; whatever its process does now is of no interest
   }
   if (const auto why = process_.ended()) {
@@ -187,17 +204,17 @@ void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
 
 class QemuEngine final : public Engine {
  public:
-  explicit QemuEngine(const EngineSetup& setup)
-      : setup_(setup), most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {}
+  QemuEngine(const EngineSetup& setup, std::optional<QemuHintLogs> logs)
+      : launch_{setup, logs, {}, {}}, most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {}
 
   std::string_view name() const override { return "qemu"; }
 
   void start() override {
-    const std::string plugin = escape_commas(plugin_file().string());
-    const std::vector<int> cores = cores_for(setup_.threads);
-    pes_.reserve(setup_.pes.size());
-    for (std::size_t i = 0; i < setup_.pes.size(); ++i) {
-      pes_.emplace_back(i, setup_, plugin, cores);
+    launch_.plugin = escape_commas(plugin_file().string());
+    launch_.cores = cores_for(launch_.setup.threads);
+    pes_.reserve(launch_.setup.pes.size());
+    for (std::size_t i = 0; i < launch_.setup.pes.size(); ++i) {
+      pes_.emplace_back(i, launch_);
     }
     last_check_ = Clock::now();
   }
@@ -227,7 +244,7 @@ class QemuEngine final : public Engine {
   }
 
  private:
-  EngineSetup setup_;
+  Launch launch_;
   std::uint64_t most_cycles_between_hints_;
   std::vector<QemuPe> pes_;
   Clock::time_point last_check_;
@@ -236,7 +253,11 @@ class QemuEngine final : public Engine {
 }  // namespace
 
 std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup) {
-  return std::make_unique<QemuEngine>(setup);
+  return std::make_unique<QemuEngine>(setup, std::nullopt);
+}
+
+std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuHintLogs& logs) {
+  return std::make_unique<QemuEngine>(setup, logs);
 }
 
 }  // namespace torolux

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Writes and reads the log of HINTs.
+#include "emulator/engines/qemu/hint_log.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "firmware/protocol/hints.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::ArrivalKind;
+using protocol::Hint;
+using protocol::NiuWindow;
+
+constexpr std::size_t padded(std::size_t bytes) {
+  return (bytes + 7) / 8 * 8;
+}
+
+constexpr bool is_marker(std::int32_t immediate) {
+  return immediate >= static_cast<std::int32_t>(Hint::enter_phase);
+}
+
+/// The most that one entry takes: the window, and a full packet of records in separate slots.
+constexpr std::size_t kLargestEntry =
+    sizeof(HintLogEntry) + 2 * sizeof(NiuWindow) + protocol::kMostPacketBytes + 32 * (sizeof(HintLogPatch) + 8);
+
+}  // namespace
+
+HintRecorder::HintRecorder(std::span<std::byte> log, std::span<const std::byte> local_memory,
+                           std::uint32_t window_offset)
+    : log_(log.subspan(sizeof(HintLogHead))),
+      local_memory_(local_memory),
+      window_(*reinterpret_cast<const NiuWindow*>(local_memory.data() + window_offset)),
+      head_(*reinterpret_cast<HintLogHead*>(log.data())) {
+  std::uint32_t patches = 0;
+  auto* entry = reinterpret_cast<HintLogEntry*>(take(sizeof(HintLogEntry)));
+  patch(window_offset, sizeof(NiuWindow), patches);
+  *entry = {0, 0, patches};
+  head_.whole = 1;
+}
+
+std::byte* HintRecorder::take(std::size_t bytes) {
+  std::byte* place = log_.data() + head_.used;
+  head_.used += padded(bytes);
+  return place;
+}
+
+std::uint32_t HintRecorder::offset_in_window(const void* field) const {
+  return static_cast<std::uint32_t>(static_cast<const std::byte*>(field) - local_memory_.data());
+}
+
+void HintRecorder::patch(std::uint32_t offset, std::uint32_t bytes, std::uint32_t& patches) {
+  const HintLogPatch head{offset, bytes};
+  std::memcpy(take(sizeof head), &head, sizeof head);
+  std::memcpy(take(bytes), local_memory_.data() + offset, bytes);
+  ++patches;
+}
+
+void HintRecorder::add_receive(std::uint32_t& patches) {
+  patch(offset_in_window(&window_.arrival), sizeof window_.arrival, patches);
+  if (window_.arrival.kind == ArrivalKind::message) {
+    patch(offset_in_window(&window_.message),
+          static_cast<std::uint32_t>(sizeof window_.message) + window_.message.bytes, patches);
+  } else if (window_.arrival.kind == ArrivalKind::records) {
+    const std::uint32_t slots = window_.slots.address - protocol::kLocalMemoryBase;
+    for (std::uint32_t i = 0; i < window_.arrival.count; ++i) {
+      patch(slots + window_.arrival.slots[i] * window_.slots.bytes, window_.slots.bytes, patches);
+    }
+  }
+}
+
+void HintRecorder::happened(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
+  if (is_marker(immediate) || head_.whole == 0) {
+    return;
+  }
+  if (log_.size() - head_.used < kLargestEntry) {
+    head_.whole = 0;
+    return;
+  }
+  std::uint32_t patches = 0;
+  auto* entry = reinterpret_cast<HintLogEntry*>(take(sizeof(HintLogEntry)));
+  switch (static_cast<Hint>(immediate)) {
+    case Hint::receive:
+    case Hint::receive_if_any:
+      add_receive(patches);
+      break;
+    case Hint::clock:
+      patch(offset_in_window(&window_.clock), sizeof window_.clock, patches);
+      break;
+    default:
+      break;
+  }
+  patch(offset_in_window(&window_.released), sizeof window_.released, patches);
+  *entry = {clock, immediate, patches};
+  head_.cycles = clock;
+  head_.instructions = instructions;
+  ++head_.entries;
+}
+
+HintReplayer::HintReplayer(std::span<const std::byte> log, std::span<std::byte> local_memory)
+    : local_memory_(local_memory) {
+  HintLogHead head{};
+  std::memcpy(&head, log.data(), sizeof head);
+  entries_ = log.subspan(sizeof head, head.used);
+  if (!at_end()) {
+    apply();
+  }
+}
+
+HintLogEntry HintReplayer::apply() {
+  HintLogEntry entry{};
+  std::memcpy(&entry, &entries_[next_], sizeof entry);
+  next_ += padded(sizeof entry);
+  for (std::uint32_t i = 0; i < entry.patches; ++i) {
+    HintLogPatch head{};
+    std::memcpy(&head, &entries_[next_], sizeof head);
+    next_ += padded(sizeof head);
+    std::memcpy(&local_memory_[head.offset], &entries_[next_], head.bytes);
+    next_ += padded(head.bytes);
+  }
+  return entry;
+}
+
+NiuProcessorSide::Result HintReplayer::hint(std::int32_t immediate, std::uint64_t clock) {
+  using enum NiuProcessorSide::Outcome;
+  if (is_marker(immediate)) {
+    return {done, clock};
+  }
+  if (at_end()) {
+    return {stop, clock};
+  }
+  HintLogEntry expected{};
+  std::memcpy(&expected, &entries_[next_], sizeof expected);
+  if (expected.immediate != immediate || expected.clock < clock) {
+    return {stop, clock};  // at_end() is false: the run did not repeat itself
+  }
+  apply();
+  return {done, expected.clock};
+}
+
+}  // namespace torolux
