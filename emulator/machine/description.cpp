@@ -102,7 +102,7 @@ class Reader {
       if (key == keys_.end()) {
         unknown(key_name, name.source().begin);
       }
-      std::visit([&](auto* place) { read_value(*key, node, *place); }, key->place);
+      std::visit([&, &value = node](auto* place) { read_value(*key, value, *place); }, key->place);
     }
   }
 
