@@ -2,8 +2,6 @@
 // A machine file (TOML) in, a description out. One table of keys says what there is and what is allowed.
 #include "emulator/machine/description.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -12,6 +10,7 @@
 #include <variant>
 
 #include "emulator/errors.hpp"
+#include "emulator/toml.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux {

@@ -7,9 +7,7 @@
 #include <string_view>
 #include <vector>
 
-// Not as a library: so that sanitizers and fuzzers see into it.
-#include <toml++/toml.h>
-
+#include "emulator/toml.hpp"
 #include "host_tools/scene/files.hpp"
 #include "host_tools/scene/scene.hpp"
 

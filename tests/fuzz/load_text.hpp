@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What fuzzers do with one input: load it as a part of a scene. Only an InputError may come out, and it must say where.
+#pragma once
+
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "emulator/errors.hpp"
+#include "host_tools/scene/inspect.hpp"
+#include "host_tools/scene/load_scene.hpp"
+#include "tests/support/memory_files.hpp"
+
+namespace torolux {
+
+enum class SceneText { obj, mtl, scene_toml };
+
+inline std::map<std::string, std::string> scene_with(SceneText kind, const std::string& text) {
+  const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n";
+  const std::string library = "newmtl white\nKd .5 .5 .5\nnewmtl light\nKe 1 1 1\nnewmtl glass\nillum 7\nNi 1.5\n";
+  switch (kind) {
+    case SceneText::obj:
+      return {{"fuzz.obj", text}, {"a.mtl", library}};
+    case SceneText::mtl:
+      return {{"fuzz.obj", "mtllib fuzz.mtl\n" + quad + "usemtl m\nf 1//1 2//1 3//1\nusemtl n\nf 1 3 4\n"},
+              {"fuzz.mtl", text}};
+    case SceneText::scene_toml:
+      break;
+  }
+  return {{"fuzz.toml", text},
+          {"a.obj", "mtllib a.mtl\n" + quad + "usemtl white\nf 1 2 3\nusemtl light\nf 1 3 4\n"},
+          {"a.mtl", library}};
+}
+
+/// true: loaded. Ends the program where a message does not begin with one of the files.
+inline bool load_text(SceneText kind, const std::string& text, bool studio) {
+  MemoryFiles files(scene_with(kind, text));
+  SceneOptions options;
+  options.studio = studio;
+  try {
+    const Scene scene = load_scene_from(files, kind == SceneText::scene_toml ? "fuzz.toml" : "fuzz.obj", options);
+    for (const SceneTriangle& triangle : scene.triangles)
+      for (const std::uint32_t p : triangle.position)
+        if (p >= scene.positions.size()) std::abort();
+    inspect(scene);
+    return true;
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    for (const char* file : {"fuzz.", "a.obj", "a.mtl", "--studio"})
+      if (message.starts_with(file)) return false;
+    std::cerr << "a message without a place: " << message << '\n';
+    std::abort();
+  }
+}
+
+}  // namespace torolux
