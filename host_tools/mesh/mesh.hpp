@@ -16,8 +16,8 @@ namespace torolux {
 
 /// What of the quality settings the mesh depends on.
 struct MeshChoice {
-  std::optional<double> patch_length;    ///< longest edge of a patch, user units, > 0; absent: auto
-  std::optional<double> element_length;  ///< likewise of an element
+  std::optional<double> patch_length = std::nullopt;    ///< longest edge of a patch, user units, > 0; absent: auto
+  std::optional<double> element_length = std::nullopt;  ///< likewise of an element
   bool two_sided_lights = false;
 };
 

@@ -70,11 +70,12 @@ class Hash {
   std::uint64_t value_ = 0xCBF2'9CE4'8422'2325U;
 };
 
+/// Writes `value` at the start of `bytes` and moves on; the caller has made room.
 template <typename T>
-void append(std::vector<std::byte>& bytes, const T& value) {
+void put(std::span<std::byte>& bytes, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
-  const auto raw = std::as_bytes(std::span(&value, 1));
-  bytes.insert(bytes.end(), raw.begin(), raw.end());
+  std::memcpy(bytes.data(), &value, sizeof value);
+  bytes = bytes.subspan(sizeof value);
 }
 
 /// The next T of `bytes`; the caller has checked the length.
@@ -170,14 +171,16 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
 }
 
 std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, const Solution& solution) {
-  std::vector<std::byte> rest;
-  append(rest, origin);
-  append(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.shots});
-  for (const SolvedSide& side : solution.sides) append(rest, side);
-  for (const protocol::Element& element : solution.elements) append(rest, element);
-  std::vector<std::byte> bytes;
-  append(bytes, Head{kMagic, kVersion, crc32(rest), 0, rest.size()});
-  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  const std::size_t length = sizeof(RadiosityOrigin) + sizeof(SavedSums) + solution.sides.size() * sizeof(SolvedSide) +
+                             solution.elements.size() * sizeof(protocol::Element);
+  std::vector<std::byte> bytes(sizeof(Head) + length);
+  std::span<std::byte> rest = std::span(bytes).subspan(sizeof(Head));
+  put(rest, origin);
+  put(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.shots});
+  for (const SolvedSide& side : solution.sides) put(rest, side);
+  for (const protocol::Element& element : solution.elements) put(rest, element);
+  std::span<std::byte> start = bytes;
+  put(start, Head{kMagic, kVersion, crc32(start.subspan(sizeof(Head))), 0, length});
   return bytes;
 }
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Levels: how finely triangles are cut, and the numbers of patches and elements that follow.
+#include "host_tools/mesh/levels.hpp"
+
+#include <gtest/gtest.h>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/mesh/mesh.hpp"
+#include "tests/unit/host/test_scenes.hpp"
+
+namespace torolux {
+namespace {
+
+TEST(Levels, LeastLevelThatIsShortEnough) {
+  EXPECT_EQ(level_for(1.0, 1.0), 0);
+  EXPECT_EQ(level_for(1.0, 0.99), 1);
+  EXPECT_EQ(level_for(1.0, 0.25), 2);
+  EXPECT_EQ(level_for(1.0, 0.2499), 3);
+  EXPECT_EQ(level_for(1e9, 1e-9), protocol::kMostLevels);
+}
+
+TEST(Levels, ElementsAreNeverCoarserThanPatches) {
+  const std::vector<double> edges{1.0, 4.0};
+  for (const Levels& level : choose_levels(edges, 0.1, 3.0)) EXPECT_EQ(level.element, level.patch);
+}
+
+TEST(Levels, AutomaticCountsSuitASmallScene) {
+  const Mesh mesh = make_mesh(test::room_with_box(), {});
+  EXPECT_GE(mesh.patches, 200U);
+  EXPECT_LE(mesh.patches, 600U);
+  EXPECT_GE(mesh.elements, 2500U);
+  EXPECT_LE(mesh.elements, 9000U);
+}
+
+TEST(Levels, LargeScenesGetAboutOnePatchForEachTriangle) {
+  const std::vector<double> edges(70'000, 0.01);
+  for (const Levels& level : choose_levels(edges, {}, {})) EXPECT_EQ(level.patch, 0);
+}
+
+TEST(Levels, MeshNumbersRunOn) {
+  const Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.5, .element_length = 0.2});
+  std::uint32_t patches = 0;
+  std::uint32_t sides = 0;
+  std::uint32_t elements = 0;
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    EXPECT_EQ(triangle.first_patch, patches);
+    const std::uint32_t here = protocol::triangles_of_level(triangle.patch_level);
+    for (std::uint32_t p = 0; p < here; ++p) EXPECT_EQ(&mesh.triangles[mesh.triangle_of_patch[patches + p]], &triangle);
+    patches += here;
+    for (std::uint32_t s = 0; s < 2; ++s) {
+      if (triangle.first_side[s] == protocol::kNoSide) continue;
+      EXPECT_EQ(triangle.first_side[s], sides);
+      EXPECT_EQ(triangle.first_element[s], elements);
+      sides += here;
+      elements += protocol::triangles_of_level(triangle.element_level);
+    }
+  }
+  EXPECT_EQ(mesh.patches, patches);
+  EXPECT_EQ(mesh.patch_sides, sides);
+  EXPECT_EQ(mesh.elements, elements);
+}
+
+TEST(Levels, TooManyElementsAreRefusedWithTheNumber) {
+  try {
+    make_mesh(test::room_with_box(), {.element_length = 1e-4});
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("67108864"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Mesh, NormalisedSceneLeavesAMarginAllAround) {
+  const Mesh mesh = make_mesh(test::room_with_box(), {});
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    for (const protocol::Vec3f& corner : triangle.corner) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_GT(corner[axis], 0.0009F);
+        EXPECT_LT(corner[axis], mesh.space.size[axis] - 0.0009);
+      }
+    }
+  }
+  EXPECT_EQ(mesh.space.size, (Vec3d{1, 1, 1}));
+}
+
+}  // namespace
+}  // namespace torolux

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Saved radiosities: what was saved comes back; any byte that is wrong or missing is refused; so is another scene's.
+#include "host_tools/solution/radiosity_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "emulator/errors.hpp"
+#include "tests/unit/host/test_scenes.hpp"
+
+namespace torolux {
+namespace {
+
+class RadiosityFileTest : public testing::Test {
+ protected:
+  RadiosityFileTest() {
+    solution_.sides.resize(mesh_.patch_sides);
+    solution_.elements.resize(mesh_.elements);
+    for (std::uint32_t i = 0; i < mesh_.patch_sides; ++i) solution_.sides[i] = {{i + 5, 2, 3}, {i, 1, 0}, {7, 8, i}};
+    for (std::uint32_t i = 0; i < mesh_.elements; ++i) solution_.elements[i] = {{i, i + 1, i + 2}, {1, 2, 3}};
+    solution_.tally.escaped = {1, 2, 3};
+    solution_.emitted_shot = {4, 5, 6};
+    solution_.shots = 99;
+  }
+
+  std::string refusal(std::span<const std::byte> bytes, const RadiosityOrigin& expected) const {
+    try {
+      unpack_radiosity(bytes, expected, mesh_, "file");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  Scene scene_ = test::room_with_box();
+  Quality quality_ = [] {
+    Quality quality;
+    quality.patch_length = quality.element_length = 0.9;
+    return quality;
+  }();
+  Mesh mesh_ = make_mesh(scene_, {quality_.patch_length, quality_.element_length, false});
+  RadiosityOrigin origin_ = radiosity_origin(scene_, quality_, mesh_);
+  Solution solution_;
+};
+
+TEST_F(RadiosityFileTest, ComesBackAsItWas) {
+  const auto bytes = pack_radiosity(origin_, solution_);
+  const Solution back = unpack_radiosity(bytes, origin_, mesh_, "file");
+  EXPECT_EQ(pack_radiosity(origin_, back), bytes);
+  EXPECT_EQ(back.sides[3].incident, solution_.sides[3].incident);
+  EXPECT_EQ(back.elements[5].direct, solution_.elements[5].direct);
+  EXPECT_EQ(back.tally.escaped, solution_.tally.escaped);
+  EXPECT_EQ(back.shots, 99U);
+}
+
+TEST_F(RadiosityFileTest, EveryDamagedByteIsRefused) {
+  auto bytes = pack_radiosity(origin_, solution_);
+  for (std::size_t at = 0; at < bytes.size(); at += at < 400 ? 1 : 37) {
+    bytes[at] ^= std::byte{0x10};
+    EXPECT_NE(refusal(bytes, origin_), "") << "byte " << at;
+    bytes[at] ^= std::byte{0x10};
+  }
+  EXPECT_EQ(refusal(bytes, origin_), "");
+}
+
+TEST_F(RadiosityFileTest, EveryLengthButTheRightOneIsRefused) {
+  auto bytes = pack_radiosity(origin_, solution_);
+  for (std::size_t length = 0; length < bytes.size(); length += length < 400 ? 1 : 37) {
+    EXPECT_NE(refusal(std::span(bytes).first(length), origin_), "") << length;
+  }
+  bytes.push_back(std::byte{0});
+  EXPECT_NE(refusal(bytes, origin_), "");
+}
+
+TEST_F(RadiosityFileTest, SaysWhatDiffers) {
+  const auto bytes = pack_radiosity(origin_, solution_);
+  Quality quality = quality_;
+  quality.hemicube = 32;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("--hemicube 16, this run has 32"),
+            std::string::npos);
+  Scene scene = scene_;
+  scene.positions[3][1] += 1e-9;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene, quality_, mesh_)).find("geometry"), std::string::npos);
+  scene = scene_;
+  scene.materials[1].emission[2] = 5;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene, quality_, mesh_)).find("materials"), std::string::npos);
+  quality = quality_;
+  quality.width = 999;  // the view is free
+  quality.samples = 9;
+  EXPECT_EQ(refusal(bytes, radiosity_origin(scene_, quality, mesh_)), "");
+}
+
+TEST_F(RadiosityFileTest, ImpossibleFluxIsRefused) {
+  solution_.sides[2].shot = {1000000, 0, 0};
+  EXPECT_NE(refusal(pack_radiosity(origin_, solution_), origin_), "");
+  solution_.sides[2].shot = {};
+  solution_.elements[0].flux[0] = -1;
+  EXPECT_NE(refusal(pack_radiosity(origin_, solution_), origin_), "");
+}
+
+}  // namespace
+}  // namespace torolux
