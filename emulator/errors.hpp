@@ -27,4 +27,10 @@ class MachineFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The user has ended the run: nothing failed.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace torolux

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The frame buffer controller: a queue of messages, and integer additions in their order.
+#include "emulator/frame_buffer/controller.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/niu_window.hpp"
+
+namespace torolux {
+
+using protocol::PixelAdd;
+
+FrameBufferController::FrameBufferController(const MachineDescription::FrameBuffer& parameters, std::uint32_t width,
+                                             std::uint32_t height, EventQueue& events, std::uint32_t source,
+                                             BlockPool& pool)
+    : cycles_per_pixel_(parameters.cycles_per_pixel),
+      places_(parameters.queue_messages),
+      events_(events),
+      source_(source),
+      pool_(pool) {
+  frame_buffer_.width = width;
+  frame_buffer_.height = height;
+  frame_buffer_.pixels.resize(std::size_t{width} * height);
+}
+
+void FrameBufferController::arrive(BlockIndex index, Cycles now) {
+  const Block& block = pool_[index];
+  const bool pixels = block.message_kind == static_cast<std::uint16_t>(protocol::MachineMessage::pixels) &&
+                      block.bytes % sizeof(PixelAdd) == 0;
+  if (!pixels) {
+    throw MachineFailure("PE " + std::to_string(block.source) +
+                         ": sent the frame buffer controller a message of kind " + std::to_string(block.message_kind) +
+                         " with " + std::to_string(block.bytes) + " bytes; it takes whole pixels only");
+  }
+  const Cycles duration = block.bytes / sizeof(PixelAdd) * cycles_per_pixel_;
+  free_at_ = std::max(free_at_, now) + duration;
+  busy_cycles_ += duration;
+  events_.push(free_at_, source_, EventKind::pixels_done, 0, 0, index);
+}
+
+void FrameBufferController::add_pixels(BlockIndex index) {
+  const Block& block = pool_[index];
+  for (std::size_t at = 0; at < block.bytes; at += sizeof(PixelAdd)) {
+    PixelAdd pixel{};
+    std::memcpy(&pixel, &block.data[at], sizeof pixel);
+    if (pixel.pixel >= frame_buffer_.pixels.size()) {
+      throw MachineFailure("PE " + std::to_string(block.source) + ": added to pixel " + std::to_string(pixel.pixel) +
+                           "; the frame buffer has " + std::to_string(frame_buffer_.width) + " x " +
+                           std::to_string(frame_buffer_.height));
+    }
+    auto& sums = frame_buffer_.pixels[pixel.pixel];
+    for (std::size_t c = 0; c < sums.size(); ++c) {
+      // Modulo 2^64, as the hardware adds: no order of additions may matter.
+      sums[c] =
+          static_cast<std::int64_t>(static_cast<std::uint64_t>(sums[c]) + static_cast<std::uint64_t>(pixel.value[c]));
+    }
+    ++pixels_added_;
+  }
+  --places_used_;
+  pool_.give_back(index);
+}
+
+}  // namespace torolux

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The frame buffer controller (FBC): messages of pixels in, sums in the frame buffer out.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/host/host_program.hpp"
+#include "emulator/machine/description.hpp"
+#include "emulator/time/event_queue.hpp"
+#include "emulator/torus/block.hpp"
+
+namespace torolux {
+
+/// Takes messages in order; each PixelAdd costs cycles_per_pixel. The bus brings one only once it has a place.
+class FrameBufferController {
+ public:
+  FrameBufferController(const MachineDescription::FrameBuffer& parameters, std::uint32_t width, std::uint32_t height,
+                        EventQueue& events, std::uint32_t source, BlockPool& pool);
+
+  bool has_place() const { return places_used_ < places_; }
+  void reserve_place() { ++places_used_; }
+  /// A message has come over the bus. Throws MachineFailure: not of pixels, a pixel outside the frame buffer.
+  void arrive(BlockIndex block, Cycles now);
+  /// Event pixels_done: adds the message's pixels and frees its place.
+  void add_pixels(BlockIndex block);
+
+  std::uint32_t waiting() const { return places_used_; }
+  const FrameBuffer& frame_buffer() const { return frame_buffer_; }
+  Cycles busy_cycles() const { return busy_cycles_; }
+  std::uint64_t pixels_added() const { return pixels_added_; }
+
+ private:
+  std::uint32_t cycles_per_pixel_, places_;
+  EventQueue& events_;
+  std::uint32_t source_;
+  BlockPool& pool_;
+  FrameBuffer frame_buffer_;
+  std::uint32_t places_used_ = 0;
+  Cycles free_at_ = 0;
+  Cycles busy_cycles_ = 0;
+  std::uint64_t pixels_added_ = 0;
+};
+
+}  // namespace torolux

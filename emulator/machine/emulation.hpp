@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The network half of the machine while it runs: events in order of virtual time, each handed to the actor it is for.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "emulator/bus/bus.hpp"
+#include "emulator/engines/image.hpp"
+#include "emulator/frame_buffer/controller.hpp"
+#include "emulator/host/host_actor.hpp"
+#include "emulator/machine/machine.hpp"
+#include "emulator/niu/network_side.hpp"
+#include "emulator/time/bound_tree.hpp"
+#include "emulator/time/event_queue.hpp"
+#include "emulator/torus/torus.hpp"
+
+namespace torolux {
+
+/// Single-threaded. PEs run elsewhere and meet it in their channels only.
+class Emulation final : private TorusClient, private BusClient {
+ public:
+  /// channels: zeroed, one per PE. image: for messages about faults. All references outlive this.
+  Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image,
+            HostProgram& program);
+
+  /// Runs until the program has finished and the machine is empty. attend: called at least some ten times a second,
+  /// may throw to end the run. Throws MachineFailure.
+  void run(const std::function<void(Cycles)>& attend);
+  void tell_to_stop();
+
+  /// Waits until no PE can do more before something else happens, so that the figures are exact.
+  void fill_in(MachineFigures& figures);
+  const FrameBuffer& frame_buffer() const { return controller_.frame_buffer(); }
+  Cycles now() const { return now_; }
+  /// A number that depends on every event so far: equal runs have equal ones.
+  std::uint64_t trace_hash() const { return trace_hash_; }
+
+ private:
+  // ---- Scheduling ----
+  bool next_event(Event& event);
+  void await(unsigned pe, Cycles wanted);
+  void attend_now_and_then();
+  bool settled(unsigned pe);
+  bool empty() const;
+  std::string deadlock_report() const;
+  std::string report_of(unsigned pe) const;
+
+  // ---- Events ----
+  void handle(const Event& event);
+  void command(unsigned pe);
+  void deliver(unsigned pe, BlockIndex block);
+  void bus_done(BlockIndex block);
+  void pixels_done(BlockIndex block);
+  void slots_changed(unsigned pe);
+  void update_outgoing(unsigned pe);
+  void update_host();
+  [[noreturn]] void fail_program(unsigned pe, BlockIndex block);
+  [[noreturn]] void fail_niu(unsigned pe, BlockIndex block);
+
+  // ---- TorusClient, BusClient ----
+  void injected(unsigned pe, Cycles now) override;
+  bool accept(unsigned pe, BlockIndex block) override;
+  BlockIndex take(BusRequester requester, Cycles now) override;
+
+  /// What belongs to a PE beside its NIU's account.
+  struct PePart {
+    BlockQueue outgoing;              // to the bus
+    BlockIndex diverting = kNoBlock;  // in the divert buffer, or on its way there
+    bool divert_ready = false;        // it has come whole
+    bool halted = false;
+    std::uint64_t packets_sent = 0;
+    std::uint64_t packets_delivered = 0;
+  };
+
+  // Sources of events, in the order in which ties are broken: PEs, routers, bus, host, FBC.
+  std::uint32_t pes_;
+  const Image& image_;
+  HostProgram& program_;
+  EventQueue events_;
+  BlockPool pool_;
+  BoundTree bounds_;
+  std::vector<NiuNetworkSide> nius_;
+  std::vector<PePart> parts_;
+  Torus torus_;
+  Bus bus_;
+  FrameBufferController controller_;
+  HostActor host_;
+  std::function<void(Cycles)> attend_;
+  std::uint32_t until_attend_ = 0;
+  double last_attended_ = 0;
+  Cycles now_ = 0;
+  std::uint64_t trace_hash_ = 0;
+  std::vector<std::uint32_t> waiting_for_controller_;  // PEs whose next message is for the FBC
+};
+
+}  // namespace torolux

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Faults of PEs in words.
+#include "emulator/machine/faults.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "firmware/protocol/messages.hpp"
+
+namespace torolux {
+
+namespace {
+
+std::string hexadecimal(std::uint32_t value) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "0x";
+  for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[value >> static_cast<unsigned>(shift) & 15U];
+  return text;
+}
+
+/// RISC-V privileged architecture, table of mcause values.
+std::string cause_in_words(std::uint32_t mcause) {
+  constexpr std::array<std::string_view, 16> kCauses = {"misaligned instruction address",
+                                                        "no access to the instruction",
+                                                        "illegal instruction",
+                                                        "breakpoint",
+                                                        "misaligned load",
+                                                        "load outside local memory",
+                                                        "misaligned store",
+                                                        "store outside local memory",
+                                                        "environment call from user mode",
+                                                        "environment call from supervisor mode",
+                                                        "reserved cause 10",
+                                                        "environment call",
+                                                        "instruction page fault",
+                                                        "load page fault",
+                                                        "reserved cause 14",
+                                                        "store page fault"};
+  if (mcause < kCauses.size()) return std::string(kCauses[mcause]);
+  return "cause " + hexadecimal(mcause);
+}
+
+std::string_view name_of(protocol::FaultCode code) {
+  using enum protocol::FaultCode;
+  switch (code) {
+    case trap:
+      return "trap";
+    case protocol_version:
+      return "protocol versions of image and emulator differ";
+    case bad_layout:
+      return "bad layout of a stage";
+    case outside_store:
+      return "index outside a store";
+    case unknown_message:
+      return "unknown message";
+    case unexpected_message:
+      return "unexpected message";
+    case bad_record:
+      return "bad record";
+    case own_slots_exhausted:
+      return "own record slots exhausted";
+    case release_list_full:
+      return "list of released slots full";
+    case short_message:
+      return "message too short";
+    default:
+      return "fault of the program";
+  }
+}
+
+std::string_view name_of(NiuFaultCode code) {
+  using enum NiuFaultCode;
+  switch (code) {
+    case unknown_hint:
+      return "HINT unknown to the NIU (immediate)";
+    case bad_count:
+      return "wrong number of records in a packet, or no slots set (records, bytes of one)";
+    case bad_slot:
+      return "no such record slot (slot, own slots, NIU's slots)";
+    case slot_not_in_use:
+      return "record slot released that is not in use (slot)";
+    case bad_destination:
+      return "no such destination (destination)";
+    case bad_address:
+      return "message outside local memory (address, bytes)";
+    case bad_message_length:
+      return "message too long (bytes)";
+    case bad_slots:
+      return "record slots outside local memory, or badly sized (address, own, NIU's)";
+    case slots_in_use:
+      return "record slots set while some are in use (slots in use)";
+    case too_many_released:
+      return "more slots released than the list holds (slots)";
+    case phase_mismatch:
+      return "phase markers do not nest (phase, innermost open phase)";
+    case too_long_without_hint:
+      return "too many cycles without a HINT: an endless loop? (cycles low, high; limit)";
+  }
+  return "fault";
+}
+
+std::string details(const std::uint32_t (&detail)[3]) {
+  return std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + ", " + std::to_string(detail[2]);
+}
+
+}  // namespace
+
+std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image) {
+  const std::string who = "PE " + std::to_string(pe) + ": ";
+  const auto code = static_cast<protocol::FaultCode>(fault.code);
+  if (code == protocol::FaultCode::trap) {
+    return who + "trap: " + cause_in_words(fault.detail[0]) + " at " + image.describe(fault.detail[1]) + ", mtval " +
+           hexadecimal(fault.detail[2]);
+  }
+  return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
+         "), details " + details(fault.detail);
+}
+
+std::string describe_fault(unsigned pe, const NiuFault& fault) {
+  return "PE " + std::to_string(pe) + ": " + std::string(name_of(fault.code)) + ": " + details(fault.detail);
+}
+
+}  // namespace torolux

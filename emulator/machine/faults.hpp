@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Faults of PEs in words: codes and details in, one line out.
+#pragma once
+
+#include <string>
+
+#include "emulator/engines/image.hpp"
+#include "emulator/niu/channel.hpp"
+#include "firmware/protocol/niu_window.hpp"
+
+namespace torolux {
+
+/// A program that has ended the run (Hint::fail), traps included.
+std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image);
+/// A program that has used its NIU wrongly.
+std::string describe_fault(unsigned pe, const NiuFault& fault);
+
+}  // namespace torolux

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// A whole machine: memory, engine and network put together, run, and taken apart.
+#include "emulator/machine/machine.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <optional>
+#include <thread>
+
+#include "emulator/engines/engine.hpp"
+#include "emulator/errors.hpp"
+#include "emulator/machine/emulation.hpp"
+#include "emulator/niu/channel.hpp"
+#include "emulator/niu/processor_side.hpp"
+#include "firmware/protocol/niu_window.hpp"
+
+namespace torolux {
+
+namespace {
+
+constexpr double kProgressSeconds = 0.1;
+
+double clock_seconds(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// CPU time of ended child processes [s].
+double children_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+void check(const MachineSetup& setup) {
+  const std::uint64_t pes = std::uint64_t{setup.columns} * setup.rows;
+  if (pes == 0 || pes > protocol::kMostPes) {
+    throw UsageError(std::to_string(setup.columns) + "x" + std::to_string(setup.rows) + " PEs: a machine has 1 to " +
+                     std::to_string(protocol::kMostPes));
+  }
+  if (setup.local_memory_bytes < protocol::kSmallestLocalMemory ||
+      setup.local_memory_bytes > protocol::kLargestLocalMemory ||
+      setup.local_memory_bytes % protocol::kPageBytes != 0) {
+    throw UsageError("local memory of " + std::to_string(setup.local_memory_bytes) +
+                     " bytes: allowed are whole pages of " + std::to_string(protocol::kPageBytes) + " bytes from " +
+                     std::to_string(protocol::kSmallestLocalMemory) + " to " +
+                     std::to_string(protocol::kLargestLocalMemory));
+  }
+  const auto check_queue = [](const char* key, std::uint32_t value) {
+    if (value == 0 || value > kMostSendQueue) {
+      throw InputError(std::string(key) + " = " + std::to_string(value) + ": allowed are 1 to " +
+                       std::to_string(kMostSendQueue));
+    }
+  };
+  check_queue("torus.send_queue_packets", setup.description.torus.send_queue_packets);
+  check_queue("bus.send_queue_messages", setup.description.bus.send_queue_messages);
+}
+
+PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image) {
+  const std::string name = "torolux-pe" + std::to_string(pe);
+  PeMemory memory{SharedMemory(name + "-niu", niu_channel_bytes()),
+                  SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes)), setup.local_memory_bytes};
+  const auto local = memory.local.bytes().first(setup.local_memory_bytes);
+  image.load_into(local);
+  const std::uint32_t offset = image.niu_window - protocol::kLocalMemoryBase;
+  if (image.niu_window < protocol::kLocalMemoryBase ||
+      std::uint64_t{offset} + protocol::kPageBytes > setup.local_memory_bytes) {
+    throw InputError(image.file.string() + ": its NIU window lies outside a local memory of " +
+                     std::to_string(setup.local_memory_bytes) + " bytes");
+  }
+  auto& window = *reinterpret_cast<protocol::NiuWindow*>(local.data() + offset);
+  window.protocol_version = protocol::kProtocolVersion;
+  window.pe = pe;
+  window.columns = setup.columns;
+  window.rows = setup.rows;
+  window.local_memory_bytes = setup.local_memory_bytes;
+  return memory;
+}
+
+}  // namespace
+
+struct Machine::Parts {
+  MachineSetup setup;
+  Image image;
+  std::vector<PeMemory> pes;
+  std::vector<NiuChannel*> channels;
+  std::unique_ptr<Engine> engine;
+  std::optional<Emulation> emulation;
+  MachineFigures figures;  // of the end of the run
+  FrameBuffer frame_buffer;
+  bool running = false;
+  double begin_scheduler = 0, begin_process = 0, begin_children = 0;
+
+  /// The emulator's own CPU time is the calling thread's; all other is the engine's.
+  void measure(MachineFigures& out) const {
+    out.scheduler_seconds = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler;
+    out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
+                         children_seconds() - begin_children;
+  }
+  void stop_engine() {
+    emulation->tell_to_stop();
+    engine->stop();
+  }
+};
+
+Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::make_unique<Parts>()) {
+  check(setup);
+  Parts& p = *parts_;
+  p.setup = setup;
+  p.image = image;
+  const unsigned pes = setup.columns * setup.rows;
+  p.pes.reserve(pes);
+  for (unsigned pe = 0; pe < pes; ++pe) {
+    p.pes.push_back(make_pe(pe, setup, image));
+    p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
+  }
+  const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
+  p.engine = engine_named(setup.engine)({p.setup.description, p.image, p.pes, threads});
+}
+
+Machine::~Machine() = default;
+
+void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress) {
+  Parts& p = *parts_;
+  if (p.emulation) throw MachineFailure("a machine runs once");
+  p.emulation.emplace(p.setup, p.channels, p.image, program);
+  p.begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+  p.begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+  p.begin_children = children_seconds();
+  double last_progress = 0;
+  const auto attend = [&](Cycles now) {
+    p.engine->check();
+    const double seconds = clock_seconds(CLOCK_MONOTONIC);
+    if (!progress || seconds - last_progress < kProgressSeconds) return;
+    last_progress = seconds;
+    if (!progress(now)) throw Interrupted("the run was interrupted");
+  };
+  try {
+    p.engine->start();
+    p.running = true;
+    p.emulation->run(attend);
+  } catch (...) {
+    p.stop_engine();
+    p.running = false;
+    throw;
+  }
+  p.emulation->fill_in(p.figures);
+  p.stop_engine();
+  p.running = false;
+  p.measure(p.figures);
+}
+
+const FrameBuffer& Machine::frame_buffer() const {
+  return parts_->emulation ? parts_->emulation->frame_buffer() : parts_->frame_buffer;
+}
+
+MachineFigures Machine::figures() const {
+  Parts& p = *parts_;
+  if (p.running) {
+    p.emulation->fill_in(p.figures);
+    p.measure(p.figures);
+  }
+  return p.figures;
+}
+
+}  // namespace torolux

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Virtual time: which event may happen, when to wait for which PE, and what it means if nothing can happen any more.
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "emulator/errors.hpp"
+#include "emulator/machine/emulation.hpp"
+
+namespace torolux {
+
+namespace {
+
+/// Attention at least this often, by wall time [s] and by events.
+constexpr double kAttendSeconds = 0.05;
+constexpr std::uint32_t kAttendEvents = 4096;
+/// Looks at a PE that is about to get there before the scheduler sleeps.
+constexpr int kLooks = 50;
+constexpr unsigned kMostReported = 16;
+
+double wall_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
+  hash = (hash ^ value) * 0x9E37'79B9'7F4A'7C15U;
+  return hash ^ (hash >> 29U);
+}
+
+}  // namespace
+
+void Emulation::attend_now_and_then() {
+  until_attend_ = kAttendEvents;
+  const double seconds = wall_seconds();
+  if (seconds - last_attended_ < kAttendSeconds) return;
+  last_attended_ = seconds;
+  if (attend_) attend_(now_);
+}
+
+/// Waits for a PE that runs: until its bound is later than `wanted`, or it waits itself, or a while has passed.
+void Emulation::await(unsigned pe, Cycles wanted) {
+  NiuNetworkSide& niu = nius_[pe];
+  for (int i = 0; i < kLooks; ++i) {
+    if (niu.refresh(events_, pool_, bounds_)) return;
+    __builtin_ia32_pause();
+  }
+  niu.sleep_until_bound(wanted);
+  attend_now_and_then();
+}
+
+/// The next event that no PE can precede any more. False: nothing will ever happen again.
+bool Emulation::next_event(Event& event) {
+  for (;;) {
+    const Cycles time = events_.empty() ? kNever : events_.top().time;
+    const Cycles least = bounds_.least();
+    if (least > time) {
+      event = events_.pop();
+      return true;
+    }
+    if (least == kNever) return false;
+    const auto pe = static_cast<unsigned>(bounds_.least_index());
+    if (nius_[pe].refresh(events_, pool_, bounds_)) continue;
+    // Everything before `least` has happened, and no PE adds to it.
+    if (nius_[pe].waits_for() == WaitKind::receive_if_any) nius_[pe].publish_horizon(least);
+    await(pe, time);
+  }
+}
+
+void Emulation::run(const std::function<void(Cycles)>& attend) {
+  attend_ = attend;
+  host_.start();
+  Event event{};
+  while (next_event(event)) {
+    now_ = event.time;
+    trace_hash_ = mix(mix(trace_hash_, event.time), event.order);
+    handle(event);
+    if (--until_attend_ == 0) attend_now_and_then();
+  }
+  torus_.check_slots();
+  if (!empty() || !program_.finished()) throw MachineFailure(deadlock_report());
+}
+
+void Emulation::tell_to_stop() {
+  for (NiuNetworkSide& niu : nius_) niu.tell_to_stop();
+}
+
+bool Emulation::empty() const {
+  if (torus_.packets_inside() != 0 || bus_.busy() || controller_.waiting() != 0 || !host_.idle()) return false;
+  for (unsigned pe = 0; pe < pes_; ++pe) {
+    const WaitKind waits = nius_[pe].waits_for();
+    if (waits != WaitKind::receive && waits != WaitKind::halted) return false;
+    if (!parts_[pe].outgoing.empty() || parts_[pe].diverting != kNoBlock || host_.waiting(pe) != 0) return false;
+  }
+  return true;
+}
+
+// ---- Figures ----
+
+/// Whether a PE can do nothing before something else happens.
+bool Emulation::settled(unsigned pe) {
+  nius_[pe].refresh(events_, pool_, bounds_);
+  return nius_[pe].waits_for() != WaitKind::running;
+}
+
+void Emulation::fill_in(MachineFigures& figures) {
+  figures.now = now_;
+  figures.pes.assign(pes_, {});
+  for (unsigned pe = 0; pe < pes_; ++pe) {
+    while (!settled(pe)) await(pe, kNever);
+    const NiuChannel& channel = nius_[pe].channel();
+    PeFigures& out = figures.pes[pe];
+    const Cycles clock = channel.clock.load(std::memory_order_acquire);
+    const Cycles idle = channel.idle.load(std::memory_order_relaxed);
+    out.busy_cycles = clock - idle;
+    out.idle_cycles = idle + (now_ > clock ? now_ - clock : 0);
+    out.instructions = channel.instructions.load(std::memory_order_relaxed);
+    out.packets_sent = parts_[pe].packets_sent;
+    out.packets_delivered = parts_[pe].packets_delivered;
+    out.records_diverted = host_.records_diverted(pe);
+    out.record_slots_high_water = nius_[pe].slots_high_water();
+    for (std::size_t i = 0; i < out.phase_cycles.size(); ++i) {
+      out.phase_cycles[i] = channel.phase_cycles[i].load(std::memory_order_relaxed);
+    }
+  }
+  figures.hops = torus_.hops();
+  figures.link_retries = torus_.link_retries();
+  figures.bus_busy_cycles = bus_.busy_cycles();
+  figures.bus_messages = bus_.transfers();
+  figures.frame_buffer_busy_cycles = controller_.busy_cycles();
+  figures.pixels_added = controller_.pixels_added();
+}
+
+// ---- Deadlock ----
+
+std::string Emulation::report_of(unsigned pe) const {
+  constexpr std::array<const char*, 6> kWaits = {"runs",
+                                                 "waits to receive",
+                                                 "looks for an arrival",
+                                                 "waits for a place in its outgoing queue to the torus",
+                                                 "waits for a place in its outgoing queue to the bus",
+                                                 "has halted"};
+  const NiuNetworkSide& niu = nius_[pe];
+  return "  PE " + std::to_string(pe) + " (clock " + std::to_string(niu.channel().clock.load()) + ") " +
+         kWaits[static_cast<std::size_t>(niu.waits_for())] + "; queued: torus " + std::to_string(torus_.queued(pe)) +
+         ", bus " + std::to_string(parts_[pe].outgoing.size()) + ", from the host " +
+         std::to_string(host_.waiting(pe)) + "; record slots in use " + std::to_string(niu.slots_used()) +
+         (parts_[pe].diverting != kNoBlock ? "; diverts" : "") + "\n";
+}
+
+std::string Emulation::deadlock_report() const {
+  std::string text = "deadlock at cycle " + std::to_string(now_) +
+                     ": nothing can happen any more, and work is outstanding\n  host program: " +
+                     (program_.finished() ? "finished" : std::string("waits for ") + program_.waiting_for()) + "; " +
+                     std::to_string(host_.inbox()) +
+                     " messages not yet read\n  bus: " + (bus_.busy() ? "busy" : "idle") +
+                     "; FBC: " + std::to_string(controller_.waiting()) +
+                     " messages; torus: " + std::to_string(torus_.packets_inside()) + " packets\n";
+  unsigned reported = 0;
+  for (unsigned pe = 0; pe < pes_ && reported < kMostReported; ++pe) {
+    const bool plain = nius_[pe].waits_for() == WaitKind::receive && torus_.queued(pe) == 0 &&
+                       parts_[pe].outgoing.empty() && host_.waiting(pe) == 0;
+    if (plain && pes_ > kMostReported) continue;
+    text += report_of(pe);
+    ++reported;
+  }
+  if (reported < pes_) text += "  (other PEs wait to receive, or are like these)\n";
+  return text + torus_.report(kMostReported);
+}
+
+}  // namespace torolux

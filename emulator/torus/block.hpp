@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// What is on its way through torus or bus, a packet of records or a message, and the pool from which all of them come.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "firmware/protocol/machine.hpp"
+
+namespace torolux {
+
+using BlockIndex = std::uint32_t;
+inline constexpr BlockIndex kNoBlock = 0xFFFF'FFFFU;
+
+/// Greatest payload of packet and message alike.
+inline constexpr std::size_t kMostBlockBytes = protocol::kMostMessageBytes;
+static_assert(kMostBlockBytes >= protocol::kMostPacketBytes);
+/// What the torus carries beside the records [bytes]: destination, source, number of records, length, CRC-32.
+inline constexpr std::uint32_t kPacketHeaderBytes = 16;
+
+struct Block {
+  std::uint64_t number;  ///< the source's own count in the lower half, the source in the upper: a name for hashes
+  BlockIndex next;       ///< of the queue that it stands in
+  std::uint16_t source;
+  std::uint16_t destination;
+  std::uint16_t records;       ///< 0: a message
+  std::uint16_t message_kind;  ///< of a message
+  std::uint32_t flits;         ///< in the torus, header included, >= 1
+  std::uint32_t hops;          ///< links crossed so far
+  std::uint32_t bytes;         ///< of the payload
+  std::array<std::byte, kMostBlockBytes> data;
+
+  std::span<const std::byte> payload() const { return std::span(data).first(bytes); }
+  void set_payload(std::span<const std::byte> contents) {
+    bytes = static_cast<std::uint32_t>(contents.size());
+    if (!contents.empty()) std::memcpy(data.data(), contents.data(), contents.size());
+  }
+};
+
+/// Blocks by number. Grows as needed and reuses; addresses stay.
+class BlockPool {
+ public:
+  Block& operator[](BlockIndex index) { return chunks_[index / kChunk][index % kChunk]; }
+  const Block& operator[](BlockIndex index) const { return chunks_[index / kChunk][index % kChunk]; }
+
+  /// A block with everything but its data zero.
+  BlockIndex take() {
+    if (free_.empty()) grow();
+    const BlockIndex index = free_.back();
+    free_.pop_back();
+    Block& block = (*this)[index];
+    block.number = 0;
+    block.next = kNoBlock;
+    block.source = block.destination = block.records = block.message_kind = 0;
+    block.flits = block.hops = block.bytes = 0;
+    return index;
+  }
+  void give_back(BlockIndex index) { free_.push_back(index); }
+  std::size_t in_use() const { return chunks_.size() * kChunk - free_.size(); }
+
+ private:
+  static constexpr BlockIndex kChunk = 64;
+
+  void grow() {
+    const auto first = static_cast<BlockIndex>(chunks_.size() * kChunk);
+    chunks_.push_back(std::make_unique<Block[]>(kChunk));
+    for (BlockIndex i = kChunk; i-- > 0;) free_.push_back(first + i);
+  }
+
+  std::vector<std::unique_ptr<Block[]>> chunks_;
+  std::vector<BlockIndex> free_;
+};
+
+/// First in, first out, linked through the blocks.
+class BlockQueue {
+ public:
+  bool empty() const { return head_ == kNoBlock; }
+  std::uint32_t size() const { return size_; }
+  BlockIndex front() const { return head_; }
+  void push(BlockPool& pool, BlockIndex index) {
+    pool[index].next = kNoBlock;
+    (head_ == kNoBlock ? head_ : pool[tail_].next) = index;
+    tail_ = index;
+    ++size_;
+  }
+  BlockIndex pop(BlockPool& pool) {
+    const BlockIndex index = head_;
+    head_ = pool[index].next;
+    --size_;
+    return index;
+  }
+
+ private:
+  BlockIndex head_ = kNoBlock;
+  BlockIndex tail_ = kNoBlock;
+  std::uint32_t size_ = 0;
+};
+
+}  // namespace torolux

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The torus as a graph: numbers of PEs in, neighbours and routes out.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace torolux {
+
+/// Ports of a router. Data leave east by the east output and enter the neighbour's west input.
+enum class Port : std::uint8_t { east, west, south, north, local };
+inline constexpr std::size_t kPorts = 5;
+inline constexpr std::size_t kLinks = 4;
+constexpr std::size_t index_of(Port port) {
+  return static_cast<std::size_t>(port);
+}
+/// The other end's port of the same link.
+constexpr Port opposite(Port port) {
+  constexpr std::array<Port, kPorts> kOpposite = {Port::west, Port::east, Port::north, Port::south, Port::local};
+  return kOpposite[index_of(port)];
+}
+
+/// Routers are numbered row by row, as PEs are; east raises x, south raises y.
+class TorusShape {
+ public:
+  TorusShape(unsigned columns, unsigned rows) : columns_(columns), rows_(rows) {}
+
+  unsigned columns() const { return columns_; }
+  unsigned rows() const { return rows_; }
+  unsigned routers() const { return columns_ * rows_; }
+
+  unsigned neighbour(unsigned router, Port port) const {
+    const unsigned x = router % columns_;
+    const unsigned y = router / columns_;
+    switch (port) {
+      case Port::east:
+        return y * columns_ + (x + 1) % columns_;
+      case Port::west:
+        return y * columns_ + (x + columns_ - 1) % columns_;
+      case Port::south:
+        return (y + 1) % rows_ * columns_ + x;
+      case Port::north:
+        return (y + rows_ - 1) % rows_ * columns_ + x;
+      default:
+        return router;
+    }
+  }
+
+  /// Dimension order: x first, the shorter way. At half a ring the way is fixed for each pair: a packet that starts at
+  /// an even coordinate goes up, at an odd one down, which loads both directions alike.
+  Port route(unsigned router, unsigned destination) const {
+    const unsigned x = router % columns_;
+    const unsigned to_x = destination % columns_;
+    if (x != to_x) return step(x, to_x, columns_) ? Port::east : Port::west;
+    const unsigned y = router / columns_;
+    const unsigned to_y = destination / columns_;
+    if (y != to_y) return step(y, to_y, rows_) ? Port::south : Port::north;
+    return Port::local;
+  }
+
+  /// Links between two PEs.
+  unsigned hops(unsigned from, unsigned to) const {
+    return ring_distance(from % columns_, to % columns_, columns_) +
+           ring_distance(from / columns_, to / columns_, rows_);
+  }
+
+ private:
+  /// Whether the way from one coordinate of a ring to another goes up.
+  static bool step(unsigned from, unsigned to, unsigned size) {
+    const unsigned up = to >= from ? to - from : to + size - from;
+    return 2 * up != size ? 2 * up < size : from % 2 == 0;
+  }
+  static unsigned ring_distance(unsigned from, unsigned to, unsigned size) {
+    const unsigned up = to >= from ? to - from : to + size - from;
+    return up < size - up ? up : size - up;
+  }
+
+  unsigned columns_;
+  unsigned rows_;
+};
+
+}  // namespace torolux
