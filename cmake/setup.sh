@@ -53,22 +53,30 @@ setup_logged_or_stop() {
   setup_stop "This step failed: $name. The whole log: $root/build/$name.log"
 }
 
+# setup_configure PRESET FOLDER: configures where that has not been done yet, or no longer holds: a checkout that was
+# moved, presets that have changed, another C library (a cache that was emptied).
+setup_configure() {
+  local preset=$1 folder=$2 known=$2/CMakeCache.txt sysroot=
+  if [[ $preset == firmware ]]; then
+    sysroot=$("$root/cmake/build_sysroot.sh" 9>&-) || setup_stop "The PEs' C library could not be built."
+  fi
+  if [[ -e $known ]]; then
+    if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$known" ||
+      { [[ -n $sysroot ]] && ! grep -qxF "TOROLUX_SYSROOT:PATH=$sysroot" "$known"; }; then
+      rm -rf "$folder"
+    elif [[ -e $folder/build.ninja && ! $root/CMakePresets.json -nt $folder/build.ninja ]]; then
+      return
+    fi
+  fi
+  echo "torolux: configuring: $preset" >&2
+  setup_logged_or_stop "configure-$preset" cmake -S "$root" --preset "$preset"
+}
+
 # setup_preset PRESET TARGET...: configures where needed, and builds the targets where they are out of date.
 setup_preset() {
   local preset=$1 folder=$root/build/$1
   shift
-  # A checkout that was moved has to be configured anew.
-  if [[ -e $folder/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
-    rm -rf "$folder"
-  fi
-  if [[ ! -e $folder/build.ninja ]]; then
-    if [[ $preset == firmware ]]; then
-      # The toolchain file would build it, too; here it can say so.
-      "$root/cmake/build_sysroot.sh" >/dev/null 9>&- || setup_stop "The PEs' C library could not be built."
-    fi
-    echo "torolux: configuring: $preset" >&2
-    setup_logged_or_stop "configure-$preset" cmake -S "$root" --preset "$preset"
-  fi
+  setup_configure "$preset" "$folder"
   if [[ $(ninja -C "$folder" -n "$@" 2>&1 9>&- | tail -n 1) == *'no work to do.' ]]; then
     return
   fi
