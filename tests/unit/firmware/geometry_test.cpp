@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Proves: the triangle test's hand cases, edges and vertices inclusive, sides by winding; and the walk's: the intervals
+// of the subspaces along a ray meet exactly, whoever computes them, and a seeking record finds its origin's subspace.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <limits>
+
+#include "firmware/pe/intersect.hpp"
+#include "firmware/pe/surface.hpp"
+#include "firmware/pe/traverse.hpp"
+#include "firmware/pe/walk.hpp"
+#include "tests/unit/firmware/test_scene.hpp"
+
+namespace torolux::test {
+namespace {
+
+using pe::Crossing;
+using pe::Inverse;
+using pe::Segment;
+using pe::Shear;
+
+protocol::Polygon triangle(const protocol::Vec3f& a, const protocol::Vec3f& b, const protocol::Vec3f& c) {
+  protocol::Polygon p{};
+  p.corner = {a, b, c};
+  return p;
+}
+
+bool meets(const glm::vec3& o, const glm::vec3& d, const protocol::Polygon& p, Crossing& c) {
+  return pe::cross_triangle(Shear(o, d, Inverse(d)), p, c);
+}
+
+TEST(Intersect, MeetsInsideAndMissesOutside) {
+  const auto p = triangle({0, 0, 0.5F}, {1, 0, 0.5F}, {0, 1, 0.5F});
+  Crossing c{};
+  ASSERT_TRUE(meets({0.25F, 0.5F, 0}, {0, 0, 1}, p, c));
+  EXPECT_EQ(c.t, 0.5F);
+  EXPECT_LT(c.sum, 0) << "from behind: the front is where corners run counter-clockwise";
+  EXPECT_EQ(c.v / c.sum, 0.25F);
+  EXPECT_EQ(c.w / c.sum, 0.5F);
+  ASSERT_TRUE(meets({0.25F, 0.5F, 1}, {0, 0, -1}, p, c));
+  EXPECT_EQ(c.t, 0.5F);
+  EXPECT_GT(c.sum, 0);
+  EXPECT_FALSE(meets({0.75F, 0.5F, 0}, {0, 0, 1}, p, c));
+  EXPECT_FALSE(meets({-0.001F, 0.5F, 0}, {0, 0, 1}, p, c));
+  EXPECT_FALSE(meets({0.25F, 0.5F, 0.5F}, {1, 0, 0}, p, c)) << "seen edge on";
+  ASSERT_TRUE(meets({0.25F, 0.25F, 1}, {0, 0, 1}, p, c)) << "behind the origin: a distance below zero";
+  EXPECT_EQ(c.t, -0.5F);
+}
+
+// The sides of all axes and signs agree with the normal.
+TEST(Intersect, SideFollowsTheNormalFromEveryDirection) {
+  const bool holds = rc::check([] {
+    const auto number = [] { return static_cast<float>(*rc::gen::inRange(0, 1 << 16)) * 0x1p-16F; };
+    const auto p =
+        triangle({number(), number(), number()}, {number(), number(), number()}, {number(), number(), number()});
+    const glm::vec3 area = glm::cross(pe::to_vector(p.corner[1]) - pe::to_vector(p.corner[0]),
+                                      pe::to_vector(p.corner[2]) - pe::to_vector(p.corner[0]));
+    RC_PRE(glm::length(area) > 1e-3F);
+    const glm::vec3 target =
+        (pe::to_vector(p.corner[0]) + pe::to_vector(p.corner[1]) + pe::to_vector(p.corner[2])) / 3.0F;
+    const glm::vec3 origin{number(), number(), number()};
+    RC_PRE(glm::length(target - origin) > 1e-2F);
+    const glm::vec3 d = glm::normalize(target - origin);
+    RC_PRE(std::abs(glm::dot(d, glm::normalize(area))) > 1e-2F);
+    Crossing c{};
+    RC_ASSERT(meets(origin, d, p, c));
+    RC_ASSERT((c.sum > 0) == (glm::dot(d, area) < 0));
+    RC_ASSERT(std::abs(c.t - glm::length(target - origin)) < 1e-4F);
+    RC_ASSERT(std::abs(c.v / c.sum - 1.0F / 3.0F) < 1e-2F);
+    RC_ASSERT(std::abs(c.w / c.sum - 1.0F / 3.0F) < 1e-2F);
+  });
+  EXPECT_TRUE(holds);
+}
+
+TEST(Intersect, EdgesAndCornersBelongToEveryTriangleThatHasThem) {
+  const auto lower = triangle({0, 0, 0.5F}, {1, 0, 0.5F}, {1, 1, 0.5F});
+  const auto upper = triangle({0, 0, 0.5F}, {1, 1, 0.5F}, {0, 1, 0.5F});
+  Crossing c{};
+  for (const float at : {0.0F, 0.3F, 0.5F, 1.0F}) {
+    EXPECT_TRUE(meets({at, at, 0}, {0, 0, 1}, lower, c)) << at;
+    EXPECT_TRUE(meets({at, at, 0}, {0, 0, 1}, upper, c)) << at;
+  }
+}
+
+// Edge functions that cancel in float are computed exactly.
+TEST(Intersect, CancellationIsResolvedExactly) {
+  Crossing c{};
+  // w = bx*ay - by*ax with products that round to the same float but differ.
+  const float a = 1.0F + 0x1p-13F;
+  const float b = 1.0F + 0x1p-12F;
+  ASSERT_EQ(a * a, b * 1.0F) << "the case needs products that round to one float";
+  pe::resolve_edges(1.0F, a, a, b, -1, 0.25F, c);
+  EXPECT_EQ(c.w, 0x1p-26F);
+}
+
+struct GridCase {
+  protocol::StageLayout layout{};
+  Segment segment{};
+};
+
+GridCase random_grid_case() {
+  GridCase g;
+  const auto number = [] { return static_cast<float>(*rc::gen::inRange(0, (1 << 16) + 1)) * 0x1p-16F; };
+  for (std::size_t a = 0; a < 3; ++a) {
+    g.layout.cells[a] = *rc::gen::inRange<std::uint32_t>(1, 40);
+    g.layout.cell_size[a] = (0.3F + 0.7F * number()) / static_cast<float>(g.layout.cells[a]);
+    g.segment.origin[static_cast<int>(a)] = number() * g.layout.cell_size[a] * static_cast<float>(g.layout.cells[a]);
+  }
+  glm::vec3 d{number() - 0.5F, number() - 0.5F, number() - 0.5F};
+  const int zero = *rc::gen::inRange(0, 6);
+  if (zero < 3) d[zero] = 0;
+  RC_PRE(glm::length(d) > 1e-3F);
+  g.segment.direction = glm::normalize(d);
+  g.segment.polygon = protocol::kNoPolygon;
+  g.segment.first = true;
+  return g;
+}
+
+std::array<std::uint16_t, 3> cell_of(const GridCase& g) {
+  std::array<std::uint16_t, 3> cell{};
+  for (std::uint32_t guard = 0;; ++guard) {
+    RC_ASSERT(guard < 200U);
+    const std::uint32_t face = pe::seek_face(g.layout, g.segment.origin, cell);
+    if (face == protocol::kFaces) return cell;
+    cell[face / 2] = static_cast<std::uint16_t>(cell[face / 2] + (face % 2 == 1 ? 1 : -1));
+  }
+}
+
+// The partition: each interval begins at the very float at which the last one ended, also when it is computed afresh
+// from the entry axis alone, as at a hand-over; ends never fall; the walk leaves the grid.
+TEST(Walk, IntervalsOfTheSubspacesMeetExactly) {
+  const bool holds = rc::check([] {
+    GridCase g = random_grid_case();
+    protocol::Subspace here{};
+    here.cell = cell_of(g);
+    pe::Walk walk(g.layout, g.segment, here);
+    float last = walk.t_out();
+    RC_ASSERT(last >= 0.0F);
+    for (std::uint32_t step = 0;; ++step) {
+      RC_ASSERT(step < 130U);
+      const std::uint32_t axis = walk.exit_axis();
+      const bool up = walk.exit_face() % 2 == 1;
+      RC_ASSERT(walk.exit_face() / 2 == axis);
+      if (up ? here.cell[axis] + 1U == g.layout.cells[axis] : here.cell[axis] == 0) break;
+      here.cell[axis] = static_cast<std::uint16_t>(here.cell[axis] + (up ? 1 : -1));
+      walk.cross(here);
+      RC_ASSERT(walk.t_in() == last);
+      RC_ASSERT(walk.t_out() >= last);
+      Segment handed = g.segment;
+      handed.first = false;
+      handed.entry_axis = static_cast<std::uint8_t>(axis);
+      const pe::Walk fresh(g.layout, handed, here);
+      RC_ASSERT(fresh.t_in() == walk.t_in());
+      RC_ASSERT(fresh.t_out() == walk.t_out());
+      RC_ASSERT(fresh.exit_face() == walk.exit_face());
+      last = walk.t_out();
+    }
+  });
+  EXPECT_TRUE(holds);
+}
+
+// Of equal distances x comes before y before z.
+TEST(Walk, CornersAreCrossedXBeforeYBeforeZ) {
+  protocol::StageLayout layout{};
+  layout.cells = {2, 2, 2};
+  layout.cell_size = {0.5F, 0.5F, 0.5F};
+  const float d = 1.0F / std::sqrt(3.0F);
+  const Segment s{{0.25F, 0.25F, 0.25F}, {d, d, d}, 0, protocol::kNoPolygon, false, true, 0};
+  protocol::Subspace here{};
+  pe::Walk walk(layout, s, here);
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    ASSERT_EQ(walk.exit_face(), 2 * axis + 1);
+    here.cell[axis] = 1;
+    walk.cross(here);
+  }
+}
+
+TEST(Walk, SeekFindsTheCellThatHoldsTheOrigin) {
+  const bool holds = rc::check([] {
+    GridCase g = random_grid_case();
+    const auto cell = cell_of(g);
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      const float x = g.segment.origin[static_cast<int>(a)];
+      RC_ASSERT(cell[a] == 0 || pe::plane(g.layout, a, cell[a]) <= x);
+      RC_ASSERT(cell[a] + 1U == g.layout.cells[a] || x < pe::plane(g.layout, a, cell[a] + 1U));
+    }
+  });
+  EXPECT_TRUE(holds);
+}
+
+// Interpolation gives a linear function back everywhere, and no index leaves the lattice.
+TEST(Lattice, InterpolationIsExactForLinearFunctions) {
+  const bool holds = rc::check([] {
+    const auto level = *rc::gen::inRange<std::uint32_t>(0, 7);
+    const float n = static_cast<float>(1U << level);
+    float b1 = static_cast<float>(*rc::gen::inRange(0, 4097)) / 4096.0F;
+    float b2 = (1.0F - b1) * static_cast<float>(*rc::gen::inRange(0, 4097)) / 4096.0F;
+    const float slip = static_cast<float>(*rc::gen::inRange(-2, 3)) * 0x1p-23F;  // weights off the triangle by rounding
+    const pe::LatticeWeights at = pe::lattice_weights(b1 + slip, b2 + slip, level);
+    float x = 0, y = 0, sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      RC_ASSERT(at.index[k] < protocol::lattice_size(level));
+      for (std::uint32_t j = 0; j <= 1U << level; ++j) {
+        for (std::uint32_t i = 0; i + j <= 1U << level; ++i) {
+          if (protocol::lattice_index(i, j, level) != at.index[k]) continue;
+          x += at.weight[k] * static_cast<float>(i) / n;
+          y += at.weight[k] * static_cast<float>(j) / n;
+        }
+      }
+      RC_ASSERT(at.weight[k] > -1e-4F);
+      sum += at.weight[k];
+    }
+    RC_ASSERT(std::abs(sum - 1.0F) < 1e-5F);
+    RC_ASSERT(std::abs(x - b1) < 2e-6F);
+    RC_ASSERT(std::abs(y - b2) < 2e-6F);
+  });
+  EXPECT_TRUE(holds);
+}
+
+}  // namespace
+}  // namespace torolux::test

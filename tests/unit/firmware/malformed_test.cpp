@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// Proves: layouts, stores, messages and records that do not hold end the run with the right code, and whatever their
+// bytes are, nothing outside local memory is touched (run in the sanitizer build: local memory is one heap block).
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "tests/unit/firmware/fake_machine.hpp"
+
+namespace torolux::test {
+namespace {
+
+using pe::FaultCode;
+using protocol::MessageKind;
+using protocol::RadiosityRecord;
+using protocol::RayRecord;
+using protocol::Stage;
+using protocol::StageLayout;
+
+TestScene small_scene() {
+  TestScene s;
+  s.cells = {2, 2, 2};
+  s.materials = {diffuse_material(0.5F, 1), mirror_material(0.5F), glass_material(1.5F)};
+  add_room(s, {0, 0, 0}, {1, 1, 1}, 1, 0);
+  add_ball(s, {0.5F, 0.5F, 0.5F}, 0.2F, 3, 2, true);
+  for (TestPolygon& p : s.polygons) {
+    p.element_level = 1;
+    if (p.material != 0) p.sides = 0;
+  }
+  return s;
+}
+
+/// The code with which `act` ends the run; 0 if it does not.
+std::uint32_t fault_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const PeFailed& failed) {
+    return failed.fault.code;
+  }
+  return 0;
+}
+
+std::uint32_t code(FaultCode c) {
+  return static_cast<std::uint32_t>(c);
+}
+
+TEST(Malformed, LayoutsThatDoNotHoldAreRefused) {
+  const TestScene scene = small_scene();
+  const std::vector<std::function<void(StageLayout&)>> changes = {
+      [](StageLayout& l) { l.stage = Stage{3}; },
+      [](StageLayout& l) { l.cells[1] = 0; },
+      [](StageLayout& l) { l.cell_size[2] = -1; },
+      [](StageLayout& l) { l.polygons.address = protocol::kLocalMemoryBase; },
+      [](StageLayout& l) { l.polygons.address += 4; },
+      [](StageLayout& l) { l.elements.count = 0x7FFF'FFFF; },
+      [](StageLayout& l) { l.elements.address = 0xFFFF'FFF8; },
+      [](StageLayout& l) { l.record_slots.address = l.elements.address; },
+      [](StageLayout& l) { l.record_slots.count = l.own_slots; },
+      [](StageLayout& l) { l.record_slots.count = 0x10'0000; },
+      [](StageLayout& l) { l.own_slots = protocol::kOwnSlots - 1; },
+      [](StageLayout& l) { l.bounces = 0; },
+      [](StageLayout& l) { l.bounces = 256; },
+      [](StageLayout& l) { l.hemicube_size = 5; },
+      [](StageLayout& l) { l.hemicube.count -= 1; },
+      [](StageLayout& l) { l.shot_points = 0; },
+      [](StageLayout& l) { l.emission_points = 17; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    FakeMachine machine(1);
+    machine.begin(scene, Stage::radiosity);
+    StageLayout layout = machine.stores[0].layout;
+    EXPECT_EQ(fault_of([&] {
+                machine.message(0, MessageKind::configure, layout);
+                machine.run();
+              }),
+              0U);
+    changes[i](layout);
+    EXPECT_EQ(fault_of([&] {
+                machine.message(0, MessageKind::configure, layout);
+                machine.run();
+              }),
+              code(FaultCode::bad_layout))
+        << "change " << i;
+  }
+}
+
+TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
+  const std::vector<std::function<void(PeStores&)>> changes = {
+      [](PeStores& s) { s.subspaces[1].cell[0] = 2; },
+      [](PeStores& s) { s.subspaces[1].cell[1] = 1; },
+      [](PeStores& s) { s.subspaces[0].neighbour[1] = 8; },
+      [](PeStores& s) { s.subspaces[0].neighbour[1] = 0; },
+      [](PeStores& s) { s.subspaces[0].neighbour_pe[1] = 1; },
+      [](PeStores& s) { s.subspaces[3].polygon_count = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.polygon_list[0] = 0xFFFF; },
+      [](PeStores& s) { std::swap(s.polygon_list[0], s.polygon_list[1]); },
+      [](PeStores& s) { s.polygons[0].corner[1][1] = std::numeric_limits<float>::quiet_NaN(); },
+      [](PeStores& s) { s.polygons[0].corner[1][1] = 1.5F; },
+      [](PeStores& s) { s.polygons[2].material = 3; },
+      [](PeStores& s) { s.polygons[2].normals = 0; },
+      [](PeStores& s) { s.polygons[2].patch_level = 2; },
+      [](PeStores& s) { s.polygons[2].element_level = 255; },
+      [](PeStores& s) { s.polygons[2].surface = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.polygons[2].sides = 3; },
+      [](PeStores& s) { s.materials[1].kind = protocol::MaterialKind{9}; },
+      [](PeStores& s) { s.references[1].patch = 999; },
+      [](PeStores& s) { s.references[1].patch = 0; },
+      [](PeStores& s) { s.references[1].pe = 4; },
+      [](PeStores& s) { s.patches[1].polygon = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.patches[1].subspace = 8; },
+      [](PeStores& s) { s.patches[1].side[0] = 0x1000'0000; },
+      [](PeStores& s) { s.sides[0].first_element = static_cast<std::uint32_t>(s.elements.size()) - 3; },
+      [](PeStores& s) { s.hemicube[0] += 1; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    FakeMachine machine(1);
+    machine.load(small_scene(), Stage::radiosity, 64, 1, changes[i]);
+    EXPECT_EQ(fault_of([&] {
+                machine.message(0, MessageKind::begin);
+                machine.run();
+              }),
+              code(FaultCode::outside_store))
+        << "change " << i;
+  }
+}
+
+TEST(Malformed, MessagesOutOfTurnOrShapeAreRefused) {
+  FakeMachine machine(1);
+  const auto fault = [&](MessageKind kind, std::size_t bytes) {
+    return fault_of([&] {
+      const std::vector<std::byte> zeros(bytes);
+      machine.message(0, kind, std::span<const std::byte>(zeros));
+      machine.run();
+    });
+  };
+  EXPECT_EQ(fault(MessageKind::begin, 0), code(FaultCode::unexpected_message));
+  EXPECT_EQ(fault(MessageKind::shoot, sizeof(protocol::Shoot)), code(FaultCode::unexpected_message));
+  EXPECT_EQ(fault(MessageKind{9}, 0), code(FaultCode::unknown_message));
+  EXPECT_EQ(fault(MessageKind::ready, 0), code(FaultCode::unknown_message));
+  EXPECT_EQ(fault(MessageKind::configure, 20), code(FaultCode::short_message));
+  EXPECT_EQ(fault(MessageKind::load, 4), code(FaultCode::short_message));
+  EXPECT_EQ(fault(MessageKind::load, 16), code(FaultCode::outside_store));
+  machine.begin(small_scene(), Stage::radiosity);
+  EXPECT_EQ(fault(MessageKind::begin, 0), code(FaultCode::unexpected_message));
+  EXPECT_EQ(fault(MessageKind::load, 16), code(FaultCode::unexpected_message));
+  EXPECT_EQ(fault(MessageKind::select, sizeof(protocol::Select)), code(FaultCode::outside_store)) << "of none";
+  const auto shot = [&](const protocol::Shoot& s) {
+    return fault_of([&] {
+      machine.message(0, MessageKind::shoot, s);
+      machine.run();
+    });
+  };
+  EXPECT_EQ(shot({{1, 0, 0}, 0, 0, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store))
+      << "more than is there";
+  EXPECT_EQ(shot({{-1, 0, 0}, 0, 0, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store));
+  EXPECT_EQ(shot({{0, 0, 0}, 9999, 0, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store));
+  EXPECT_EQ(shot({{0, 0, 0}, 0, 1, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store)) << "no such side";
+  EXPECT_EQ(shot({{0, 0, 0}, 0, 2, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store));
+}
+
+TEST(Malformed, BlocksStayInsideFreeMemory) {
+  FakeMachine machine(1);
+  machine.begin(small_scene(), Stage::radiosity);
+  const std::uint32_t first = machine.pes[0]->stores_begin();
+  const std::uint32_t end = machine.pes[0]->memory_end();
+  const auto fault = [&](std::uint32_t address, std::uint32_t bytes) {
+    return fault_of([&] {
+      machine.message(0, MessageKind::read, protocol::Read{address, bytes});
+      machine.run();
+    });
+  };
+  EXPECT_EQ(fault(first, 1016), 0U);
+  EXPECT_EQ(fault(end - 4, 4), 0U);
+  EXPECT_EQ(machine.take(MessageKind::data).size(), 2U);
+  for (const auto& [address, bytes] : {std::pair{first - 4, 4U},
+                                       {end - 4, 8U},
+                                       {end, 4U},
+                                       {first, 1020U},
+                                       {first, 0U},
+                                       {first, 6U},
+                                       {first + 2, 4U},
+                                       {0xFFFF'FFFCU, 8U}}) {
+    EXPECT_EQ(fault(address, bytes), code(FaultCode::outside_store)) << address << " " << bytes;
+  }
+}
+
+template <class Record>
+void send(FakeMachine& machine, const Record& record) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(&record);
+  machine.send({protocol::kHost, 0, {{bytes, bytes + sizeof(record)}}});
+  machine.run();
+}
+
+TEST(Malformed, RecordsThatNameWhatIsNotThereAreRefused) {
+  const auto fault = [](const std::function<void(RadiosityRecord&)>& change) {
+    FakeMachine machine(1);
+    machine.begin(small_scene(), Stage::radiosity);
+    RadiosityRecord r{};
+    r.direction = {0, 0, 1};
+    change(r);
+    return fault_of([&] { send(machine, r); });
+  };
+  EXPECT_EQ(fault([](RadiosityRecord&) {}), 0U);
+  const std::uint32_t bad = code(FaultCode::bad_record);
+  EXPECT_EQ(fault([](RadiosityRecord& r) { r.subspace = 8; }), bad);
+  EXPECT_EQ(fault([](RadiosityRecord& r) { r.kind = protocol::RecordKind::branch; }), bad);
+  EXPECT_EQ(fault([](RadiosityRecord& r) { r.kind = protocol::RecordKind{77}; }), bad);
+  EXPECT_EQ(fault([](RadiosityRecord& r) { r.flags = protocol::kEntryAxisMask; }), bad);
+  EXPECT_EQ(fault([](RadiosityRecord& r) { r.flux[1] = -1; }), bad);
+  const auto deposit = [&](std::uint32_t patch, std::uint32_t element, std::uint8_t flags) {
+    return fault([=](RadiosityRecord& r) {
+      r.kind = protocol::RecordKind::deposit;
+      r.subspace = patch;
+      r.polygon = element;
+      r.flags = flags;
+    });
+  };
+  EXPECT_EQ(deposit(0, 3, 0), 0U);
+  EXPECT_EQ(deposit(0, 4, 0), bad);
+  EXPECT_EQ(deposit(9999, 0, 0), bad);
+  EXPECT_EQ(deposit(0, 0, protocol::kBackSide), bad);
+
+  const auto ray = [](const std::function<void(RayRecord&)>& change) {
+    FakeMachine machine(1);
+    machine.begin(small_scene(), Stage::ray_tracing);
+    RayRecord r{};
+    r.direction = {0, 0, 1};
+    change(r);
+    return fault_of([&] { send(machine, r); });
+  };
+  EXPECT_EQ(ray([](RayRecord&) {}), 0U);
+  EXPECT_EQ(ray([](RayRecord& r) { r.subspace = 8; }), bad);
+  EXPECT_EQ(ray([](RayRecord& r) { r.waiting = 3; }), bad);
+  EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::branch; }), bad);
+  EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::deposit; }), bad);
+  EXPECT_EQ(ray([](RayRecord& r) {
+              r.waiting = 1;
+              r.branches[0].pe = 5;
+            }),
+            bad);
+  EXPECT_EQ(ray([](RayRecord& r) {
+              r.waiting = 1;
+              r.branches[0].subspace = 8;
+            }),
+            bad);
+}
+
+// Random bytes in records that look well-formed, NaN and infinities among them, and in messages.
+TEST(Malformed, RandomBytesNeverLeaveMemory) {
+  std::mt19937 random(11);
+  std::uint32_t survived = 0;
+  const auto garble = [&](auto& record) {
+    auto* words = reinterpret_cast<std::uint32_t*>(&record);
+    for (std::size_t w = 0; w < sizeof(record) / 4; ++w) {
+      const std::uint32_t kind = static_cast<std::uint32_t>(random() % 8);
+      if (kind == 0) words[w] = static_cast<std::uint32_t>(random());
+      if (kind == 1) words[w] = 0x7FC0'0000;
+      if (kind == 2) words[w] = 0xFF80'0000;
+    }
+    record.subspace = static_cast<std::uint32_t>(random() % 9);
+    record.kind = static_cast<protocol::RecordKind>(random() % 16 == 0 ? random() % 4 : random() % 2);
+    record.flags = static_cast<std::uint8_t>(random() & (random() % 64 == 0 ? 0xFFU : 0xDFU));
+  };
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const Stage stage = i % 2 == 0 ? Stage::radiosity : Stage::ray_tracing;
+    FakeMachine machine(1, 256U << 10U);
+    machine.begin(small_scene(), stage, 16);
+    const std::uint32_t fault = fault_of([&] {
+      for (std::uint32_t k = 0; k < 8; ++k) {
+        if (stage == Stage::radiosity) {
+          RadiosityRecord r{{0.4F, 0.5F, 0.6F}, {0, 0.6F, 0.8F}, {1000, 10, 1}, 0, 0, 0, {}, 0, 0, 0};
+          garble(r);
+          for (auto& f : r.flux) f &= (std::int64_t{1} << 50) - 1;
+          send(machine, r);
+        } else {
+          RayRecord r{};
+          r.origin = {0.4F, 0.5F, 0.6F};
+          r.direction = {0, 0.6F, 0.8F};
+          garble(r);
+          r.waiting = static_cast<std::uint8_t>(random() % 3);
+          for (auto& b : r.branches) {
+            b.pe = 0;
+            b.subspace %= 8;
+          }
+          send(machine, r);
+        }
+      }
+    });
+    EXPECT_TRUE(fault == 0 || fault == code(FaultCode::bad_record)) << fault;
+    survived += fault == 0 ? 1 : 0;
+    if (fault != 0) continue;
+    const auto kind = static_cast<MessageKind>(16 + random() % 16);
+    std::vector<std::byte> bytes(random() % 200);
+    for (auto& b : bytes) b = static_cast<std::byte>(random());
+    fault_of([&] {
+      machine.message(0, kind, std::span<const std::byte>(bytes));
+      machine.run();
+    });
+  }
+  EXPECT_GT(survived, 100U);
+}
+
+}  // namespace
+}  // namespace torolux::test
