@@ -16,21 +16,23 @@ namespace torolux::pe {
 /// What the test needs of a ray, computed once: axes permuted so that z is the longest, and the shear that lays the ray
 /// on it.
 struct Shear {
-  Shear(const glm::vec3& o, const glm::vec3& d, const Inverse& inverse) {
-    const auto size = [&](int a) { return bits(d[a]) & 0x7FFF'FFFF; };
+  Shear(const glm::vec3& from, const glm::vec3& along, const Inverse& inverse) {
+    const protocol::Vec3f o = to_array(from);
+    const protocol::Vec3f d = to_array(along);
+    const auto size = [&](std::size_t a) { return bits(d[a]) & 0x7FFF'FFFF; };
     z = size(1) > size(0) ? 1 : 0;
     if (size(2) > size(z)) z = 2;
     x = z == 2 ? 0 : z + 1;
     y = x == 2 ? 0 : x + 1;
     if (bits(d[z]) < 0) std::swap(x, y);  // keeps the triangle's winding
-    scale = inverse.axis[static_cast<std::size_t>(z)];
+    scale = inverse.axis[z];
     shear_x = d[x] * scale;
     shear_y = d[y] * scale;
     origin_x = o[x];
     origin_y = o[y];
     origin_z = o[z];
   }
-  int x, y, z;
+  std::size_t x, y, z;
   float origin_x, origin_y, origin_z;
   float shear_x, shear_y, scale;
 };
@@ -60,9 +62,9 @@ inline bool cross_triangle(const Shear& ray, const protocol::Polygon& polygon, C
   const auto& a = polygon.corner[0];
   const auto& b = polygon.corner[1];
   const auto& c = polygon.corner[2];
-  const auto x = static_cast<std::size_t>(ray.x);
-  const auto y = static_cast<std::size_t>(ray.y);
-  const auto z = static_cast<std::size_t>(ray.z);
+  const std::size_t x = ray.x;
+  const std::size_t y = ray.y;
+  const std::size_t z = ray.z;
   const float az = a[z] - ray.origin_z;
   const float bz = b[z] - ray.origin_z;
   const float cz = c[z] - ray.origin_z;

@@ -37,7 +37,7 @@ class Walk {
  public:
   /// segment.subspace is `here`.
   Walk(const protocol::StageLayout& layout, const Segment& segment, const protocol::Subspace& here)
-      : layout_(layout), origin_(segment.origin), inverse_(segment.direction) {
+      : layout_(layout), origin_(to_array(segment.origin)), inverse_(segment.direction) {
     for (std::uint32_t a = 0; a < 3; ++a) aim(a, here.cell[a]);
     if (!segment.first) {
       const std::uint32_t a = segment.entry_axis;
@@ -65,7 +65,7 @@ class Walk {
   float distance(std::uint32_t axis, std::uint32_t index) const {
     const float inverse = inverse_.axis[axis];
     if (bits(inverse) == 0) return std::numeric_limits<float>::infinity();
-    return (plane(layout_, axis, index) - origin_[static_cast<int>(axis)]) * inverse;
+    return (plane(layout_, axis, index) - origin_[axis]) * inverse;
   }
   void aim(std::uint32_t axis, std::uint32_t cell) {
     exit_[axis] = distance(axis, cell + (inverse_.upward[axis] ? 1U : 0U));
@@ -77,7 +77,7 @@ class Walk {
   }
 
   const protocol::StageLayout& layout_;
-  glm::vec3 origin_;
+  protocol::Vec3f origin_;
   Inverse inverse_;
   float entered_ = 0.0F;
   std::array<float, 3> exit_;
