@@ -143,7 +143,7 @@ struct NiuChannel {
   // Written by the processor's side.
   alignas(64) std::atomic<std::uint64_t> bound;  ///< no command with an earlier time will come
   std::atomic<std::uint64_t> wait;               ///< pack_wait
-  std::atomic<std::uint64_t> clock;              ///< at the end of the last HINT
+  std::atomic<std::uint64_t> clock;              ///< at the end of the last HINT, or where the present one waits
   std::atomic<std::uint64_t> idle;               ///< [cycles] of `clock` spent waiting
   std::atomic<std::uint64_t> instructions;
   std::array<std::atomic<std::uint64_t>, protocol::kPhases> phase_cycles;

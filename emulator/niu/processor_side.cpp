@@ -102,6 +102,7 @@ void publish_bound(NiuChannel& channel, std::uint64_t bound, std::uint64_t wait)
 template <class Ready>
 bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
   if (ready()) return true;
+  channel_.clock.store(clock_, std::memory_order_relaxed);
   publish_bound(channel_, clock_ + kCommandCycles, pack_wait(kind, count));
   const auto deadline = std::chrono::steady_clock::now() + kLongestSleep;
   for (;;) {

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: MIT
+// Whole machines with native programs: exact latencies, order, slots, diversion, determinism, deadlocks, faults.
+#include "emulator/machine/machine.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/random.hpp"
+#include "tests/unit/emulator/machine_support.hpp"
+
+namespace torolux::test {
+
+namespace {
+
+using testing::HasSubstr;
+
+struct Outcome {
+  std::vector<Heard> heard;
+  std::string figures;
+  MachineFigures raw;
+};
+
+Outcome run(const MachineSetup& setup, ListeningHost& host, const NativeProgram& program,
+            const NativeOptions& options = {}) {
+  register_native_engine(program, options);
+  const Image image = empty_image();
+  Machine machine(setup, image);
+  machine.run(host);
+  return {host.heard, exact(machine.figures()), machine.figures()};
+}
+
+std::string failure_of(const MachineSetup& setup, ListeningHost& host, const NativeProgram& program) {
+  try {
+    run(setup, host, program);
+  } catch (const MachineFailure& failure) {
+    return failure.what();
+  }
+  return "no failure";
+}
+
+/// PE 0 sends one record to PE `to`, which answers with its clock.
+Cycles latency_to(const MachineSetup& setup, unsigned to) {
+  ListeningHost host(2);
+  const auto program = [&](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, 16);
+    if (niu.pe() == 0) {
+      clock.spend(10'000 - clock.cycles() - 1);
+      record(niu, 0) = {};
+      send_one(niu, to, 0);
+      niu.send(static_cast<protocol::MessageKind>(kText), clock.cycles());
+    }
+    if (niu.pe() == to) {
+      niu.receive();
+      niu.send(static_cast<protocol::MessageKind>(kText), clock.cycles());
+    }
+    sleep_for_ever(niu);
+  };
+  NativeOptions options;
+  options.cycles_per_hint = 1;
+  const Outcome outcome = run(setup, host, program, options);
+  // The sender's clock after its send, the receiver's after its receive; each HINT costs one cycle.
+  std::uint64_t sent = 0;
+  std::uint64_t received = 0;
+  for (const Heard& heard : outcome.heard) (heard.source == 0 && sent == 0 ? sent : received) = heard.as<Cycles>();
+  return received - sent;
+}
+
+TEST(Machine, ZeroLoadLatencyIsExact) {
+  // By hand: 1 cycle into the queue, (hops + 1) * (router 3 + link 1), and the packet's other flits:
+  // (16 + 64) / 16 = 5 flits, so 4. Hops on a 4x4 torus: PE 1: 1, PE 2: 2, PE 3: 1 (around), PE 5: 2, PE 10: 4.
+  const MachineSetup setup = small_machine(4, 4);
+  EXPECT_EQ(latency_to(setup, 1), 1U + 2 * 4 + 4);
+  EXPECT_EQ(latency_to(setup, 2), 1U + 3 * 4 + 4);
+  EXPECT_EQ(latency_to(setup, 3), 1U + 2 * 4 + 4);
+  EXPECT_EQ(latency_to(setup, 5), 1U + 3 * 4 + 4);
+  EXPECT_EQ(latency_to(setup, 10), 1U + 5 * 4 + 4);
+}
+
+TEST(Machine, LatencyFollowsTheDescription) {
+  MachineSetup setup = small_machine(4, 4);
+  setup.description.torus.router_cycles = 7;
+  setup.description.torus.link_cycles = 5;
+  setup.description.torus.flit_bytes = 8;
+  EXPECT_EQ(latency_to(setup, 10), 1U + 5 * 12 + 9);
+}
+
+TEST(Machine, BusAndHostTimesAreExact) {
+  // PE: HINT 1 ends at cycle 1, the bus sees it at 2, transfer 4 + ceil((8 + 4) / 8) = 6 cycles, the host takes 50.
+  ListeningHost host(1);
+  NativeOptions options;
+  options.cycles_per_hint = 1;
+  const Outcome outcome = run(
+      small_machine(1, 1), host,
+      [](Niu& niu, NativeClock& /*clock*/) {
+        niu.send(static_cast<protocol::MessageKind>(kText), std::uint32_t{42});
+        sleep_for_ever(niu);
+      },
+      options);
+  ASSERT_EQ(outcome.heard.size(), 1U);
+  EXPECT_EQ(outcome.heard[0].time, 2U + 6 + 50);
+  EXPECT_EQ(outcome.heard[0].as<std::uint32_t>(), 42U);
+}
+
+TEST(Machine, PacketsOfAPairArriveInOrder) {
+  // Delays and link errors do not change it. Slots for all records: diversion gives the order up, by design.
+  constexpr std::uint32_t kPackets = 200;
+  ListeningHost host(16);
+  MachineSetup setup = small_machine(4, 4);
+  setup.local_memory_bytes = 512U * 1024U;
+  setup.description.injected_delay_cycles = 30;
+  setup.description.torus.link_error_rate = 0.1;
+  const Outcome outcome = run(setup, host, [](Niu& niu, NativeClock& /*clock*/) {
+    set_test_slots(niu, niu.pe() == 0 ? 15 * kPackets : 0);
+    std::vector<std::uint32_t> next(16, 0);
+    for (std::uint32_t i = 0; i < kPackets * (niu.pe() == 0 ? 15 : 1); ++i) {
+      if (niu.pe() != 0) {
+        const auto slot = static_cast<std::uint16_t>(i % kOwnSlots);
+        record(niu, slot) = {niu.pe(), i, 0, 0, {}};
+        send_one(niu, 0, slot);
+        continue;
+      }
+      const auto& arrival = niu.receive();
+      const TestRecord& got = record(niu, arrival.slots[0]);
+      EXPECT_EQ(arrival.source, got.source);
+      EXPECT_EQ(got.number, next[got.source]++);
+      niu.release(arrival.slots[0]);
+    }
+    niu.send(static_cast<protocol::MessageKind>(kDone));
+    sleep_for_ever(niu);
+  });
+  EXPECT_EQ(outcome.raw.pes[0].packets_delivered, 15 * kPackets);
+  EXPECT_EQ(outcome.raw.pes[0].records_diverted, 0U);
+  EXPECT_GT(outcome.raw.link_retries, 100U);
+}
+
+/// Records wander from PE to PE by a hash until their life ends; the last home tells the host. No PE holds state.
+NativeProgram wanderers(std::uint32_t per_pe, std::uint32_t life, std::uint32_t niu_slots) {
+  return [=](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, niu_slots);
+    std::uint32_t created = 0;
+    std::uint32_t died = 0;
+    for (;;) {
+      if (created < per_pe) {
+        const auto slot = static_cast<std::uint16_t>(created % kOwnSlots);
+        record(niu, slot) = {niu.pe(), created, life, 0, {}};
+        send_one(niu, protocol::hash_combine(niu.pe(), created) % niu.pes(), slot);
+        ++created;
+      }
+      const auto& arrival = (created < per_pe || died != 0) ? niu.receive_if_any() : niu.receive();
+      if (arrival.kind == ArrivalKind::none) {
+        if (died != 0) niu.send(static_cast<protocol::MessageKind>(kDone), died);
+        died = 0;
+        continue;
+      }
+      const auto slots = arrival.slots;
+      const std::uint32_t count = arrival.count;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        TestRecord& got = record(niu, slots[i]);
+        clock.spend(protocol::hash_combine(got.number, got.life) % 300);
+        if (--got.life == 0) {
+          niu.release(slots[i]);
+          ++died;
+        } else {
+          const std::uint32_t key = protocol::hash_combine(got.source * 1000 + got.number, got.life);
+          send_one(niu, key % niu.pes(), slots[i]);
+        }
+      }
+    }
+  };
+}
+
+/// Counts the records that have come home.
+class CountingHost final : public ListeningHost {
+ public:
+  explicit CountingHost(std::uint64_t records) : ListeningHost(0), records_(records) {}
+  bool finished() const override { return home() >= records_; }
+  std::uint64_t home() const {
+    std::uint64_t sum = 0;
+    for (const Heard& one : heard) sum += one.as<std::uint32_t>();
+    return sum;
+  }
+
+ private:
+  std::uint64_t records_;
+};
+
+TEST(Machine, EveryRecordComesHome) {
+  for (const auto& [columns, rows] : {std::pair(1U, 1U), {1U, 5U}, {2U, 3U}, {4U, 4U}}) {
+    CountingHost host(std::uint64_t{columns} * rows * 100);
+    const Outcome outcome = run(small_machine(columns, rows), host, wanderers(100, 20, 4096 / 8));
+    std::uint64_t sent = 0;
+    std::uint64_t delivered = 0;
+    for (const PeFigures& pe : outcome.raw.pes) {
+      sent += pe.packets_sent;
+      delivered += pe.packets_delivered;
+      EXPECT_GE(pe.busy_cycles + pe.idle_cycles, outcome.raw.now);
+    }
+    EXPECT_EQ(host.home(), std::uint64_t{columns} * rows * 100);
+    EXPECT_EQ(sent, delivered);
+    EXPECT_EQ(sent, std::uint64_t{columns} * rows * 100 * 20);
+  }
+}
+
+TEST(Machine, DivertedRecordsAllComeBack) {
+  MachineSetup setup = small_machine(3, 3);
+  CountingHost host(9 * 150);
+  const Outcome outcome = run(setup, host, wanderers(150, 12, 2));
+  std::uint64_t diverted = 0;
+  for (const PeFigures& pe : outcome.raw.pes) {
+    diverted += pe.records_diverted;
+    EXPECT_LE(pe.record_slots_high_water, 2U);
+  }
+  EXPECT_EQ(host.home(), 9U * 150);
+  EXPECT_GT(diverted, 100U);
+}
+
+TEST(Machine, SameRunWhateverTheThreadsDo) {
+  MachineSetup setup = small_machine(3, 3);
+  setup.description.torus.send_queue_packets = 1;
+  setup.description.bus.send_queue_messages = 1;
+  std::string first;
+  for (unsigned attempt = 0; attempt < 6; ++attempt) {
+    NativeOptions options;
+    options.before_hint = [attempt](unsigned pe) {
+      if (attempt == 0) return;
+      thread_local std::minstd_rand random(attempt * 1000 + pe + 1);
+      const auto roll = random() % 64;
+      if (roll == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 300));
+      if (roll < 8) std::this_thread::yield();
+    };
+    CountingHost host(9 * 60);
+    const Outcome outcome = run(setup, host, wanderers(60, 12, 6), options);
+    std::string all = outcome.figures;
+    for (const Heard& heard : outcome.heard) {
+      all += std::to_string(heard.time) + ":" + std::to_string(heard.source) + " ";
+    }
+    if (attempt == 0) first = all;
+    ASSERT_EQ(all, first) << "attempt " << attempt;
+  }
+}
+
+TEST(Machine, MessagesOfOneQueueKeepTheirOrderAndReachHostAndFrameBuffer) {
+  MachineSetup setup = small_machine(2, 2);
+  setup.frame_width = 4;
+  setup.frame_height = 2;
+  setup.description.frame_buffer.queue_messages = 1;
+  setup.description.frame_buffer.cycles_per_pixel = 100;
+  ListeningHost host(4);
+  register_native_engine([](Niu& niu, NativeClock& /*clock*/) {
+    std::array<protocol::PixelAdd, 8> pixels{};
+    for (std::uint32_t i = 0; i < 8; ++i) pixels[i] = {{i, -2 * std::int64_t{i}, std::int64_t{1} << 40U}, i, 0};
+    for (int i = 0; i < 5; ++i) {
+      niu.send_message(protocol::kFrameBuffer, static_cast<std::uint16_t>(protocol::MachineMessage::pixels),
+                       std::as_bytes(std::span(pixels)));
+    }
+    niu.send(static_cast<protocol::MessageKind>(kDone));
+    sleep_for_ever(niu);
+  });
+  const Image image = empty_image();
+  Machine machine(setup, image);
+  machine.run(host);
+  // All pixels went ahead of the last message: the bus took them only as the controller had a place.
+  EXPECT_GT(host.heard[0].time, 4 * 100U * 8);
+  const FrameBuffer& frame = machine.frame_buffer();
+  ASSERT_EQ(frame.pixels.size(), 8U);
+  for (std::int64_t i = 0; i < 8; ++i) {
+    const std::array<std::int64_t, 3> expected = {20 * i, -40 * i, 20 * (std::int64_t{1} << 40U)};
+    EXPECT_EQ(frame.pixels[static_cast<std::size_t>(i)], expected);
+  }
+  EXPECT_EQ(machine.figures().pixels_added, 160U);
+  EXPECT_EQ(machine.figures().frame_buffer_busy_cycles, 16000U);
+}
+
+TEST(Machine, HostSendsInOrderAndHoldsBackWhatHasNoRoom) {
+  // Far more messages and records than buffers and slots: the PE sees them all, in order, intact.
+  constexpr std::uint32_t kCount = 300;
+  ListeningHost host(2);
+  host.at_start = [](HostPort& port) {
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      for (PeNumber pe = 0; pe < 2; ++pe) {
+        const std::vector<std::uint32_t> words(1 + i % 200, i);
+        port.send_message(pe, kGo, std::as_bytes(std::span(words)));
+        const std::array<TestRecord, 3> records = {TestRecord{pe, 3 * i, 0, 0, {}}, TestRecord{pe, 3 * i + 1, 0, 0, {}},
+                                                   TestRecord{pe, 3 * i + 2, 0, 0, {}}};
+        port.send_records(pe, std::as_bytes(std::span(records)), sizeof(TestRecord));
+      }
+    }
+    EXPECT_EQ(port.queued(0), 2U * kCount);
+  };
+  const Outcome outcome = run(small_machine(2, 1), host, [](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, 7);
+    std::uint32_t messages = 0;
+    std::uint32_t records = 0;
+    while (messages < kCount || records < 3 * kCount) {
+      const auto& arrival = niu.receive();
+      clock.spend(500);
+      EXPECT_EQ(arrival.source, protocol::kHost);
+      if (arrival.kind == ArrivalKind::message) {
+        EXPECT_EQ(niu.message_bytes().size(), 4 * (1 + messages % 200));
+        EXPECT_EQ(niu.message_as<std::uint32_t>(), messages);
+        ++messages;
+      }
+      const auto slots = arrival.slots;
+      for (std::uint32_t i = 0; i < arrival.count; ++i) {
+        EXPECT_EQ(record(niu, slots[i]).number, records++);
+        niu.release(slots[i]);
+      }
+    }
+    niu.send(static_cast<protocol::MessageKind>(kDone));
+    sleep_for_ever(niu);
+  });
+  for (const PeFigures& pe : outcome.raw.pes) {
+    EXPECT_LE(pe.record_slots_high_water, 7U);
+    EXPECT_EQ(pe.records_diverted, 0U);
+  }
+}
+
+TEST(Machine, IdleAndBusyAddUp) {
+  ListeningHost host(1);
+  host.at_start = [](HostPort& port) { port.send_message(1, kGo, {}); };
+  NativeOptions options;
+  options.cycles_per_hint = 10;
+  const Outcome outcome = run(
+      small_machine(2, 1), host,
+      [](Niu& niu, NativeClock& clock) {
+        if (niu.pe() == 0) return;
+        niu.receive();
+        niu.enter_phase<protocol::Phase::shade>();
+        clock.spend(1000);
+        niu.leave_phase<protocol::Phase::shade>();
+        niu.send(static_cast<protocol::MessageKind>(kDone));
+        sleep_for_ever(niu);
+      },
+      options);
+  const PeFigures& pe = outcome.raw.pes[1];
+  EXPECT_EQ(pe.busy_cycles, 10U + 1000 + 10 + 10);
+  EXPECT_EQ(pe.busy_cycles + pe.idle_cycles, outcome.raw.now);
+  EXPECT_EQ(pe.phase_cycles[static_cast<std::size_t>(protocol::Phase::shade)], 1000U);
+  EXPECT_EQ(outcome.raw.pes[0].busy_cycles + outcome.raw.pes[0].idle_cycles, outcome.raw.now);
+}
+
+TEST(Machine, DeadlockNamesWhoWaitsForWhat) {
+  ListeningHost host(1);
+  const std::string report =
+      failure_of(small_machine(2, 1), host, [](Niu& niu, NativeClock& /*clock*/) { sleep_for_ever(niu); });
+  EXPECT_THAT(report, HasSubstr("deadlock"));
+  EXPECT_THAT(report, HasSubstr("waits for more messages"));
+  EXPECT_THAT(report, HasSubstr("PE 1 (clock 0) waits to receive"));
+}
+
+TEST(Machine, AFinishedProgramWithMessagesLeftIsADeadlock) {
+  ListeningHost host(0);
+  host.at_start = [](HostPort& port) {
+    for (int i = 0; i < 5; ++i) port.send_message(0, kGo, {});
+  };
+  const std::string report = failure_of(small_machine(1, 1), host, [](Niu& /*niu*/, NativeClock& /*clock*/) {});
+  EXPECT_THAT(report, HasSubstr("has halted"));
+  EXPECT_THAT(report, HasSubstr("from the host 3"));
+}
+
+TEST(Machine, FaultsNameThePe) {
+  ListeningHost host(1);
+  const MachineSetup setup = small_machine(2, 2);
+  const auto only_pe_2 = [](auto action) {
+    return [action](Niu& niu, NativeClock& clock) {
+      if (niu.pe() == 2) action(niu, clock);
+      sleep_for_ever(niu);
+    };
+  };
+  EXPECT_THAT(
+      failure_of(setup, host, only_pe_2([](Niu& niu, NativeClock&) { niu.fail(protocol::FaultCode::bad_record, 7); })),
+      HasSubstr("PE 2: the program failed: code 7 (in pe.elf: bad record), details 7, 0, 0"));
+  EXPECT_THAT(failure_of(setup, host, only_pe_2([](Niu& niu, NativeClock&) {
+                           niu.fail(protocol::FaultCode::trap, 5, 0x8000'0010U, 0x90U);
+                         })),
+              HasSubstr("PE 2: trap: load outside local memory at"));
+  EXPECT_THAT(failure_of(setup, host, only_pe_2([](Niu& niu, NativeClock&) {
+                           set_test_slots(niu, 4);
+                           niu.release(kOwnSlots);
+                           niu.receive();
+                         })),
+              HasSubstr("PE 2: record slot released that is not in use"));
+  EXPECT_THAT(failure_of(setup, host, only_pe_2([](Niu& niu, NativeClock&) {
+                           set_test_slots(niu, 4);
+                           send_one(niu, 4, 0);
+                         })),
+              HasSubstr("PE 2: no such destination"));
+  EXPECT_THAT(failure_of(setup, host, only_pe_2([](Niu& niu, NativeClock& clock) {
+                           clock.spend(3'000'000'000);
+                           niu.clock();
+                         })),
+              HasSubstr("endless loop"));
+}
+
+TEST(Machine, ProgressCanEndARun) {
+  ListeningHost host(1);
+  register_native_engine([](Niu& niu, NativeClock& clock) {
+    for (;;) {
+      clock.spend(100);
+      niu.clock();
+    }
+  });
+  const Image image = empty_image();
+  Machine machine(small_machine(2, 1), image);
+  int calls = 0;
+  EXPECT_THROW(machine.run(host, [&](Cycles) { return ++calls < 3; }), Interrupted);
+}
+
+TEST(Machine, RefusesWhatCannotBe) {
+  const Image image = empty_image();
+  MachineSetup setup = small_machine(0, 4);
+  EXPECT_THROW(Machine(setup, image), UsageError);
+  setup = small_machine(1, 1);
+  setup.local_memory_bytes = 1000;
+  EXPECT_THROW(Machine(setup, image), UsageError);
+  setup = small_machine(1, 1);
+  setup.description.torus.send_queue_packets = 1000;
+  EXPECT_THROW(Machine(setup, image), InputError);
+}
+
+}  // namespace
+
+}  // namespace torolux::test
