@@ -2,7 +2,7 @@
 // Writes and reads the log of HINTs.
 #include "emulator/engines/qemu/hint_log.hpp"
 
-#include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include "firmware/protocol/hints.hpp"
@@ -96,14 +96,12 @@ void HintRecorder::happened(std::int32_t immediate, std::uint64_t clock, std::ui
   *entry = {clock, immediate, patches};
   head_.cycles = clock;
   head_.instructions = instructions;
-  ++head_.entries;
 }
 
-HintReplayer::HintReplayer(std::span<const std::byte> log, std::span<std::byte> local_memory)
-    : local_memory_(local_memory) {
-  HintLogHead head{};
-  std::memcpy(&head, log.data(), sizeof head);
-  entries_ = log.subspan(sizeof head, head.used);
+HintReplayer::HintReplayer(std::span<std::byte> log, std::span<std::byte> local_memory)
+    : head_(*reinterpret_cast<HintLogHead*>(log.data())),
+      entries_(log.subspan(sizeof(HintLogHead), head_.used)),
+      local_memory_(local_memory) {
   if (!at_end()) {
     apply();
   }
@@ -129,6 +127,7 @@ NiuProcessorSide::Result HintReplayer::hint(std::int32_t immediate, std::uint64_
     return {done, clock};
   }
   if (at_end()) {
+    std::atomic_ref(head_.replayed).store(1);
     return {stop, clock};
   }
   HintLogEntry expected{};

@@ -18,8 +18,8 @@ struct HintLogHead {
   std::uint64_t used;    ///< bytes of entries
   std::uint64_t cycles;  ///< clock at the last entry
   std::uint64_t instructions;
-  std::uint32_t whole;  ///< 1: everything so far; 0: the log was full at some time
-  std::uint32_t entries;
+  std::uint32_t whole;     ///< 1: everything so far; 0: the log was full at some time
+  std::uint32_t replayed;  ///< 1: a replay has come to the end
 };
 
 /// One HINT that is no phase marker, or (immediate 0) the state at the start.
@@ -57,7 +57,7 @@ class HintRecorder {
 class HintReplayer {
  public:
   /// Sets the NIU window up.
-  HintReplayer(std::span<const std::byte> log, std::span<std::byte> local_memory);
+  HintReplayer(std::span<std::byte> log, std::span<std::byte> local_memory);
 
   /// As NiuProcessorSide::hint. stop: at the end of the log, or where the PE does not do what it did when recorded.
   NiuProcessorSide::Result hint(std::int32_t immediate, std::uint64_t clock);
@@ -66,6 +66,7 @@ class HintReplayer {
  private:
   HintLogEntry apply();
 
+  HintLogHead& head_;
   std::span<const std::byte> entries_;
   std::span<std::byte> local_memory_;
   std::size_t next_ = 0;
