@@ -37,7 +37,9 @@ void find_nearest(const Scene& scene, const Subspace& here, const Segment& segme
                   const Shear& shear, Reach& reach, Nearest& nearest) {
   const float t_in = segment.first || bits(walk.t_in()) < 0 ? 0.0F : walk.t_in();
   reach.set_interval(t_in, walk.t_out());
-  // The last subspace keeps what rounding puts behind the object space's outer face: walls often lie in it.
+  // The outer faces of the object space end no interval: walls often lie in them, and rounding puts their hits on
+  // either side.
+  const bool open_begin = segment.first || here.neighbour_pe[walk.entry_face(segment.entry_axis)] == kNobody;
   const bool last = here.neighbour_pe[walk.exit_face()] == kNobody;
   const float t_out = last ? std::numeric_limits<float>::infinity() : walk.t_out();
   const std::uint32_t* index = scene.polygon_list.data() + here.first_polygon;
@@ -47,7 +49,7 @@ void find_nearest(const Scene& scene, const Subspace& here, const Segment& segme
     if (reach.misses(polygon) || polygon.number == segment.polygon) continue;
     Crossing crossing;
     if (!cross_triangle(shear, polygon, crossing)) continue;
-    const bool counts = crossing.t > 0.0F ? crossing.t <= t_out && (segment.first || crossing.t > t_in)
+    const bool counts = crossing.t > 0.0F ? crossing.t <= t_out && (open_begin || crossing.t > t_in)
                                           : counts_behind_origin(segment, polygon, crossing);
     if (counts && crossing.t < nearest.t) {
       nearest.crossing = crossing;

@@ -49,6 +49,8 @@ class Walk {
   /// Where the ray leaves the subspace: the face whose plane is met first, x before y before z.
   std::uint32_t exit_axis() const { return axis_; }
   std::uint32_t exit_face() const { return 2U * axis_ + (inverse_.upward[axis_] ? 1U : 0U); }
+  /// The face of a subspace through which this ray enters along `axis`.
+  std::uint32_t entry_face(std::uint32_t axis) const { return 2U * axis + (inverse_.upward[axis] ? 0U : 1U); }
   /// The interval of the subspace is (t_in, t_out]. t_in means nothing in the first one.
   float t_in() const { return entered_; }
   float t_out() const { return exit_[axis_]; }

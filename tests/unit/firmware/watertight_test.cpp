@@ -185,6 +185,25 @@ TEST(Watertight, HandOverChangesNothing) {
   EXPECT_GT(hand_overs, 50'000U);
 }
 
+// From outside, through the outer faces, in which the walls lie: each ray meets the room.
+TEST(Watertight, RaysFromOutsideMeetWallsInTheOuterFaces) {
+  for (const std::uint32_t g : {1U, 3U, 8U}) {
+    Case c = room(3, {g, g, g}, {1, 1, 1});
+    std::vector<PeStores> stores = build_stores(c.scene, protocol::Stage::ray_tracing);
+    const pe::Scene scene = stores[0].scene();
+    Aim aim(c.scene, g);
+    for (std::uint32_t i = 0; i < 50'000; ++i) {
+      const glm::vec3 origin{-0.3F - aim.uniform(), aim.uniform(), aim.uniform()};
+      const glm::vec3 target{0.0F, 0.01F + 0.98F * aim.uniform(), 0.01F + 0.98F * aim.uniform()};
+      Segment s{origin, glm::normalize(target - origin), 0, protocol::kNoPolygon, false, false, 0};
+      s.subspace = local_subspace(c.scene, c.scene.cell_of({0, target.y, target.z}));
+      const pe::Way way = pe::traverse(scene, 0, s);
+      ASSERT_EQ(way.end, pe::WayEnd::hit) << "ray " << i;
+      ASSERT_LT(std::abs((origin + s.direction * way.hit.t).x), 1e-6F) << "ray " << i << " went through the first wall";
+    }
+  }
+}
+
 // Rays that leave a wall close to an edge or corner, from a point that rounding put behind the neighbouring wall, meet
 // that wall all the same.
 TEST(Watertight, RoundedOriginsBehindTheNextWallDoNotLeak) {
