@@ -64,12 +64,13 @@ setup_configure() {
     if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$known" ||
       { [[ -n $sysroot ]] && ! grep -qxF "TOROLUX_SYSROOT:PATH=$sysroot" "$known"; }; then
       rm -rf "$folder"
-    elif [[ -e $folder/build.ninja && ! $root/CMakePresets.json -nt $folder/build.ninja ]]; then
+    elif [[ -e $folder/build.ninja ]] && cmp -s "$root/CMakePresets.json" "$folder/presets-used.json"; then
       return
     fi
   fi
   echo "torolux: configuring: $preset" >&2
   setup_logged_or_stop "configure-$preset" cmake -S "$root" --preset "$preset"
+  cp "$root/CMakePresets.json" "$folder/presets-used.json"
 }
 
 # setup_preset PRESET TARGET...: configures where needed, and builds the targets where they are out of date.
