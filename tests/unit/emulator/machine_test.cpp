@@ -350,7 +350,7 @@ TEST(Machine, DeadlockNamesWhoWaitsForWhat) {
       failure_of(small_machine(2, 1), host, [](Niu& niu, NativeClock& /*clock*/) { sleep_for_ever(niu); });
   EXPECT_THAT(report, HasSubstr("deadlock"));
   EXPECT_THAT(report, HasSubstr("waits for more messages"));
-  EXPECT_THAT(report, HasSubstr("PE 1 (clock 0) waits to receive"));
+  EXPECT_THAT(report, HasSubstr("PE 1 (clock 200) waits to receive"));
 }
 
 TEST(Machine, AFinishedProgramWithMessagesLeftIsADeadlock) {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Event queue, bound tree and byte ring against plain models.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <tuple>
+#include <vector>
+
+#include "emulator/niu/channel.hpp"
+#include "emulator/time/bound_tree.hpp"
+#include "emulator/time/event_queue.hpp"
+
+namespace torolux::test {
+
+namespace {
+
+TEST(EventQueue, OrderIsTimeThenSourceThenSequence) {
+  EventQueue queue(5);
+  std::minstd_rand random(3);
+  std::vector<std::tuple<Cycles, std::uint32_t, std::uint32_t>> expected;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    const Cycles time = random() % 100;
+    const auto source = static_cast<std::uint32_t>(random() % 5);
+    queue.push(time, source, EventKind::command, 0, 0, i);
+    expected.emplace_back(time, source, i);
+  }
+  std::ranges::sort(expected);
+  for (const auto& [time, source, block] : expected) {
+    const Event event = queue.pop();
+    ASSERT_EQ(event.time, time);
+    ASSERT_EQ(event.order >> 32U, source);
+    ASSERT_EQ(event.block, block);
+  }
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(BoundTree, GivesTheLeastAndTheLowestOfEquals) {
+  for (const std::size_t count : {1U, 2U, 3U, 7U, 16U, 100U}) {
+    BoundTree tree(count, 5);
+    std::vector<std::uint64_t> model(count, 5);
+    std::minstd_rand random(static_cast<unsigned>(count));
+    for (int i = 0; i < 2000; ++i) {
+      const std::size_t at = random() % count;
+      model[at] = random() % 20 == 0 ? kNever : random() % 50;
+      tree.set(at, model[at]);
+      const auto least = std::ranges::min_element(model);
+      ASSERT_EQ(tree.least(), *least);
+      if (*least == kNever) continue;
+      ASSERT_EQ(tree.least_index(), static_cast<std::size_t>(least - model.begin()));
+    }
+  }
+}
+
+TEST(ByteRing, KeepsEntriesWholeAcrossItsEnd) {
+  const auto ring = std::make_unique<ByteRing<Arrival, 4096>>();
+  std::minstd_rand random(9);
+  std::vector<std::vector<std::byte>> inside;
+  std::uint64_t pushed = 0;
+  std::uint64_t popped = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::vector<std::byte> payload(random() % 1025);
+    for (std::byte& one : payload) one = static_cast<std::byte>(random());
+    if (random() % 2 == 0 && ring->has_room(payload.size())) {
+      ring->push({pushed++, 1, 2, 3, 4, 0, 0}, payload);
+      inside.push_back(payload);
+    }
+    if (random() % 2 == 0) {
+      const Arrival* front = ring->front();
+      ASSERT_EQ(front == nullptr, inside.empty());
+      if (front == nullptr) continue;
+      ASSERT_EQ(front->time, popped++);
+      ASSERT_TRUE(std::ranges::equal(ring->payload(*front), inside.front()));
+      ring->pop(*front);
+      inside.erase(inside.begin());
+    }
+  }
+  EXPECT_GT(popped, 5000U);
+}
+
+}  // namespace
+
+}  // namespace torolux::test
