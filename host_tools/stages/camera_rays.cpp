@@ -21,8 +21,12 @@ PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_
   auto columns = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
   while (samples % columns != 0) --columns;
   if (columns > 1) {
+    // Canonical arrangement of correlated multi-jittered samples (Kensler 2013): also one in each of `samples` columns
+    // and rows, so that edges along the picture's axes come out smooth.
     const std::uint32_t rows = samples / columns;
-    return {(sample % columns + jitter_x) / columns, (sample / columns + jitter_y) / rows};
+    const std::uint32_t column = sample % columns;
+    const std::uint32_t row = sample / columns;
+    return {(column + (row + jitter_x) / rows) / columns, (row + (column + jitter_y) / columns) / rows};
   }
   // One sample in each row and each column: steps of about the golden section spread them.
   auto step = static_cast<std::uint32_t>(samples * 0.618 + 0.5);

@@ -24,8 +24,8 @@ struct PixelPlace {
   double x, y;
 };
 
-/// Stratified: samples lie in a grid of as equal sides as divide their number, or one to each row and column where it
-/// is prime; jittered within (one sample: the pixel's centre). key: of the sample.
+/// Stratified in two ways: one sample in each cell of a grid of as equal sides as divide their number, and one in each
+/// of `samples` rows and columns; jittered within (one sample: the pixel's centre). key: of the sample.
 PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_t key);
 
 class CameraRays {

@@ -42,6 +42,7 @@ TEST(CameraRays, CamerasThatLookNowhereAreRefused) {
 TEST(PixelPlace, OneSampleInEachStratum) {
   for (const std::uint32_t samples : {1U, 2U, 4U, 6U, 7U, 9U, 13U, 16U, 17U}) {
     std::set<std::uint32_t> columns;
+    std::set<std::uint32_t> rows;
     std::set<std::pair<std::uint32_t, std::uint32_t>> cells;
     std::uint32_t across = static_cast<std::uint32_t>(std::sqrt(samples));
     while (samples % across != 0) --across;
@@ -49,13 +50,13 @@ TEST(PixelPlace, OneSampleInEachStratum) {
       const PixelPlace place = pixel_place(s, samples, 77 + s);
       ASSERT_TRUE(place.x >= 0 && place.x < 1 && place.y >= 0 && place.y < 1);
       columns.insert(static_cast<std::uint32_t>(place.x * samples));
+      rows.insert(static_cast<std::uint32_t>(place.y * samples));
       cells.emplace(static_cast<std::uint32_t>(place.x * across),
                     static_cast<std::uint32_t>(place.y * (samples / across)));
     }
     EXPECT_EQ(cells.size(), samples);
-    if (across == 1) {
-      EXPECT_EQ(columns.size(), samples) << "a prime number of samples: one in each column, too";
-    }
+    EXPECT_EQ(columns.size(), samples);
+    EXPECT_EQ(rows.size(), samples);
   }
 }
 

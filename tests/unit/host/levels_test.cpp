@@ -62,8 +62,10 @@ TEST(Levels, MeshNumbersRunOn) {
 }
 
 TEST(Levels, TooManyElementsAreRefusedWithTheNumber) {
+  test::SceneBuilder builder{.scene = test::room_with_box()};
+  for (int i = 0; i < 5; ++i) builder.box(0, {0.7, 0.1 + i * 0.15, 0.7}, {0.8, 0.2 + i * 0.15, 0.8});
   try {
-    make_mesh(test::room_with_box(), {.element_length = 1e-4});
+    make_mesh(builder.scene, {.element_length = 1e-6});
     FAIL() << "not refused";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("67108864"), std::string::npos) << error.what();
