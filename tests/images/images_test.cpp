@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Start-up code, linker script, NIU driver and the example images, run on QEMU in the whole machine.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "emulator/errors.hpp"
+#include "host_tools/run/run.hpp"
+
+namespace torolux {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct Run {
+  std::vector<PeText> texts;
+  MachineFigures figures;
+};
+
+Run run(const std::string& image_name, unsigned columns, unsigned rows) {
+  const Image image = load_image(std::filesystem::path(TOROLUX_FIRMWARE_DIR) / (image_name + ".elf"));
+  MachineSetup setup;
+  setup.columns = columns;
+  setup.rows = rows;
+  setup.local_memory_bytes = protocol::kSmallestLocalMemory;
+  Run result;
+  result.figures = run_image(setup, image, [&](const PeText& text) { result.texts.push_back(text); }, {});
+  return result;
+}
+
+/// Runs `faults` with as many rows as the fault's number; returns the message with which the machine fails.
+std::string failure_of_fault(unsigned fault) {
+  try {
+    run("faults", 1, fault);
+  } catch (const MachineFailure& failure) {
+    return failure.what();
+  }
+  return "no failure";
+}
+
+TEST(ExampleImages, HelloSendsOneLineFromEachPe) {
+  const Run result = run("hello", 3, 2);
+  std::vector<std::string> lines;
+  for (const PeText& text : result.texts) {
+    EXPECT_EQ(text.text, "Hello from PE " + std::to_string(text.pe) + " of 6");
+    lines.push_back(text.text);
+  }
+  EXPECT_EQ(lines.size(), 6U);
+}
+
+TEST(ExampleImages, TokenPassesEachPeOnce) {
+  const Run result = run("token", 3, 2);
+  ASSERT_EQ(result.texts.size(), 1U);
+  EXPECT_EQ(result.texts[0].pe, 0);
+  EXPECT_THAT(result.texts[0].text, HasSubstr("passed 6 PEs"));
+  for (const PeFigures& pe : result.figures.pes) {
+    EXPECT_EQ(pe.packets_sent, 1U);
+    EXPECT_EQ(pe.packets_delivered, 1U);
+  }
+}
+
+TEST(ExampleImages, TokenTakesTheSameCyclesEachTime) {
+  const Run once = run("token", 2, 2);
+  const Run again = run("token", 2, 2);
+  EXPECT_EQ(once.texts.at(0).text, again.texts.at(0).text);
+  EXPECT_EQ(once.figures.now, again.figures.now);
+}
+
+// What the fault is, and what the message must hold. mtval where it is a fixed address.
+TEST(Faults, StoreAfterLocalMemoryTraps) {
+  EXPECT_THAT(failure_of_fault(1), AllOf(HasSubstr("PE 0"), HasSubstr("store"), HasSubstr("0x80040000")));
+}
+TEST(Faults, LoadFromADeviceTraps) {
+  EXPECT_THAT(failure_of_fault(2), AllOf(HasSubstr("PE "), HasSubstr("load"), HasSubstr("0x10000000")));
+}
+TEST(Faults, StoreIntoCodeTraps) {
+  EXPECT_THAT(failure_of_fault(3), AllOf(HasSubstr("PE "), HasSubstr("store"), HasSubstr("0x80000000")));
+}
+TEST(Faults, StackOverflowTrapsInItsFunction) {
+  EXPECT_THAT(failure_of_fault(4), AllOf(HasSubstr("PE "), HasSubstr("store"), HasSubstr("fill_stack")));
+}
+TEST(Faults, ExecutingTheStoresTraps) {
+  EXPECT_THAT(failure_of_fault(5), AllOf(HasSubstr("PE "), HasSubstr("trap"), HasSubstr("0x8003fffc")));
+}
+TEST(Faults, UnknownInstructionTraps) {
+  EXPECT_THAT(failure_of_fault(6), AllOf(HasSubstr("PE "), HasSubstr("trap"), HasSubstr("illegal instruction")));
+}
+TEST(Faults, AProgramsOwnFailureEndsTheRun) {
+  EXPECT_THAT(failure_of_fault(7), AllOf(HasSubstr("PE "), HasSubstr("5"), HasSubstr("6")));
+}
+TEST(Faults, MisalignedAccessAndTheLastWordWork) {
+  EXPECT_EQ(failure_of_fault(8), "no failure");
+}
+
+}  // namespace
+}  // namespace torolux
