@@ -9,8 +9,8 @@ std::int64_t to_quanta(float value) {
   const std::int32_t exponent = ((b >> 23) & 0xFF) - 150;  // value = mantissa * 2^exponent
   const std::int64_t mantissa = (b & 0x007F'FFFF) | 0x0080'0000;
   std::int64_t size = 0;
-  if (exponent > 38) {
-    size = std::int64_t{1} << 62U;
+  if (exponent > 32) {
+    size = std::int64_t{1} << 56U;
   } else if (exponent >= 0) {
     size = mantissa << exponent;
   } else if (exponent >= -24) {
@@ -26,7 +26,10 @@ void Homecoming::add_pixel(Niu& niu, std::uint32_t pixel, const glm::vec3& value
     if (pixels_ == protocol::kMostPixelsPerMessage) flush_pixels(niu);
     adds[pixels_++] = {{0, 0, 0}, pixel, 0};
   }
-  for (int c = 0; c < 3; ++c) adds[pixels_ - 1].value[c] += to_quanta(value[c]);
+  for (int c = 0; c < 3; ++c) {
+    std::int64_t& sum = adds[pixels_ - 1].value[c];  // light that is not finite may wrap round: added without sign
+    sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(to_quanta(value[c])));
+  }
 }
 
 void Homecoming::add_credits(Niu& niu, std::uint32_t count) {

@@ -10,7 +10,8 @@
 
 namespace torolux::pe {
 
-/// Radiance to quanta: rounded to nearest (halves away from zero), saturating at 2^62 where a value is not finite.
+/// Radiance to quanta: rounded to nearest (halves away from zero), saturating at 2^56; a value that is not finite does,
+/// too.
 std::int64_t to_quanta(float value);
 
 class Homecoming {

@@ -18,9 +18,12 @@ using protocol::Polygon;
 using protocol::RayRecord;
 using protocol::RecordKind;
 
+/// In any channel above nothing and not below the least weight. A way not taken weighs nothing, so it is never
+/// followed.
 bool worth_following(const Pe& pe, const glm::vec3& weight) {
   const float least = pe.scene.layout.least_weight;
-  return weight.x >= least || weight.y >= least || weight.z >= least;
+  const auto counts = [least](float w) { return w > 0.0F && w >= least; };
+  return counts(weight.x) || counts(weight.y) || counts(weight.z);
 }
 
 /// What a diffuse surface sends towards the ray: what it emits and what it reflects.

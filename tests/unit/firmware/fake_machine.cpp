@@ -181,6 +181,10 @@ void FakePe::take_message(std::uint16_t kind, std::span<const std::byte> bytes) 
   arrivals_.push_back({protocol::kHost, {}, kind, {bytes.begin(), bytes.end()}});
 }
 
+void FakePe::write(std::uint32_t address, std::span<const std::byte> bytes) {
+  std::copy(bytes.begin(), bytes.end(), memory_.get() + (address - protocol::kLocalMemoryBase));
+}
+
 std::span<const std::byte> FakePe::at(std::uint32_t address, std::size_t bytes) const {
   return {memory_.get() + (address - protocol::kLocalMemoryBase), bytes};
 }

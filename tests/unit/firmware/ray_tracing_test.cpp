@@ -104,11 +104,12 @@ TEST(RayTracing, MirrorWeighsWhatItReflects) {
   EXPECT_TRUE(other.pixels.empty());
 }
 
-/// A glass ball in the furnace. Clear glass in uniform light is invisible: each way's weights add up to one.
+/// Two glass balls in the furnace. Clear glass in uniform light is invisible: each way's weights add up to one.
 TestScene furnace_with_glass(std::uint32_t pes, std::array<std::uint32_t, 3> cells) {
   TestScene s = furnace(pes, cells);
   s.bounces = 255;
-  add_ball(s, {0.5F, 0.5F, 0.5F}, 0.3F, 8, 2, true);
+  add_ball(s, {0.3F, 0.5F, 0.5F}, 0.22F, 8, 2, true);  // one behind the other: more than two branches would wait
+  add_ball(s, {0.75F, 0.5F, 0.5F}, 0.22F, 8, 2, true);
   for (TestPolygon& p : s.polygons) {
     if (p.material == 2) p.sides = 0;
   }
@@ -148,6 +149,22 @@ TEST(RayTracing, SamePictureWhateverTheMachine) {
   }
 }
 
+// A record has room for two branches. A ray that needs a third, or whose second way weighs nothing, leaves the slot
+// behind its own as it was.
+TEST(RayTracing, BranchesStayInsideTheirRecord) {
+  const TestScene scene = furnace_with_glass(1, {1, 1, 1});
+  FakeMachine machine(1);
+  machine.begin(scene, Stage::ray_tracing, 2, 1.5F);
+  const protocol::Store slots = machine.stores[0].layout.record_slots;
+  const std::vector<std::byte> behind(sizeof(RayRecord), std::byte{0xA5});
+  for (const RayRecord& r : rays_at_random(scene, 500)) {
+    machine.pes[0]->write(slots.address + sizeof(RayRecord), behind);
+    trace(machine, scene, {r});
+    const auto now = machine.pes[0]->at(slots.address + sizeof(RayRecord), sizeof(RayRecord));
+    ASSERT_TRUE(std::equal(now.begin(), now.end(), behind.begin()));
+  }
+}
+
 TEST(RayTracing, QuantaAreRoundedToNearest) {
   EXPECT_EQ(pe::to_quanta(0.0F), 0);
   EXPECT_EQ(pe::to_quanta(0.49F), 0);
@@ -157,9 +174,9 @@ TEST(RayTracing, QuantaAreRoundedToNearest) {
   EXPECT_EQ(pe::to_quanta(1e-30F), 0);
   EXPECT_EQ(pe::to_quanta(16777217.0F), 16777216);
   EXPECT_EQ(pe::to_quanta(0x1.23456p40F), 0x12345600000);
-  EXPECT_EQ(pe::to_quanta(0x1p61F), std::int64_t{1} << 61);
-  EXPECT_EQ(pe::to_quanta(INFINITY), std::int64_t{1} << 62);
-  EXPECT_EQ(pe::to_quanta(-INFINITY), -(std::int64_t{1} << 62));
+  EXPECT_EQ(pe::to_quanta(0x1p55F), std::int64_t{1} << 55);
+  EXPECT_EQ(pe::to_quanta(INFINITY), std::int64_t{1} << 56);
+  EXPECT_EQ(pe::to_quanta(-INFINITY), -(std::int64_t{1} << 56));
 }
 
 }  // namespace
