@@ -9,6 +9,7 @@
 
 #include "emulator/engines/engine.hpp"
 #include "emulator/errors.hpp"
+#include "firmware/protocol/stores.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/picture/picture.hpp"
 #include "host_tools/render/render.hpp"
@@ -138,17 +139,19 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
   };
   length("--patches", "Longest edge of a patch (which shoots light), scene units", options.patches);
   length("--elements", "Longest edge of an element (which receives light), scene units", options.elements);
-  add_value(command, "--hemicube", "N", "Pixels across the top of a hemi-cube, even, 4 to 256",
+  add_value(command, "--hemicube", "N",
+            "Pixels across the top of a hemi-cube, even, 4 to " + std::to_string(protocol::kMostHemicubeSize),
             [&options](const std::string& text) {
-              const auto pixels = parse_count(text, 4, 256);
+              const auto pixels = parse_count(text, 4, protocol::kMostHemicubeSize);
               if (pixels % 2 != 0) throw InputError("\"" + text + "\" is odd; the number must be even");
               options.hemicube = static_cast<std::uint32_t>(pixels);
             })
       ->default_str(std::to_string(built_in.hemicube))
       ->group(group);
-  add_value(command, "--shot-points", "K", "K x K points per patch from which it shoots, 1 to 64",
+  add_value(command, "--shot-points", "K",
+            "K x K points per patch from which it shoots, 1 to " + std::to_string(protocol::kMostShotPoints),
             [&options](const std::string& text) {
-              options.shot_points = static_cast<std::uint32_t>(parse_count(text, 1, 64));
+              options.shot_points = static_cast<std::uint32_t>(parse_count(text, 1, protocol::kMostShotPoints));
             })
       ->default_str(std::to_string(built_in.shot_points))
       ->group(group);
@@ -161,8 +164,9 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
   add_count(command, "--max-shots", "Or after this many patches have shot; 0: no limit", options.max_shots, 0,
             0xFFFF'FFFFU, built_in.max_shots)
       ->group(group);
-  add_count(command, "--bounces", "Path segments after which light is cut off, 1 to 255", options.bounces, 1, 255,
-            built_in.bounces)
+  add_count(command, "--bounces",
+            "Path segments after which light is cut off, 1 to " + std::to_string(protocol::kMostBounces),
+            options.bounces, 1, protocol::kMostBounces, built_in.bounces)
       ->group(group);
   command.add_flag("--two-sided-lights", options.two_sided_lights, "Emitters emit from both sides")->group(group);
   add_count(command, "--seed", "Seed of all random numbers", options.seed, 0, ~std::uint64_t{0}, built_in.seed)

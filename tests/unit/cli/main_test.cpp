@@ -104,11 +104,11 @@ TEST(Main, UsageErrors) {
 
 TEST(Main, ValuesThatAreNotAllowedAreBadInputAndNameTheOption) {
   const std::vector<std::array<const char*, 2>> cases = {
-      {"--pes", "0x4"},        {"--pes", "256x256"},  {"--size", "0x10"},       {"--samples", "0"},
-      {"--hemicube", "15"},    {"--hemicube", "258"}, {"--shot-points", "0"},   {"--unshot", "0"},
-      {"--unshot", "1.5"},     {"--bounces", "256"},  {"--fov", "180"},         {"--fov", "0"},
-      {"--pe-memory", "128K"}, {"--patches", "0"},    {"--subspaces", "0x1x1"}, {"--threads", "0"},
-      {"--exposure", "1000"}};
+      {"--pes", "0x4"},     {"--pes", "256x256"},    {"--size", "0x10"},     {"--samples", "0"},
+      {"--hemicube", "15"}, {"--hemicube", "258"},   {"--shot-points", "0"}, {"--shot-points", "17"},
+      {"--unshot", "0"},    {"--unshot", "1.5"},     {"--bounces", "256"},   {"--fov", "180"},
+      {"--fov", "0"},       {"--pe-memory", "128K"}, {"--patches", "0"},     {"--subspaces", "0x1x1"},
+      {"--threads", "0"},   {"--exposure", "1000"}};
   for (const auto& [option, value] : cases) {
     const Outcome outcome = torolux({"render", "scene", option, value});
     EXPECT_EQ(outcome.code, 2) << option << " " << value;
