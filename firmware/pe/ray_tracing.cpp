@@ -112,7 +112,7 @@ void resume_branch(RayRecord& record) {
   record.polygon = branch.polygon;
   record.key = branch.key;
   record.bounce = branch.bounce;
-  record.flags = branch.flags;
+  record.flags = protocol::kFirst;  // whatever came with it: a branch begins where it waits
   record.kind = RecordKind::light;
 }
 
