@@ -109,8 +109,8 @@ std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Imag
   const std::string who = "PE " + std::to_string(pe) + ": ";
   const auto code = static_cast<protocol::FaultCode>(fault.code);
   if (code == protocol::FaultCode::trap) {
-    return who + "trap: " + cause_in_words(fault.detail[0]) + " at " + image.describe(fault.detail[1]) + ", mtval " +
-           hexadecimal(fault.detail[2]);
+    return who + "trap: " + cause_in_words(fault.detail[0]) + " at pc " + hexadecimal(fault.detail[1]) + " (" +
+           image.describe(fault.detail[1]) + "), mtval " + hexadecimal(fault.detail[2]);
   }
   return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
          "), details " + details(fault.detail);

@@ -115,6 +115,7 @@ void Emulation::fill_in(MachineFigures& figures) {
     const Cycles idle = channel.idle.load(std::memory_order_relaxed);
     out.busy_cycles = clock - idle;
     out.idle_cycles = idle + (now_ > clock ? now_ - clock : 0);
+    out.halted = nius_[pe].waits_for() == WaitKind::halted;
     out.instructions = channel.instructions.load(std::memory_order_relaxed);
     out.packets_sent = parts_[pe].packets_sent;
     out.packets_delivered = parts_[pe].packets_delivered;

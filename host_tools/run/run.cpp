@@ -39,6 +39,26 @@ class Listener final : public HostProgram {
   const std::function<void(const PeText&)>& on_text_;
 };
 
+/// The machine stops when nothing can happen any more. That is the end only if every program has ended.
+void check_halted(const MachineFigures& figures) {
+  constexpr std::size_t kMostNamed = 16;
+  std::string waiting;
+  std::size_t count = 0;
+  for (std::size_t pe = 0; pe < figures.pes.size(); ++pe) {
+    if (figures.pes[pe].halted) {
+      continue;
+    }
+    if (count++ < kMostNamed) {
+      waiting += (waiting.empty() ? "" : ", ") + std::to_string(pe);
+    }
+  }
+  if (count != 0) {
+    throw MachineFailure("at cycle " + std::to_string(figures.now) + " nothing is under way any more, and " +
+                         std::to_string(count) + " PEs still wait to receive: PE " + waiting +
+                         (count > kMostNamed ? ", ..." : ""));
+  }
+}
+
 }  // namespace
 
 MachineFigures run_image(const MachineSetup& setup, const Image& image,
@@ -47,7 +67,9 @@ MachineFigures run_image(const MachineSetup& setup, const Image& image,
   Machine machine(setup, image);
   Listener listener(on_text);
   machine.run(listener, progress);
-  return machine.figures();
+  MachineFigures figures = machine.figures();
+  check_halted(figures);
+  return figures;
 }
 
 std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figures, double wall_seconds) {

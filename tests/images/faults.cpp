@@ -45,6 +45,17 @@ void commit_fault(pe::Niu& niu, std::uint32_t which) {
       break;  // no instruction
     case 7:
       niu.fail(protocol::FaultCode::bad_record, 5, 6);  // the program's own
+    case 9:
+      asm volatile(".4byte 0x02C5F553");  // fadd.d fa0,fa1,fa2: the PE has no double precision
+      break;
+    case 10:
+      for (;;) asm volatile("");
+    case 11:
+      niu.receive();  // nothing will ever come
+      break;
+    case 12:
+      asm volatile("slti zero,zero,2000");  // a HINT that the NIU does not know
+      break;
     default:
       break;  // no fault: misaligned access and the last word work
   }

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// `torolux run` on QEMU as a user sees it: the same result whatever the computer does meanwhile, messages and exit
+// codes for what goes wrong, and nothing left behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/machine/process.hpp"
+
+namespace torolux::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string image(const std::string& name) {
+  return (std::filesystem::path(TOROLUX_FIRMWARE_DIR) / (name + ".elf")).string();
+}
+
+/// A name in the temporary folder; the file, if any, is removed at the end.
+class TemporaryName {
+ public:
+  explicit TemporaryName(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / ("torolux-" + std::to_string(getpid()) + "-" + name)) {}
+  TemporaryName(const TemporaryName&) = delete;
+  TemporaryName& operator=(const TemporaryName&) = delete;
+  ~TemporaryName() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  std::string text() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Keeps all cores busy while it lives.
+class Load {
+ public:
+  Load() {
+    for (unsigned i = 0; i < 2 * std::max(1U, std::thread::hardware_concurrency()); ++i) {
+      threads_.emplace_back([this] {
+        while (!end_.load(std::memory_order_relaxed)) {
+        }
+      });
+    }
+  }
+  ~Load() {
+    end_ = true;
+    for (std::thread& thread : threads_) thread.join();
+  }
+  Load(const Load&) = delete;
+  Load& operator=(const Load&) = delete;
+
+ private:
+  std::atomic<bool> end_ = false;
+  std::vector<std::thread> threads_;
+};
+
+/// What the PEs say and all statistics but host times.
+std::string result_of(const std::string& image_name, const std::string& pes, std::vector<std::string> more = {}) {
+  const TemporaryName stats("stats.json");
+  std::vector<std::string> arguments = {"run", image(image_name), "--pes", pes, "--stats", stats.text()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Finished run = run_torolux(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  std::ifstream stream(stats.text());
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(stream);
+  json.erase("wall_seconds");
+  json.erase("host");
+  return run.output + json.dump();
+}
+
+TEST(Run, HelloFromEveryPe) {
+  const Finished run = run_torolux({"run", image("hello"), "--pes", "2x2"});
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  for (int pe = 0; pe < 4; ++pe) {
+    EXPECT_THAT(run.output, HasSubstr(": Hello from PE " + std::to_string(pe) + " of 4\n"));
+  }
+  EXPECT_THAT(run.errors, HasSubstr("4 PEs halted"));
+}
+
+TEST(Run, QuietLeavesOnlyWhatThePesSay) {
+  const Finished run = run_torolux({"run", image("hello"), "--pes", "1x1", "--quiet"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.output, testing::MatchesRegex("PE 0 @ [0-9]+: Hello from PE 0 of 1\n"));
+  EXPECT_EQ(run.errors, "");
+}
+
+class Token : public testing::TestWithParam<const char*> {};
+
+TEST_P(Token, TakesTheSameCyclesWhateverTheComputerDoes) {
+  const std::string first = result_of("token", GetParam());
+  EXPECT_THAT(first, HasSubstr("The token has passed "));
+  EXPECT_EQ(result_of("token", GetParam()), first) << "repeated";
+  EXPECT_EQ(result_of("token", GetParam(), {"--threads", "1"}), first) << "on one core";
+  const Load load;
+  EXPECT_EQ(result_of("token", GetParam()), first) << "on a busy computer";
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Token, testing::Values("4x4", "3x5"));
+
+TEST(Run, TheMachineFileChangesTheCycles) {
+  const TemporaryName machine("machine.toml");
+  std::ofstream(machine.text()) << "[torus]\nlink_cycles = 20\n";
+  EXPECT_NE(result_of("token", "2x2", {"--machine", machine.text()}), result_of("token", "2x2"));
+}
+
+// ---- What goes wrong: in `faults`, the number of rows says what. ----
+
+TEST(Run, ATrapNamesPeCauseAndPlace) {
+  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x6"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.errors, testing::ContainsRegex(
+                              "PE [0-5]: trap: illegal instruction at pc 0x800[0-9a-f]+ \\([A-Za-z_].*\\), mtval 0x"));
+}
+
+TEST(Run, ThePeHasNoDoublePrecision) {
+  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x9"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("illegal instruction"));
+  EXPECT_THAT(run.errors, HasSubstr("mtval 0x02c5f553"));
+}
+
+TEST(Run, AnEndlessLoopEndsTheRun) {
+  const TemporaryName machine("machine.toml");
+  std::ofstream(machine.text()) << "[processor]\nmost_cycles_between_hints = 1_000_000\n";
+  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x10", "--machine", machine.text()});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.errors, testing::ContainsRegex("PE [0-9]: no HINT for [0-9]+ cycles: an endless loop\\?"));
+}
+
+TEST(Run, PesThatWaitForEverAreNamed) {
+  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x11"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("11 PEs still wait to receive: PE 0, 1, 2"));
+}
+
+TEST(Run, AnUnknownHintIsAFault) {
+  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x12"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("HINT unknown to the NIU"));
+  EXPECT_THAT(run.errors, HasSubstr("2000"));
+}
+
+TEST(Run, BadInputAndBadUsageHaveTheirExitCodes) {
+  const Finished no_elf = run_torolux({"run", "/proc/self/status"});
+  EXPECT_EQ(no_elf.exit_code, 2);
+  EXPECT_THAT(no_elf.errors, HasSubstr("/proc/self/status"));
+  EXPECT_EQ(run_torolux({"run", "/nowhere.elf"}).exit_code, 2);
+  EXPECT_EQ(run_torolux({"run", image("hello"), "--machine", "/nowhere.toml"}).exit_code, 2);
+  EXPECT_EQ(run_torolux({"run", image("hello"), "--stats", "/nowhere/stats.json"}).exit_code, 2);
+  EXPECT_EQ(run_torolux({"run", image("hello"), "--engine", "abacus"}).exit_code, 1);
+  EXPECT_EQ(run_torolux({"run"}).exit_code, 1);
+  EXPECT_EQ(run_torolux({"run", image("hello"), "--pes", "two"}).exit_code, 1);
+}
+
+// ---- Ends from outside ----
+
+/// Ten PEs in endless loops that no limit stops.
+class EndlessRun : public testing::Test {
+ protected:
+  EndlessRun() : machine_("endless.toml") {
+    std::ofstream(machine_.text()) << "[processor]\nmost_cycles_between_hints = 1_000_000_000_000_000\n";
+    run_.emplace(std::vector<std::string>{"run", image("faults"), "--pes", "1x10", "--machine", machine_.text()});
+    qemus_ = run_->children(10);
+  }
+  void SetUp() override { ASSERT_EQ(qemus_.size(), 10U); }
+
+  TemporaryName machine_;
+  std::optional<ToroluxProcess> run_;
+  std::vector<pid_t> qemus_;
+};
+
+TEST_F(EndlessRun, AKilledQemuIsNamedWithinTwoSeconds) {
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(kill(qemus_[7], SIGKILL), 0);
+  const Finished end = run_->wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_THAT(end.errors, HasSubstr("PE 7: its QEMU process was killed by signal 9"));
+  EXPECT_TRUE(all_gone(qemus_));
+}
+
+TEST_F(EndlessRun, CtrlCLeavesNothingBehind) {
+  run_->signal(SIGINT);
+  const Finished end = run_->wait();
+  EXPECT_EQ(end.exit_code, 130);
+  EXPECT_THAT(end.errors, HasSubstr("interrupted"));
+  EXPECT_TRUE(all_gone(qemus_));
+}
+
+TEST_F(EndlessRun, AKilledEmulatorTakesItsQemusAlong) {
+  run_->signal(SIGKILL);
+  EXPECT_EQ(run_->wait().exit_code, 128 + SIGKILL);
+  EXPECT_TRUE(all_gone(qemus_));
+}
+
+}  // namespace
+}  // namespace torolux::test
