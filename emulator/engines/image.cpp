@@ -36,21 +36,8 @@ std::string hexadecimal(std::uint64_t value) {
 /// The file's bytes, with every access checked.
 class ElfReader {
  public:
-  explicit ElfReader(const std::filesystem::path& file) : file_(file) {
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    const std::streamoff bytes = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-    if (bytes < 0 || std::filesystem::is_directory(file)) {
-      fail("cannot be read");
-    }
-    if (static_cast<std::uint64_t>(bytes) > kMostFileBytes) {
-      fail("is larger than any firmware image (" + std::to_string(kMostFileBytes >> 20U) + " MiB)");
-    }
-    contents_.resize(static_cast<std::size_t>(bytes));
-    stream.seekg(0);
-    if (!stream.read(reinterpret_cast<char*>(contents_.data()), bytes)) {
-      fail("cannot be read");
-    }
-  }
+  ElfReader(std::span<const std::byte> contents, const std::filesystem::path& file)
+      : file_(file), contents_(contents) {}
 
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(file_.string() + ": " + what + ". A PE's image is an ELF file for rv32imafc/ilp32f; see " +
@@ -61,7 +48,7 @@ class ElfReader {
     if (offset > contents_.size() || count > contents_.size() - offset) {
       fail(std::string("ends before its ") + what);
     }
-    return std::span(contents_).subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(count));
+    return contents_.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(count));
   }
 
   template <class T>
@@ -72,9 +59,28 @@ class ElfReader {
   }
 
  private:
-  std::filesystem::path file_;
-  std::vector<std::byte> contents_;
+  const std::filesystem::path& file_;
+  std::span<const std::byte> contents_;
 };
+
+std::vector<std::byte> contents_of(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff bytes = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  if (bytes < 0 || std::filesystem::is_directory(file, error)) {
+    throw InputError(file.string() + ": the firmware image cannot be read");
+  }
+  if (static_cast<std::uint64_t>(bytes) > kMostFileBytes) {
+    throw InputError(file.string() + ": larger than any firmware image (" + std::to_string(kMostFileBytes >> 20U) +
+                     " MiB)");
+  }
+  std::vector<std::byte> contents(static_cast<std::size_t>(bytes));
+  stream.seekg(0);
+  if (!stream.read(reinterpret_cast<char*>(contents.data()), bytes)) {
+    throw InputError(file.string() + ": the firmware image cannot be read");
+  }
+  return contents;
+}
 
 Elf32_Ehdr read_header(const ElfReader& reader) {
   const auto header = reader.at<Elf32_Ehdr>(0, "ELF header");
@@ -253,7 +259,11 @@ void check_places(const ElfReader& reader, const Image& image) {
 }  // namespace
 
 Image load_image(const std::filesystem::path& file) {
-  const ElfReader reader(file);
+  return parse_image(contents_of(file), file);
+}
+
+Image parse_image(std::span<const std::byte> contents, const std::filesystem::path& file) {
+  const ElfReader reader(contents, file);
   const Elf32_Ehdr header = read_header(reader);
   Image image;
   image.file = file;

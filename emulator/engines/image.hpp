@@ -41,5 +41,7 @@ struct Image {
 
 /// Throws InputError: not an ELF, wrong machine, entry not at kLocalMemoryBase, symbols missing, segments out of place.
 Image load_image(const std::filesystem::path& file);
+/// The same from the bytes of a file; `file` is for messages only.
+Image parse_image(std::span<const std::byte> contents, const std::filesystem::path& file);
 
 }  // namespace torolux
