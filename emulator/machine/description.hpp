@@ -79,7 +79,7 @@ struct MachineDescription {
   } host;
 
   struct Records {
-    std::uint32_t credits_per_pe = 256;  ///< W = this * PEs, >= 1
+    std::uint32_t credits_per_pe = 64;  ///< W = this * PEs, >= 1
     std::uint32_t niu_slots = 256;       ///< record slots of a NIU, >= kMostRecordsPerPacket
 
     bool operator==(const Records&) const = default;

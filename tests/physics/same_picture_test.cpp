@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// One picture, whatever the machine: PEs, allocations, subspace grids, links and credits change figures, never a byte.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+
+#include "tests/support/render_support.hpp"
+
+namespace torolux::test {
+namespace {
+
+RenderCase small_cornell(const char* scene = "cornell_box") {
+  RenderCase cornell = native_case(source_dir() / "scenes" / scene);
+  cornell.quality.hemicube = 8;
+  cornell.quality.shot_points = 1;
+  cornell.quality.max_shots = 60;
+  cornell.quality.patch_length = 200;
+  cornell.quality.element_length = 80;
+  cornell.machine.columns = cornell.machine.rows = 2;
+  cornell.machine.subspaces = {4, 4, 4};
+  return cornell;
+}
+
+void expect_all_home(const RenderResult& result) {
+  EXPECT_EQ(result.figures.credits_home, result.figures.credits_total);
+  std::uint64_t sent = 0;
+  std::uint64_t delivered = 0;
+  for (const PeFigures& pe : result.figures.machine.pes) {
+    sent += pe.packets_sent;
+    delivered += pe.packets_delivered;
+  }
+  EXPECT_EQ(sent, delivered);
+  EXPECT_LT(energy_error(result.figures.energy), 1e-5);
+}
+
+/// The picture that every other machine must make too; with the scene that has mirror and glass.
+const std::vector<std::byte>& reference_picture() {
+  static const std::vector<std::byte> bytes = [] {
+    const RenderResult result = run_case(small_cornell("cornell_spheres"));
+    expect_all_home(result);
+    return bytes_of(result.picture);
+  }();
+  return bytes;
+}
+
+void expect_same_picture(const RenderCase& render_case) {
+  const RenderResult result = run_case(render_case);
+  expect_all_home(result);
+  EXPECT_EQ(bytes_of(result.picture), reference_picture());
+}
+
+class Torus : public testing::TestWithParam<std::pair<unsigned, unsigned>> {};
+
+TEST_P(Torus, MakesTheSamePicture) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  std::tie(cornell.machine.columns, cornell.machine.rows) = GetParam();
+  expect_same_picture(cornell);
+}
+INSTANTIATE_TEST_SUITE_P(Sizes, Torus,
+                         testing::Values(std::pair{1U, 1U}, std::pair{4U, 4U}, std::pair{3U, 5U}, std::pair{1U, 8U},
+                                         std::pair{8U, 8U}),
+                         [](const auto& size) {
+                           return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
+                         });
+
+class Allocation : public testing::TestWithParam<const char*> {};
+
+TEST_P(Allocation, MakesTheSamePicture) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.columns = 3;
+  cornell.machine.allocation = GetParam();
+  expect_same_picture(cornell);
+}
+INSTANTIATE_TEST_SUITE_P(Names, Allocation, testing::Values("skewed", "skewed-both", "modulo", "block", "balanced"),
+                         [](const auto& name) {
+                           std::string text = name.param;
+                           for (char& c : text) c = c == '-' ? '_' : c;
+                           return text;
+                         });
+
+class Grid : public testing::TestWithParam<std::array<std::uint32_t, 3>> {};
+
+TEST_P(Grid, MakesTheSamePicture) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.subspaces = GetParam();
+  expect_same_picture(cornell);
+}
+INSTANTIATE_TEST_SUITE_P(Sizes, Grid,
+                         testing::Values(std::array<std::uint32_t, 3>{1, 1, 1}, std::array<std::uint32_t, 3>{8, 8, 8},
+                                         std::array<std::uint32_t, 3>{5, 3, 7}),
+                         [](const auto& grid) {
+                           return std::to_string(grid.param[0]) + "x" + std::to_string(grid.param[1]) + "x" +
+                                  std::to_string(grid.param[2]);
+                         });
+
+TEST(Links, LatencyAndDelaysDoNotShow) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.description.torus.link_cycles = 37;
+  cornell.machine.description.torus.flit_bytes = 4;
+  cornell.machine.description.injected_delay_cycles = 900;
+  expect_same_picture(cornell);
+}
+
+TEST(Links, FaultsAreRepairedAndDoNotShow) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.description.torus.link_error_rate = 0.05;
+  const RenderResult result = run_case(cornell);
+  expect_all_home(result);
+  EXPECT_EQ(bytes_of(result.picture), reference_picture());
+  EXPECT_GT(result.figures.machine.link_retries, 0U);
+}
+
+TEST(Credits, FewMakeTheSamePicture) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.description.records.credits_per_pe = 4;
+  expect_same_picture(cornell);
+}
+
+TEST(Credits, ManyWithFewSlotsAreDivertedAndMakeTheSamePicture) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.description.records.credits_per_pe = 2000;
+  cornell.machine.description.records.niu_slots = 16;
+  const RenderResult result = run_case(cornell);
+  expect_all_home(result);
+  EXPECT_EQ(bytes_of(result.picture), reference_picture());
+  std::uint64_t diverted = 0;
+  for (const PeFigures& pe : result.figures.machine.pes) diverted += pe.records_diverted;
+  EXPECT_GT(diverted, 0U) << "the test is to force diversion";
+}
+
+/// Same command, same bytes, same cycles and statistics, whatever the host's timing.
+TEST(Repetition, FiguresAreExactlyTheSame) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  const RenderResult first = run_case(cornell);
+  cornell.machine.threads = 1;
+  const RenderResult second = run_case(cornell);
+  EXPECT_EQ(exact_figures(first.figures), exact_figures(second.figures));
+  EXPECT_EQ(bytes_of(first.picture), bytes_of(second.picture));
+}
+
+/// Saved radiosities with a second camera: the bytes of a full run with that camera, and no shots.
+TEST(SavedRadiosity, ServesASecondCamera) {
+  const std::filesystem::path file = testing::TempDir() + "torolux_saved_radiosity_test.bin";
+  RenderCase first = small_cornell();
+  first.files.save_radiosity = file;
+  run_case(first);
+
+  RenderCase full = small_cornell();
+  full.camera = Camera{{400, 400, 100}, {100, 100, 500}, {0, 1, 0}, 60};
+  RenderCase view = full;
+  view.files.radiosity = file;
+  const RenderResult of_full = run_case(full);
+  const RenderResult of_view = run_case(view);
+  std::filesystem::remove(file);
+  EXPECT_EQ(bytes_of(of_full.picture), bytes_of(of_view.picture));
+  EXPECT_EQ(of_view.figures.shots, 0U);
+  EXPECT_GT(of_full.figures.shots, 0U);
+}
+
+}  // namespace
+}  // namespace torolux::test
