@@ -16,18 +16,18 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-struct Run {
+struct Outcome {
   std::vector<PeText> texts;
   MachineFigures figures;
 };
 
-Run run(const std::string& image_name, unsigned columns, unsigned rows) {
+Outcome run(const std::string& image_name, unsigned columns, unsigned rows) {
   const Image image = load_image(std::filesystem::path(TOROLUX_FIRMWARE_DIR) / (image_name + ".elf"));
   MachineSetup setup;
   setup.columns = columns;
   setup.rows = rows;
   setup.local_memory_bytes = protocol::kSmallestLocalMemory;
-  Run result;
+  Outcome result;
   result.figures = run_image(setup, image, [&](const PeText& text) { result.texts.push_back(text); }, {});
   return result;
 }
@@ -43,7 +43,7 @@ std::string failure_of_fault(unsigned fault) {
 }
 
 TEST(ExampleImages, HelloSendsOneLineFromEachPe) {
-  const Run result = run("hello", 3, 2);
+  const Outcome result = run("hello", 3, 2);
   std::vector<std::string> lines;
   for (const PeText& text : result.texts) {
     EXPECT_EQ(text.text, "Hello from PE " + std::to_string(text.pe) + " of 6");
@@ -53,7 +53,7 @@ TEST(ExampleImages, HelloSendsOneLineFromEachPe) {
 }
 
 TEST(ExampleImages, TokenPassesEachPeOnce) {
-  const Run result = run("token", 3, 2);
+  const Outcome result = run("token", 3, 2);
   ASSERT_EQ(result.texts.size(), 1U);
   EXPECT_EQ(result.texts[0].pe, 0);
   EXPECT_THAT(result.texts[0].text, HasSubstr("passed 6 PEs"));
@@ -64,8 +64,8 @@ TEST(ExampleImages, TokenPassesEachPeOnce) {
 }
 
 TEST(ExampleImages, TokenTakesTheSameCyclesEachTime) {
-  const Run once = run("token", 2, 2);
-  const Run again = run("token", 2, 2);
+  const Outcome once = run("token", 2, 2);
+  const Outcome again = run("token", 2, 2);
   EXPECT_EQ(once.texts.at(0).text, again.texts.at(0).text);
   EXPECT_EQ(once.figures.now, again.figures.now);
 }
