@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // toml++ for all of Torolux: include this, never the library itself, so that every file compiles the same code.
 // Two mends for invalid input in toml++ 3.3, both found by fuzzing. Some assertions fail on it (`[=` is one), and in
-// release builds they would be assumptions that the compiler may build on: they are taken out, as the parser's own checks
-// behind them give the error. And a letter such as U+0262 outside of quotes runs into code declared unreachable in the
-// classification of characters, where `false` is the right answer.
+// release builds they would be assumptions that the compiler may build on: they are taken out, as the parser's own
+// checks behind them give the error. And a letter such as U+0262 outside of quotes runs into code declared unreachable
+// in the classification of characters, where `false` is the right answer.
 #pragma once
 
 #include <toml++/impl/preprocessor.h>

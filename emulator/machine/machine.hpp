@@ -29,7 +29,7 @@ struct MachineSetup {
 struct PeFigures {
   Cycles busy_cycles = 0;  ///< executing instructions
   Cycles idle_cycles = 0;  ///< asleep in receive, or waiting to send, until the end of the run
-  bool halted = false;  ///< its program has ended
+  bool halted = false;     ///< its program has ended
   std::uint64_t instructions = 0;
   std::uint64_t packets_sent = 0;       ///< to the torus
   std::uint64_t packets_delivered = 0;  ///< from the torus, diverted ones too
