@@ -3,7 +3,6 @@
 #include "host_tools/cli/render_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -14,11 +13,13 @@
 #include "host_tools/picture/picture.hpp"
 #include "host_tools/render/render.hpp"
 #include "host_tools/report/text.hpp"
+#include "host_tools/subspace/allocation.hpp"
 
 namespace torolux {
 namespace {
 
-constexpr std::array<std::string_view, 5> kAllocations = {"skewed", "skewed-both", "modulo", "block", "balanced"};
+constexpr std::string_view kAllocations =
+    "skewed, skewed:AB (A, B two of x, y, z), skewed-both, modulo, block, balanced";
 
 /// Adds an option whose text goes through `parse`; errors name the option.
 template <class Parse>
@@ -63,8 +64,8 @@ void take_path(std::optional<std::filesystem::path>& to, const std::string& text
 }  // namespace
 
 void check_allocation(const std::string& name) {
-  if (std::find(kAllocations.begin(), kAllocations.end(), name) == kAllocations.end())
-    throw UsageError("\"" + name + "\" is not an allocation; there are: " + joined(kAllocations));
+  if (!is_allocation(name))
+    throw UsageError("\"" + name + "\" is not an allocation; there are: " + std::string(kAllocations));
 }
 
 void add_scene_options(CLI::App& command, RenderOptions& options) {
@@ -189,7 +190,7 @@ void add_machine_options(CLI::App& command, RenderOptions& options) {
             [&options](const std::string& text) { options.subspaces = SubspacesOption{parse_subspaces(text)}; })
       ->default_str("auto")
       ->group(group);
-  add_value(command, "--allocation", "NAME", "Which PE holds which subspace: " + joined(kAllocations),
+  add_value(command, "--allocation", "NAME", "Which PE holds which subspace: " + std::string(kAllocations),
             [&options](const std::string& text) {
               check_allocation(text);
               options.allocation = text;
