@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// `torolux render` on QEMU as a user sees it: all files and figures of a small picture, the same bytes every time and
+// from saved radiosities, and nothing left behind where it is ended or an engine dies.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/machine/process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace torolux::test {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::TemporaryFolder;
+
+using Arguments = std::vector<std::string>;
+
+/// A few seconds' render of the Cornell box.
+Arguments small_render(const Arguments& more) {
+  Arguments arguments = {"render",        std::string(TOROLUX_SOURCE_DIR) + "/scenes/cornell_box",
+                         "--pes",         "2x2",
+                         "--subspaces",   "4x4x4",
+                         "--size",        "16x12",
+                         "--samples",     "1",
+                         "--hemicube",    "4",
+                         "--max-shots",   "6",
+                         "--shot-points", "1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Statistics without what depends on the computer.
+nlohmann::json statistics(const std::filesystem::path& file) {
+  nlohmann::json json = nlohmann::json::parse(contents(file));
+  json.erase("wall_seconds");
+  json.erase("host");
+  return json;
+}
+
+TEST(Render, WritesAllThatWasAskedFor) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  const Finished run = run_torolux(small_render(
+      {"--output", file("a.png"), "--output", file("a.exr"), "--output", file("a.pfm"), "--stats", file("a.json")}));
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  for (const char* name : {"a.png", "a.exr", "a.pfm"}) EXPECT_THAT(run.output, HasSubstr(file(name) + " (16 x 12)"));
+  EXPECT_THAT(contents(file("a.png")), testing::StartsWith("\x89PNG"));
+  EXPECT_THAT(contents(file("a.pfm")), testing::StartsWith("PF\n16 12\n-1.0\n"));
+  EXPECT_EQ(folder.files(), 4U);
+
+  const nlohmann::json stats = statistics(file("a.json"));
+  EXPECT_EQ(stats["shots"], 6);
+  EXPECT_EQ(stats["pes"].size(), 4U);
+  EXPECT_EQ(stats["credits"]["home"], stats["credits"]["total"]);
+  EXPECT_EQ(stats["packets"]["sent"], stats["packets"]["delivered"]);
+  EXPECT_LT(stats["energy"]["closing_error"], 1e-12) << "integers: only their conversion to watts rounds";
+  EXPECT_GT(stats["energy"]["emitted"][0], 0);
+  for (const char* stage : {"load", "radiosity", "ray_tracing"}) EXPECT_GT(stats["virtual_cycles"][stage], 0) << stage;
+
+  const Finished compared = run_torolux({"compare", file("a.exr"), file("a.pfm")});
+  EXPECT_EQ(compared.exit_code, 0) << compared.errors;
+  EXPECT_THAT(compared.output, testing::ContainsRegex("differing pixels +0\n"));
+}
+
+TEST(Render, IsTheSameEveryTime) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& name, const Arguments& more) {
+    Arguments arguments = {"--quiet", "--output", folder.path() / (name + ".png"), "--stats",
+                           folder.path() / (name + ".json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Finished finished = run_torolux(small_render(arguments));
+    EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+    EXPECT_EQ(finished.output + finished.errors, "") << "--quiet";
+  };
+  run("first", {});
+  run("second", {"--threads", "1"});
+  EXPECT_EQ(contents(folder.path() / "first.png"), contents(folder.path() / "second.png"));
+  EXPECT_EQ(statistics(folder.path() / "first.json"), statistics(folder.path() / "second.json"));
+}
+
+TEST(Render, SavedRadiositiesGiveTheSameViewWithoutShots) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  const Arguments camera = {"--eye", "100,300,-500", "--look-at", "278,273,300"};
+  const auto with_camera = [&](Arguments more) {
+    more.insert(more.end(), camera.begin(), camera.end());
+    return small_render(more);
+  };
+  ASSERT_EQ(run_torolux(small_render({"--output", file("other.pfm"), "--save-radiosity", file("a.rad")})).exit_code, 0);
+  ASSERT_EQ(run_torolux(with_camera({"--output", file("whole.pfm")})).exit_code, 0);
+  const Finished view = run_torolux(
+      with_camera({"--output", file("view.pfm"), "--radiosity", file("a.rad"), "--stats", file("view.json")}));
+  ASSERT_EQ(view.exit_code, 0) << view.errors;
+  EXPECT_EQ(contents(file("view.pfm")), contents(file("whole.pfm")));
+  EXPECT_NE(contents(file("view.pfm")), contents(file("other.pfm")));
+  EXPECT_EQ(statistics(file("view.json"))["shots"], 0);
+
+  std::filesystem::resize_file(file("a.rad"), std::filesystem::file_size(file("a.rad")) / 2);
+  const Finished damaged = run_torolux(with_camera({"--output", file("none.pfm"), "--radiosity", file("a.rad")}));
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_THAT(damaged.errors, HasSubstr("a.rad"));
+  EXPECT_FALSE(std::filesystem::exists(file("none.pfm")));
+}
+
+/// A render that goes on for minutes.
+class LongRender : public testing::Test {
+ protected:
+  LongRender()
+      : run_(small_render({"--hemicube", "64", "--shot-points", "4", "--max-shots", "0", "--output",
+                           folder_.path() / "a.png", "--stats", folder_.path() / "a.json", "--save-radiosity",
+                           folder_.path() / "a.rad"})),
+        qemus_(run_.children(4)) {}
+  void SetUp() override { ASSERT_EQ(qemus_.size(), 4U); }
+
+  TemporaryFolder folder_;
+  ToroluxProcess run_;
+  std::vector<pid_t> qemus_;
+};
+
+TEST_F(LongRender, CtrlCLeavesNothingBehind) {
+  run_.signal(SIGINT);
+  const Finished end = run_.wait();
+  EXPECT_EQ(end.exit_code, 130);
+  EXPECT_EQ(end.errors.substr(end.errors.find("torolux: interrupted")), "torolux: interrupted\n");
+  EXPECT_TRUE(all_gone(qemus_));
+  EXPECT_EQ(folder_.files(), 0U);
+}
+
+TEST_F(LongRender, AKilledQemuIsNamedAndLeavesNoFiles) {
+  ASSERT_EQ(::kill(qemus_[2], SIGKILL), 0);
+  const Finished end = run_.wait();
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_THAT(end.errors, HasSubstr("PE 2"));
+  EXPECT_TRUE(all_gone(qemus_));
+  EXPECT_EQ(folder_.files(), 0U);
+}
+
+}  // namespace
+}  // namespace torolux::test
