@@ -85,12 +85,9 @@ std::string energy_table(const EnergyBalance& energy) {
   const double emitted = energy.emitted[0] + energy.emitted[1] + energy.emitted[2];
   if (!(emitted > 0)) return left("energy", kLabel) + "  no radiosity stage\n";
   const auto line = [&](const char* label, const std::array<double, 3>& v) {
-    std::vector<std::string> columns;
-    for (const double channel : v) columns.push_back(right(significant(channel, 6), 13));
-    columns.push_back(percent((v[0] + v[1] + v[2]) / emitted, 2));
     std::string text = left(label, kLabel);
-    for (const std::string& column : columns) text += right(column, 14);
-    return text + "\n";
+    for (const double channel : v) text += right(significant(channel, 6), 14);
+    return text + right(percent((v[0] + v[1] + v[2]) / emitted, 2), 14) + "\n";
   };
   std::string head = left("energy [W]", kLabel);
   for (const char* column : {"R", "G", "B", "share"}) head += right(column, 14);
