@@ -41,16 +41,13 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh) {
   DisjointSets corners(nodes);
   DisjointSets edges(nodes);
   for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
-    for (std::size_t i = 0; i < edge.size(); ++i) {
-      for (std::size_t j = i + 1; j < edge.size(); ++j) {
-        if (!smooth_across(mesh, edge[i], edge[j])) continue;
-        edges.merge(3 * edge[i].triangle + edge[i].edge, 3 * edge[j].triangle + edge[j].edge);
-        const auto ends_i = end_nodes(edge[i]);
-        const auto ends_j = end_nodes(edge[j]);
-        corners.merge(ends_i[0], ends_j[0]);
-        corners.merge(ends_i[1], ends_j[1]);
-      }
-    }
+    // A third triangle at an edge is a wall that stands there: light on one side of it must not show on the other.
+    if (edge.size() != 2 || !smooth_across(mesh, edge[0], edge[1])) return;
+    edges.merge(3 * edge[0].triangle + edge[0].edge, 3 * edge[1].triangle + edge[1].edge);
+    const auto ends = end_nodes(edge[0]);
+    const auto other_ends = end_nodes(edge[1]);
+    corners.merge(ends[0], other_ends[0]);
+    corners.merge(ends[1], other_ends[1]);
   });
   SmoothSurfaces surfaces;
   surfaces.edge_level.assign(nodes, protocol::kMostLevels);

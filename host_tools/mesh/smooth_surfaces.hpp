@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Smooth surfaces: where radiance is interpolated across the edge that two triangles share.
+// Smooth surfaces: where radiance is interpolated across the edge that two triangles, and no third, share.
 #pragma once
 
 #include <array>

@@ -47,7 +47,6 @@ TEST(CornellBox, MeanRadianceIsThatOfThePathTracer) {
   cornell.quality.element_length = 50;
   cornell.quality.unshot = 0.003;  // what is not shot is missing
   cornell.quality.width = cornell.quality.height = 4;
-  cornell.machine.columns = cornell.machine.rows = 2;
   cornell.machine.subspaces = {4, 4, 4};
   const std::filesystem::path file = testing::TempDir() + "torolux_cornell_test.radiosity";
   cornell.files.save_radiosity = file;

@@ -18,6 +18,7 @@ RenderCase small_cornell(const char* scene = "cornell_box") {
   cornell.quality.patch_length = 200;
   cornell.quality.element_length = 80;
   cornell.machine.columns = cornell.machine.rows = 2;
+  cornell.machine.description.records.credits_per_pe = 64;
   cornell.machine.subspaces = {4, 4, 4};
   return cornell;
 }

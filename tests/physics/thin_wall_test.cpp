@@ -11,7 +11,6 @@ RenderCase room(const char* name) {
   RenderCase result = native_case(data_dir() / "scenes" / name);
   result.quality.hemicube = 16;
   result.quality.max_shots = 200;
-  result.machine.columns = result.machine.rows = 2;
   result.machine.subspaces = {8, 8, 8};
   return result;
 }
