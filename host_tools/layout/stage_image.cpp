@@ -14,7 +14,6 @@ namespace torolux {
 namespace {
 
 using protocol::PeNumber;
-using protocol::Stage;
 using protocol::Store;
 
 class ImageWriter {

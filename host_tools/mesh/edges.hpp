@@ -16,7 +16,7 @@ struct EdgeUse {
   std::uint32_t triangle;
   std::uint8_t edge;
   bool forward;  ///< runs from low to high
-  auto operator<=>(const EdgeUse&) const = default;
+  auto operator<=>(const EdgeUse&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 sees a 0
 };
 
 /// All edges of all triangles, sorted, so that uses of the same edge lie together.

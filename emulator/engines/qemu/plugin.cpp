@@ -38,7 +38,7 @@ struct HintPlace {
   void* pack() const {
     const std::uint64_t bits = (static_cast<std::uint64_t>(cycles_left) << 24U) | (instructions_left << 12U) |
                                (static_cast<std::uint32_t>(immediate) & 0xFFFU);
-    return reinterpret_cast<void*>(bits);
+    return reinterpret_cast<void*>(bits);  // NOLINT(performance-no-int-to-ptr): never followed
   }
   static HintPlace unpack(const void* pointer) {
     const auto bits = reinterpret_cast<std::uint64_t>(pointer);

@@ -61,6 +61,7 @@ double seconds(const timeval& time) {
 QemuProcess::QemuProcess(const std::vector<std::string>& arguments, std::span<const int> inherited,
                          std::span<const int> cores) {
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) {
     pointers.push_back(const_cast<char*>(argument.c_str()));  // execvp's signature; nothing is written
   }
