@@ -33,12 +33,12 @@ PeMemory make_pe(const Image& image, std::size_t number, std::size_t count) {
 
 }  // namespace
 
-BarePes::BarePes(const Image& image, std::size_t count, const MachineDescription& machine)
+BarePes::BarePes(const Image& image, std::size_t count, const MachineDescription& machine, const EngineFactory& factory)
     : machine_(machine), image_(image) {
   for (std::size_t i = 0; i < count; ++i) {
     pes_.push_back(make_pe(image, i, count));
   }
-  engine_ = engine_named("qemu")(EngineSetup{machine_, image_, pes_, 1});
+  engine_ = factory(EngineSetup{machine_, image_, pes_, 1});
 }
 
 std::optional<TakenCommand> BarePes::next_command(std::size_t pe) {

@@ -29,7 +29,8 @@ struct TakenCommand {
 /// PEs that all run the same image and that nobody answers.
 class BarePes {
  public:
-  BarePes(const Image& image, std::size_t count, const MachineDescription& machine = {});
+  BarePes(const Image& image, std::size_t count, const MachineDescription& machine = {},
+          const EngineFactory& factory = engine_named("qemu"));
 
   Engine& engine() { return *engine_; }
   NiuChannel& channel(std::size_t pe) { return *niu_channel_at(pes_[pe].channel.bytes().data()); }

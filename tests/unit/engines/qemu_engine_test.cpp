@@ -8,10 +8,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <fstream>
 #include <thread>
 
+#include "emulator/engines/qemu/hint_log.hpp"
 #include "emulator/errors.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/niu_window.hpp"
@@ -140,18 +143,24 @@ TEST(QemuEngine, MarkersCostNothing) {
 
 // The NIU driver's loop: the HINT, a load of window.retry (offset 20), a branch back. How often it goes round while the
 // PE waits depends on the computer; the clock must not.
-TEST(QemuEngine, RetriesLeaveNoTraceInTheClock) {
+std::vector<std::uint32_t> receive_and_halt() {
   constexpr std::uint32_t kWindowToA1 = 0x0000'15B7 | 0x8000'0000;  // lui a1,0x80001
   constexpr std::uint32_t kLoadRetry = 0x0145'A503;                 // lw a0,20(a1)
   constexpr std::uint32_t kBranchBack = 0xFE05'1CE3;                // bnez a0,.-8
-  const std::vector<std::uint32_t> code = {kWindowToA1, hint(Hint::receive), kLoadRetry, kBranchBack, hint(Hint::halt)};
+  return {kWindowToA1, hint(Hint::receive), kLoadRetry, kBranchBack, hint(Hint::halt)};
+}
+
+void push_message(BarePes& pes, std::uint64_t time, std::span<const std::byte> contents) {
+  pes.channel(0).arrivals.push(
+      {time, static_cast<std::uint16_t>(protocol::ArrivalKind::message), protocol::kHost, 0, 16, 0, 0}, contents);
+}
+
+TEST(QemuEngine, RetriesLeaveNoTraceInTheClock) {
   for (const auto wait : {0ms, 130ms}) {
-    BarePes pes(image_of(code), 1);
+    BarePes pes(image_of(receive_and_halt()), 1);
     pes.engine().start();
     std::this_thread::sleep_for(wait);
-    NiuChannel& channel = pes.channel(0);
-    channel.arrivals.push(
-        {1000, static_cast<std::uint16_t>(protocol::ArrivalKind::message), protocol::kHost, 0, 16, 0, 0}, {});
+    push_message(pes, 1000, {});
     const auto received = pes.next_command(0);
     const auto end = pes.next_command(0);
     ASSERT_TRUE(received && end);
@@ -159,8 +168,55 @@ TEST(QemuEngine, RetriesLeaveNoTraceInTheClock) {
     EXPECT_EQ(received->head.time, 1000U + kCommandCycles);
     EXPECT_EQ(end->head.kind, CommandKind::halt);
     EXPECT_EQ(end->head.time, 1000U + 2U + 2U + 2U + kCommandCycles) << "load, branch and hint, once";
-    EXPECT_EQ(channel.instructions.load(), 5U);
+    EXPECT_EQ(pes.channel(0).instructions.load(), 5U);
   }
+}
+
+// What `torolux bench engine` rests on: a PE with its log does what it did with its NIU.
+class HintLog : public testing::Test {
+ protected:
+  static constexpr std::byte kContents[] = {std::byte{1}, std::byte{2}, std::byte{3}};
+
+  HintLog() {
+    logs_.emplace_back("log", 1U << 20U);
+    BarePes pes(image_of(receive_and_halt()), 1, {}, with_log(HintLogUse::record));
+    pes.engine().start();
+    push_message(pes, 1000, kContents);
+    EXPECT_TRUE(pes.next_command(0) && pes.next_command(0));
+  }
+  EngineFactory with_log(HintLogUse use) {
+    return [this, use](const EngineSetup& setup) { return make_qemu_engine(setup, QemuHintLogs{use, logs_}); };
+  }
+  HintLogHead& head() { return *reinterpret_cast<HintLogHead*>(logs_[0].bytes().data()); }
+
+  std::vector<SharedMemory> logs_;
+};
+
+TEST_F(HintLog, IsReplayedToItsEnd) {
+  EXPECT_EQ(head().cycles, 1000U) << "the HINT that ends the run is not in the log";
+  EXPECT_EQ(head().instructions, 2U);
+  EXPECT_EQ(head().whole, 1U);
+  BarePes pes(image_of(receive_and_halt()), 1, {}, with_log(HintLogUse::replay));
+  const std::span<std::byte> memory = pes.local_memory(0);
+  std::fill_n(memory.begin() + 0x1000, 4096, std::byte{0xFF});  // the log sets the NIU window up
+  pes.engine().start();
+  const auto deadline = Clock::now() + 10'000ms;
+  while (std::atomic_ref(head().replayed).load() == 0 && Clock::now() < deadline) {
+    pes.engine().check();
+    std::this_thread::sleep_for(5ms);
+  }
+  EXPECT_EQ(head().replayed, 1U);
+  const auto& window = *reinterpret_cast<const protocol::NiuWindow*>(memory.data() + 0x1000);
+  EXPECT_EQ(window.arrival.kind, protocol::ArrivalKind::message);
+  EXPECT_EQ(window.message.bytes, 3U);
+  EXPECT_EQ(window.message_bytes[2], std::byte{3});
+  EXPECT_EQ(window.columns, 1U);
+}
+
+TEST_F(HintLog, AnotherProgramIsFoundOut) {
+  BarePes pes(image_of({hint(Hint::clock), hint(Hint::halt)}), 1, {}, with_log(HintLogUse::replay));
+  pes.engine().start();
+  EXPECT_THAT(failure(pes.engine(), 10'000ms), testing::HasSubstr("PE 0: did not repeat"));
 }
 
 TEST(QemuEngine, AnEndlessLoopIsNoticed) {
