@@ -65,7 +65,8 @@ CameraRay CameraRays::ray(std::uint32_t pixel, std::uint32_t sample) const {
   CameraRay ray{};
   ray.origin = eye_;
   ray.key = protocol::hash_combine(protocol::hash_combine(seed_, pixel), sample);
-  const PixelPlace place = pixel_place(sample, samples_, ray.key);
+  // The same places in every pixel: with few samples, other ones in each would show as dots along edges.
+  const PixelPlace place = pixel_place(sample, samples_, protocol::hash_combine(seed_, sample));
   const double x = 2 * (pixel % width_ + place.x) / width_ - 1;
   const double y = 2 * (pixel / width_ + place.y) / height_ - 1;
   ray.direction = to_float(unit(add(forward_, add(scale(right_, x), scale(down_, y)))));
