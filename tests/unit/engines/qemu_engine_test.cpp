@@ -159,15 +159,16 @@ TEST(QemuEngine, RetriesLeaveNoTraceInTheClock) {
   for (const auto wait : {0ms, 130ms}) {
     BarePes pes(image_of(receive_and_halt()), 1);
     pes.engine().start();
+    while (wait_kind(pes.channel(0).wait.load()) != WaitKind::receive) std::this_thread::sleep_for(1ms);
     std::this_thread::sleep_for(wait);
-    push_message(pes, 1000, {});
+    push_message(pes, 4, {});  // the PE waits since cycle 3
     const auto received = pes.next_command(0);
     const auto end = pes.next_command(0);
     ASSERT_TRUE(received && end);
     EXPECT_EQ(received->head.kind, CommandKind::received);
-    EXPECT_EQ(received->head.time, 1000U + kCommandCycles);
+    EXPECT_EQ(received->head.time, 4U + kCommandCycles);
     EXPECT_EQ(end->head.kind, CommandKind::halt);
-    EXPECT_EQ(end->head.time, 1000U + 2U + 2U + 2U + kCommandCycles) << "load, branch and hint, once";
+    EXPECT_EQ(end->head.time, 4U + 2U + 2U + 2U + kCommandCycles) << "load, branch and hint, once";
     EXPECT_EQ(pes.channel(0).instructions.load(), 5U);
   }
 }
