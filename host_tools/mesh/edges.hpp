@@ -16,7 +16,9 @@ struct EdgeUse {
   std::uint32_t triangle;
   std::uint8_t edge;
   bool forward;  ///< runs from low to high
-  auto operator<=>(const EdgeUse&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 sees a 0
+
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 inside for a pointer
+  auto operator<=>(const EdgeUse&) const = default;
 };
 
 /// All edges of all triangles, sorted, so that uses of the same edge lie together.

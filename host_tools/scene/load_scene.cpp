@@ -28,7 +28,7 @@ std::filesystem::path scene_path(const std::filesystem::path& path, SceneFiles& 
   std::error_code error;
   if (path.empty()) refuse({}, std::string("no scene is named; ") + kAllowed);
   if (!std::filesystem::is_directory(path, error)) return path;
-  const std::filesystem::path inside = path / "scene.toml";
+  std::filesystem::path inside = path / "scene.toml";
   if (files.exists(inside)) return inside;
   std::vector<std::string> meshes;
   for (const auto& entry : std::filesystem::directory_iterator(path, error))

@@ -67,8 +67,10 @@ CameraRay CameraRays::ray(std::uint32_t pixel, std::uint32_t sample) const {
   ray.key = protocol::hash_combine(protocol::hash_combine(seed_, pixel), sample);
   // The same places in every pixel: with few samples, other ones in each would show as dots along edges.
   const PixelPlace place = pixel_place(sample, samples_, protocol::hash_combine(seed_, sample));
-  const double x = 2 * (pixel % width_ + place.x) / width_ - 1;
-  const double y = 2 * (pixel / width_ + place.y) / height_ - 1;
+  const std::uint32_t column = pixel % width_;
+  const std::uint32_t row = pixel / width_;
+  const double x = 2 * (column + place.x) / width_ - 1;
+  const double y = 2 * (row + place.y) / height_ - 1;
   ray.direction = to_float(unit(add(forward_, add(scale(right_, x), scale(down_, y)))));
   return ray;
 }
