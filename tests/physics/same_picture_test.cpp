@@ -65,6 +65,14 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Torus,
                            return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
                          });
 
+/// The reference engine: pe.elf itself on QEMU nodes makes the bytes that its handlers make natively.
+TEST(Engine, QemuMakesTheSamePicture) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.engine = "qemu";
+  cornell.machine.columns = cornell.machine.rows = 4;
+  expect_same_picture(cornell);
+}
+
 class Allocation : public testing::TestWithParam<const char*> {};
 
 TEST_P(Allocation, MakesTheSamePicture) {
