@@ -80,7 +80,7 @@ struct MachineDescription {
 
   struct Records {
     std::uint32_t credits_per_pe = 64;  ///< W = this * PEs, >= 1
-    std::uint32_t niu_slots = 256;      ///< record slots of a NIU, >= kMostRecordsPerPacket
+    std::uint32_t niu_slots = 512;      ///< record slots of a NIU, >= kMostRecordsPerPacket
 
     bool operator==(const Records&) const = default;
   } records;
