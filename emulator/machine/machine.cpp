@@ -98,6 +98,10 @@ struct Machine::Parts {
   bool running = false;
   double begin_scheduler = 0, begin_process = 0, begin_children = 0;
 
+  void fill_in_figures() {
+    emulation->fill_in(figures);
+    figures.trace_hash = emulation->trace_hash();
+  }
   /// The emulator's own CPU time is the calling thread's; all other is the engine's.
   void measure(MachineFigures& out) const {
     out.scheduler_seconds = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler;
@@ -151,7 +155,7 @@ void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progr
     p.running = false;
     throw;
   }
-  p.emulation->fill_in(p.figures);
+  p.fill_in_figures();
   p.stop_engine();
   p.running = false;
   p.measure(p.figures);
@@ -164,7 +168,7 @@ const FrameBuffer& Machine::frame_buffer() const {
 MachineFigures Machine::figures() const {
   Parts& p = *parts_;
   if (p.running) {
-    p.emulation->fill_in(p.figures);
+    p.fill_in_figures();
     p.measure(p.figures);
   }
   return p.figures;

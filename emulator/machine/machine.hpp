@@ -39,7 +39,8 @@ struct PeFigures {
 };
 
 struct MachineFigures {
-  Cycles now = 0;  ///< virtual time of the last event
+  Cycles now = 0;                ///< virtual time of the last event
+  std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
   std::vector<PeFigures> pes;
   std::uint64_t hops = 0;  ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;

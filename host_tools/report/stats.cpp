@@ -4,6 +4,7 @@
 
 #include "firmware/protocol/hints.hpp"
 #include "host_tools/report/figures.hpp"
+#include "host_tools/report/text.hpp"
 #include "host_tools/version.hpp"
 
 namespace torolux {
@@ -106,6 +107,7 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["rays"] = figures.rays;
   json["bus"] = {{"busy_cycles", machine.bus_busy_cycles}, {"messages", machine.bus_messages}};
   json["frame_buffer"] = {{"busy_cycles", machine.frame_buffer_busy_cycles}, {"pixels_added", machine.pixels_added}};
+  json["trace_hash"] = hexadecimal(machine.trace_hash);
   json["phases"] = phases_of(sums.phases);
   json["settings"] = settings_json(run, figures);
   json["pes"] = Json::array();

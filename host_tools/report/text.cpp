@@ -55,6 +55,12 @@ std::string duration(double seconds) {
   return std::to_string(whole / 3600) + " h " + two(whole % 3600 / 60) + " min";
 }
 
+std::string hexadecimal(std::uint64_t value) {
+  std::array<char, 20> text{};
+  std::snprintf(text.data(), text.size(), "0x%016llx", static_cast<unsigned long long>(value));
+  return text.data();
+}
+
 std::string right(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }

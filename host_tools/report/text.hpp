@@ -20,6 +20,8 @@ std::string percent(double fraction, int digits = 1);
 std::string bytes_text(std::uint64_t bytes);
 /// Wall time: "0.4 s", "12 s", "3 min 05 s", "2 h 07 min".
 std::string duration(double seconds);
+/// 16 digits: 0xABCD -> "0x000000000000abcd".
+std::string hexadecimal(std::uint64_t value);
 /// Padded with spaces in front, or behind, to `width` characters.
 std::string right(const std::string& text, std::size_t width);
 std::string left(const std::string& text, std::size_t width);

@@ -7,6 +7,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/niu_window.hpp"
+#include "host_tools/report/text.hpp"
 #include "host_tools/version.hpp"
 
 namespace torolux {
@@ -99,6 +100,7 @@ std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figu
   json["hops"] = {{"mean", delivered > 0 ? static_cast<double>(figures.hops) / static_cast<double>(delivered) : 0},
                   {"total", figures.hops}};
   json["bus"] = {{"busy_cycles", figures.bus_busy_cycles}, {"messages", figures.bus_messages}};
+  json["trace_hash"] = hexadecimal(figures.trace_hash);
   json["settings"] = {{"pes", {setup.columns, setup.rows}}, {"pe_memory", setup.local_memory_bytes}};
   json["pes"] = std::move(pes);
   json["wall_seconds"] = wall_seconds;

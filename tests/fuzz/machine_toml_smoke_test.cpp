@@ -19,7 +19,7 @@ TEST(FuzzSmoke, MachineToml) {
   const char* const odd[] = {"nan", "-1", "1e999", "99999999999999999999", "\"", "[", "]", "\n", "=", ".", "{", "\xff"};
   std::mt19937 random(7);
   int loaded = 0;
-  constexpr int kCount = 3000;
+  constexpr int kCount = 10'000;
   for (int i = 0; i < kCount; ++i) {
     std::string text = whole;
     const std::size_t at = random() % text.size();

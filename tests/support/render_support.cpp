@@ -39,7 +39,8 @@ std::string exact_figures(const RenderFigures& figures) {
        << "\nshots " << figures.shots << " records " << figures.radiosity_records << " rays " << figures.rays
        << "\ncredits " << figures.credits_home << '/' << figures.credits_total << " hops " << figures.machine.hops
        << " bus " << figures.machine.bus_busy_cycles << ' ' << figures.machine.bus_messages << " fbc "
-       << figures.machine.frame_buffer_busy_cycles << ' ' << figures.machine.pixels_added << '\n';
+       << figures.machine.frame_buffer_busy_cycles << ' ' << figures.machine.pixels_added << " trace "
+       << figures.machine.trace_hash << '\n';
   for (const PeFigures& pe : figures.machine.pes) {
     text << pe.busy_cycles << ' ' << pe.idle_cycles << ' ' << pe.instructions << ' ' << pe.packets_sent << ' '
          << pe.packets_delivered << ' ' << pe.records_diverted << ' ' << pe.record_slots_high_water;

@@ -34,6 +34,7 @@ inline RenderFigures made_up_figures() {
   figures.subspaces = {8, 4, 8};
   MachineFigures& machine = figures.machine;
   machine.now = 27'457'289;
+  machine.trace_hash = 0xABCD;
   machine.hops = 2500;
   machine.link_retries = 3;
   machine.bus_busy_cycles = 77;

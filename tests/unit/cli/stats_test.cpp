@@ -37,6 +37,7 @@ TEST(Stats, HoldThePromisedKeys) {
   EXPECT_EQ(stats["rays"], 307'200);
   EXPECT_EQ(stats["wall_seconds"], 83.21);
   EXPECT_EQ(stats["engine"], "qemu");
+  EXPECT_EQ(stats["trace_hash"], "0x000000000000abcd");
   EXPECT_EQ(stats["phases"]["traverse"], 33);
   EXPECT_EQ(stats["settings"]["patches"], "auto");
   EXPECT_EQ(stats["settings"]["elements"], 0.5);

@@ -37,6 +37,11 @@ TEST(Text, Durations) {
   EXPECT_EQ(duration(std::numeric_limits<double>::quiet_NaN()), "?");
 }
 
+TEST(Text, Hexadecimal) {
+  EXPECT_EQ(hexadecimal(0xABCD), "0x000000000000abcd");
+  EXPECT_EQ(hexadecimal(0xFEDC'BA98'7654'3210U), "0xfedcba9876543210");
+}
+
 TEST(Text, Padding) {
   EXPECT_EQ(right("ab", 4), "  ab");
   EXPECT_EQ(left("ab", 4), "ab  ");

@@ -67,7 +67,8 @@ inline MachineSetup small_machine(unsigned columns, unsigned rows) {
 inline std::string exact(const MachineFigures& figures) {
   std::string text = std::to_string(figures.now) + " hops " + std::to_string(figures.hops) + " retries " +
                      std::to_string(figures.link_retries) + " bus " + std::to_string(figures.bus_busy_cycles) + "/" +
-                     std::to_string(figures.bus_messages) + " pixels " + std::to_string(figures.pixels_added) + "\n";
+                     std::to_string(figures.bus_messages) + " pixels " + std::to_string(figures.pixels_added) +
+                     " trace " + std::to_string(figures.trace_hash) + "\n";
   for (const PeFigures& pe : figures.pes) {
     for (const std::uint64_t value :
          {pe.busy_cycles, pe.idle_cycles, pe.instructions, pe.packets_sent, pe.packets_delivered, pe.records_diverted,
