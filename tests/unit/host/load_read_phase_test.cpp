@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Loading and reading out: images reach PEs whole, and what PEs hold reaches the place in the solution that it belongs
+// to. PEs are byte arrays here.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/stage_image.hpp"
+#include "host_tools/stages/load_phase.hpp"
+#include "host_tools/stages/read_phase.hpp"
+#include "tests/unit/host/fake_port.hpp"
+#include "tests/unit/host/test_scenes.hpp"
+
+namespace torolux::test {
+namespace {
+
+using protocol::LoadBlock;
+using protocol::MessageKind;
+using protocol::Stage;
+
+constexpr MemoryMap kMap{protocol::kLocalMemoryBase + 100'000, 64};
+
+class LoadReadTest : public testing::Test {
+ protected:
+  LoadReadTest() {
+    for (PeNumber pe = 0; pe < placement_.torus.pes(); ++pe) {
+      const PeLayout layout = lay_out(mesh_, placement_, pe, Stage::radiosity, {}, kMap);
+      loads_.push_back({layout.layout, radiosity_image(scene_, mesh_, placement_, pe, units_, layout)});
+    }
+  }
+
+  /// What a PE answers to `report`.
+  static protocol::Tally tally_of(PeNumber pe) {
+    return {{pe, 1, 0}, {2, 0, 0}, {0, 0, pe * 10}, {7, 7, 7}, 1000U + pe};
+  }
+
+  /// The PE's bytes from `address` on.
+  std::span<std::byte> memory(PeNumber pe, std::uint32_t address) {
+    return std::span(loads_[pe].image).subspan(address - loads_[pe].layout.subspaces.address);
+  }
+
+  /// Marks each patch side of a PE, and its elements: (PE, number of the side in the store, number in the side).
+  void mark(PeNumber pe) {
+    const protocol::StageLayout& layout = loads_[pe].layout;
+    std::vector<std::uint32_t> first(layout.patch_sides.count + 1, layout.elements.count);
+    for (std::uint32_t i = layout.patch_sides.count; i-- > 0;) {
+      const auto at =
+          memory(pe, layout.patch_sides.address + i * static_cast<std::uint32_t>(sizeof(protocol::PatchSide)));
+      protocol::PatchSide side{};
+      std::memcpy(&side, at.data(), sizeof side);
+      side.shot = {pe, i, -1};
+      std::memcpy(at.data(), &side, sizeof side);
+      first[i] = side.first_element;
+      for (std::uint32_t e = side.first_element; e < first[i + 1]; ++e) {
+        const protocol::Element element{{pe, i, e - side.first_element}, {}};
+        std::memcpy(memory(pe, layout.elements.address + e * static_cast<std::uint32_t>(sizeof element)).data(),
+                    &element, sizeof element);
+      }
+    }
+  }
+
+  ReadPhase reading() const {
+    std::vector<protocol::StageLayout> layouts;
+    for (const PeLoad& load : loads_) layouts.push_back(load.layout);
+    return {mesh_, placement_, layouts};
+  }
+
+  /// Answers until all is read; PEs in an order by `seed`.
+  void answer_all(ReadPhase& phase, std::uint32_t seed) {
+    FakePort port(placement_.torus.pes());
+    phase.start(port);
+    std::minstd_rand random(seed);
+    std::vector<Sent> asked = port.take();
+    while (!asked.empty()) {
+      const std::size_t at = random() % asked.size();
+      const Sent question = asked[at];
+      asked.erase(asked.begin() + static_cast<std::ptrdiff_t>(at));
+      if (question.is(MessageKind::report)) {
+        tell(phase, port, question.pe, MessageKind::tally, tally_of(question.pe));
+      } else {
+        ASSERT_TRUE(question.is(MessageKind::read));
+        const auto block = question.as<LoadBlock>();
+        EXPECT_LE(block.bytes, protocol::kMostLoadBytes);
+        std::vector<std::byte> answer(sizeof block + block.bytes);
+        std::memcpy(answer.data(), &block, sizeof block);
+        std::memcpy(answer.data() + sizeof block, memory(question.pe, block.address).data(), block.bytes);
+        phase.on_message(port, question.pe, MessageKind::data, answer);
+      }
+      for (Sent& next : port.take()) asked.push_back(std::move(next));
+    }
+  }
+
+  Scene scene_ = room_with_box();
+  Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.4, .element_length = 0.1});
+  LightUnits units_ = light_units(scene_, mesh_, false);
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  std::vector<PeLoad> loads_;
+};
+
+TEST_F(LoadReadTest, ImagesReachTheirPesWhole) {
+  FakePort port(6);
+  LoadPhase phase(6, [this](PeNumber pe) { return loads_[pe]; });
+  phase.start(port);
+  std::vector<std::vector<std::byte>> got(6);
+  std::vector<int> configured(6);
+  std::vector<int> begun(6);
+  for (const Sent& sent : port.take()) {
+    const protocol::StageLayout& layout = loads_[sent.pe].layout;
+    if (sent.is(MessageKind::configure)) {
+      EXPECT_EQ(++configured[sent.pe], 1);
+      ASSERT_EQ(sent.bytes.size(), sizeof layout);
+      EXPECT_EQ(std::memcmp(sent.bytes.data(), &layout, sizeof layout), 0);
+    } else if (sent.is(MessageKind::load)) {
+      EXPECT_EQ(configured[sent.pe], 1) << "the layout comes first";
+      const auto block = sent.as<LoadBlock>();
+      EXPECT_EQ(block.address, layout.subspaces.address + got[sent.pe].size());
+      ASSERT_EQ(sent.bytes.size(), sizeof block + block.bytes);
+      EXPECT_LE(sent.bytes.size(), protocol::kMostMessageBytes);
+      got[sent.pe].insert(got[sent.pe].end(), sent.bytes.begin() + sizeof block, sent.bytes.end());
+    } else {
+      EXPECT_TRUE(sent.is(MessageKind::begin));
+      EXPECT_EQ(++begun[sent.pe], 1);
+      EXPECT_EQ(got[sent.pe], loads_[sent.pe].image) << "all is there when it begins";
+    }
+  }
+  for (PeNumber pe = 0; pe < 6; ++pe) {
+    EXPECT_EQ(begun[pe], 1);
+    EXPECT_FALSE(phase.done());
+    tell(phase, port, pe, MessageKind::ready);
+  }
+  EXPECT_TRUE(phase.done());
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::tally), MachineFailure);
+}
+
+TEST_F(LoadReadTest, ImagesAreMadeAsPesBecomeReady) {
+  constexpr unsigned kPes = 300;
+  unsigned made = 0;
+  FakePort port(kPes);
+  LoadPhase phase(kPes, [&](PeNumber pe) {
+    EXPECT_EQ(pe, made++);
+    return loads_[0];
+  });
+  phase.start(port);
+  EXPECT_LT(made, 100U) << "not all images at once";
+  for (unsigned pe = 0; pe < kPes; ++pe) {
+    EXPECT_GT(made, pe) << "a PE that is not loaded cannot be ready";
+    tell(phase, port, static_cast<PeNumber>(pe), MessageKind::ready);
+  }
+  EXPECT_EQ(made, kPes);
+  EXPECT_TRUE(phase.done());
+}
+
+TEST_F(LoadReadTest, SidesAndElementsFindTheirGlobalPlaces) {
+  for (PeNumber pe = 0; pe < 6; ++pe) mark(pe);
+  for (const std::uint32_t seed : {1U, 2U}) {
+    ReadPhase phase = reading();
+    answer_all(phase, seed);
+    ASSERT_TRUE(phase.done());
+    const Solution solution = phase.take_solution();
+    for (const MeshTriangle& triangle : mesh_.triangles) {
+      const std::uint32_t patches = protocol::triangles_of_level(triangle.patch_level);
+      const std::uint32_t per_patch = protocol::triangles_of_level(triangle.element_level) / patches;
+      for (std::uint32_t s = 0; s < 2; ++s) {
+        if (triangle.first_side[s] == protocol::kNoSide) continue;
+        for (std::uint32_t p = 0; p < patches; ++p) {
+          const SolvedSide& side = solution.sides[triangle.first_side[s] + p];
+          const PatchHome& home = placement_.patch_home[triangle.first_patch + p];
+          EXPECT_EQ(side.shot[0], home.pe) << "read from its owner";
+          EXPECT_EQ(side.emission, patch_emission(scene_, triangle, s, units_)) << "this side and no other";
+          for (std::uint32_t e = 0; e < per_patch; ++e) {
+            const auto& flux = solution.elements[triangle.first_element[s] + p * per_patch + e].flux;
+            ASSERT_EQ(flux, (protocol::Flux{side.shot[0], side.shot[1], e}));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(LoadReadTest, TalliesAreAddedUp) {
+  ReadPhase phase = reading();
+  answer_all(phase, 3);
+  const protocol::Tally tally = phase.take_solution().tally;
+  EXPECT_EQ(tally.absorbed_specular, (protocol::Flux{15, 6, 0}));
+  EXPECT_EQ(tally.escaped, (protocol::Flux{12, 0, 0}));
+  EXPECT_EQ(tally.cut_off, (protocol::Flux{0, 0, 150}));
+  EXPECT_EQ(tally.back_side, (protocol::Flux{42, 42, 42}));
+  EXPECT_EQ(tally.rays, 6015U);
+}
+
+TEST_F(LoadReadTest, AnswersThatWereNotAskedForAreRefused) {
+  ReadPhase phase = reading();
+  FakePort port(6);
+  phase.start(port);
+  auto block = port.take().at(0).as<LoadBlock>();
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::data, block), MachineFailure) << "without its bytes";
+  std::vector<std::byte> answer(sizeof block + block.bytes);
+  block.address += 4;
+  std::memcpy(answer.data(), &block, sizeof block);
+  EXPECT_THROW(phase.on_message(port, 0, MessageKind::data, answer), MachineFailure) << "another address";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::tally), MachineFailure) << "too short";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::credits, protocol::Credits{1}), MachineFailure);
+}
+
+}  // namespace
+}  // namespace torolux::test
