@@ -8,7 +8,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 
@@ -22,7 +22,7 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
     if (!emits(material)) continue;
     for (const double radiance : material.emission) units.unit_radiance = std::max(units.unit_radiance, radiance);
     const double area = triangle.area * (two_sided_lights ? 2 : 1);
-    emitted = add(emitted, scale(material.emission, std::numbers::pi * area));
+    emitted = vec::add(emitted, vec::scale(material.emission, std::numbers::pi * area));
   }
   const double greatest = std::max({emitted[0], emitted[1], emitted[2]});
   if (!(greatest > 0)) throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke)");
@@ -59,7 +59,7 @@ protocol::Material machine_material(const SceneMaterial& material, const LightUn
     case SurfaceKind::diffuse:
       machine.kind = protocol::MaterialKind::diffuse;
       set(material.diffuse, machine.diffuse, machine.diffuse_fraction);
-      machine.emission = to_float(scale(material.emission, 1 / units.unit_radiance));
+      machine.emission = to_float(vec::scale(material.emission, 1 / units.unit_radiance));
       machine.emits_from_back = units.two_sided_lights && emits(material) ? 1 : 0;
       break;
     case SurfaceKind::mirror:

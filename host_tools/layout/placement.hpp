@@ -20,7 +20,7 @@ struct PatchHome {
 };
 
 struct Placement {
-  Torus torus;
+  TorusSize torus;
   Grid grid;
   std::vector<std::vector<std::uint32_t>> polygons_of_cell;  ///< ascending
   std::vector<protocol::PeNumber> pe_of_cell;
@@ -34,7 +34,7 @@ struct Placement {
 };
 
 struct PlacementChoice {
-  Torus torus;
+  TorusSize torus;
   std::optional<std::array<std::uint32_t, 3>> subspaces;
   std::string allocation = "skewed";
   double records_per_patch = 12288;  ///< expected in the radiosity stage; for predictions only

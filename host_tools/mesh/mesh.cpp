@@ -8,7 +8,7 @@
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/sides.hpp"
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
@@ -17,16 +17,18 @@ using protocol::kBackPresent;
 using protocol::kFrontPresent;
 
 bool has_area_in_float(const std::array<protocol::Vec3f, 3>& corner) {
-  const Vec3d a = subtract(to_double(corner[1]), to_double(corner[0]));
-  const Vec3d b = subtract(to_double(corner[2]), to_double(corner[0]));
+  const Vec3d a = vec::subtract(to_double(corner[1]), to_double(corner[0]));
+  const Vec3d b = vec::subtract(to_double(corner[2]), to_double(corner[0]));
   // Below this the float normal on the PE loses all its digits.
-  return length(cross(a, b)) > 1e-7 * length(a) * length(b) && length(a) > 0 && length(b) > 0;
+  return vec::length(vec::cross(a, b)) > 1e-7 * vec::length(a) * vec::length(b) && vec::length(a) > 0 &&
+         vec::length(b) > 0;
 }
 
 double longest_edge(const Scene& scene, const std::array<std::uint32_t, 3>& position) {
   double longest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    longest = std::max(longest, length(subtract(scene.positions[position[(i + 1) % 3]], scene.positions[position[i]])));
+    longest = std::max(
+        longest, vec::length(vec::subtract(scene.positions[position[(i + 1) % 3]], scene.positions[position[i]])));
   }
   return longest;
 }
@@ -44,9 +46,9 @@ void take_triangles(const Scene& scene, Mesh& mesh) {
       ++vanished;
       continue;
     }
-    const Vec3d a = subtract(scene.positions[from.position[1]], scene.positions[from.position[0]]);
-    const Vec3d b = subtract(scene.positions[from.position[2]], scene.positions[from.position[0]]);
-    triangle.area = 0.5 * length(cross(a, b));
+    const Vec3d a = vec::subtract(scene.positions[from.position[1]], scene.positions[from.position[0]]);
+    const Vec3d b = vec::subtract(scene.positions[from.position[2]], scene.positions[from.position[0]]);
+    triangle.area = 0.5 * vec::length(vec::cross(a, b));
     const bool smooth = std::find(from.normal.begin(), from.normal.end(), kNoNormal) == from.normal.end();
     if (smooth && scene.materials[from.material].kind != SurfaceKind::diffuse) {
       triangle.normals = static_cast<std::uint32_t>(mesh.normals.size());
@@ -143,7 +145,7 @@ Vec3d patch_centre(const MeshTriangle& triangle, std::uint32_t path) {
   Vec3d centre{0, 0, 0};
   for (std::size_t w = 0; w < 3; ++w) {
     const double weight = (grid.corner[0][w] + grid.corner[1][w] + grid.corner[2][w]) / (3 * one);
-    centre = add(centre, scale(to_double(triangle.corner[w]), weight));
+    centre = vec::add(centre, vec::scale(to_double(triangle.corner[w]), weight));
   }
   return centre;
 }

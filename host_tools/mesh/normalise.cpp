@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "emulator/errors.hpp"
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 
 Vec3d SceneSpace::to_normalised(const Vec3d& position) const {
-  return torolux::scale(subtract(position, origin), scale);
+  return vec::scale(vec::subtract(position, origin), scale);
 }
 
 SceneSpace scene_space(const Scene& scene) {
@@ -26,7 +26,7 @@ SceneSpace scene_space(const Scene& scene) {
       }
     }
   }
-  const Vec3d extent = subtract(high, low);
+  const Vec3d extent = vec::subtract(high, low);
   const double longest = std::max({extent[0], extent[1], extent[2]});
   if (scene.triangles.empty() || !(longest > 0) || !std::isfinite(longest)) {
     throw InputError("scene '" + scene.name + "' has no surface with an area: at least one triangle is needed");

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
@@ -21,20 +21,20 @@ Shape shape_of(std::span<const Vec3d> points) {
   Shape shape{.points = points};
   shape.edge_count = points.size() == 3 ? 3 : 1;
   for (std::size_t i = 0; i < shape.edge_count; ++i) {
-    shape.edges[i] = subtract(points[(i + 1) % points.size()], points[i]);
+    shape.edges[i] = vec::subtract(points[(i + 1) % points.size()], points[i]);
   }
-  if (points.size() == 3) shape.normal = cross(shape.edges[0], shape.edges[1]);
+  if (points.size() == 3) shape.normal = vec::cross(shape.edges[0], shape.edges[1]);
   return shape;
 }
 
 bool axis_separates(const Shape& a, const Shape& b, const Vec3d& axis, double gap) {
-  const double size = length(axis);
+  const double size = vec::length(axis);
   if (!(size > 1e-30)) return false;
   const auto range = [&axis](std::span<const Vec3d> points) {
-    double low = dot(points[0], axis);
+    double low = vec::dot(points[0], axis);
     double high = low;
     for (const Vec3d& point : points.subspan(1)) {
-      const double value = dot(point, axis);
+      const double value = vec::dot(point, axis);
       low = std::min(low, value);
       high = std::max(high, value);
     }
@@ -59,13 +59,14 @@ bool apart(std::span<const Vec3d> a, std::span<const Vec3d> b, double gap) {
   if (separates(first.normal) || separates(second.normal)) return true;
   for (std::size_t i = 0; i < first.edge_count; ++i) {
     // Edges' normals within the plane settle shapes that lie in one plane.
-    if (separates(cross(first.normal, first.edges[i])) || separates(cross(second.normal, first.edges[i]))) return true;
+    if (separates(vec::cross(first.normal, first.edges[i])) || separates(vec::cross(second.normal, first.edges[i])))
+      return true;
     for (std::size_t j = 0; j < second.edge_count; ++j) {
-      if (separates(cross(first.edges[i], second.edges[j]))) return true;
+      if (separates(vec::cross(first.edges[i], second.edges[j]))) return true;
     }
   }
   for (std::size_t j = 0; j < second.edge_count; ++j) {
-    if (separates(cross(second.normal, second.edges[j])) || separates(cross(first.normal, second.edges[j])))
+    if (separates(vec::cross(second.normal, second.edges[j])) || separates(vec::cross(first.normal, second.edges[j])))
       return true;
   }
   return false;

@@ -9,7 +9,7 @@
 #include "firmware/protocol/stores.hpp"
 #include "host_tools/mesh/edges.hpp"
 #include "host_tools/mesh/separation.hpp"
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
@@ -145,7 +145,7 @@ class Sides {
     double six = 0;
     for (const std::uint32_t t : component.triangles) {
       const auto c = corners(t);
-      six += dot(c[0], cross(c[1], c[2]));
+      six += vec::dot(c[0], vec::cross(c[1], c[2]));
     }
     return six / 6;
   }
@@ -155,13 +155,14 @@ class Sides {
     double angle = 0;
     for (const std::uint32_t t : component.triangles) {
       const auto corner = corners(t);
-      const Vec3d a = subtract(corner[0], point);
-      const Vec3d b = subtract(corner[1], point);
-      const Vec3d c = subtract(corner[2], point);
-      const double la = length(a);
-      const double lb = length(b);
-      const double lc = length(c);
-      angle += 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+      const Vec3d a = vec::subtract(corner[0], point);
+      const Vec3d b = vec::subtract(corner[1], point);
+      const Vec3d c = vec::subtract(corner[2], point);
+      const double la = vec::length(a);
+      const double lb = vec::length(b);
+      const double lc = vec::length(c);
+      angle += 2 * std::atan2(vec::dot(a, vec::cross(b, c)),
+                              la * lb * lc + vec::dot(a, b) * lc + vec::dot(b, c) * la + vec::dot(c, a) * lb);
     }
     return std::abs(angle) > 2 * std::numbers::pi;
   }

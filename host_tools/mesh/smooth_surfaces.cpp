@@ -6,21 +6,22 @@
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/edges.hpp"
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
 
 Vec3d unit_normal(const MeshTriangle& triangle) {
   const Vec3d corner = to_double(triangle.corner[0]);
-  return unit(cross(subtract(to_double(triangle.corner[1]), corner), subtract(to_double(triangle.corner[2]), corner)));
+  return vec::unit(vec::cross(vec::subtract(to_double(triangle.corner[1]), corner),
+                              vec::subtract(to_double(triangle.corner[2]), corner)));
 }
 
 bool smooth_across(const Mesh& mesh, const EdgeUse& a, const EdgeUse& b) {
   const MeshTriangle& first = mesh.triangles[a.triangle];
   const MeshTriangle& second = mesh.triangles[b.triangle];
   return first.sides != 0 && first.sides == second.sides && first.material == second.material &&
-         a.forward != b.forward && dot(unit_normal(first), unit_normal(second)) > kSmoothCosine;
+         a.forward != b.forward && vec::dot(unit_normal(first), unit_normal(second)) > kSmoothCosine;
 }
 
 /// Corner of a use's triangle at the edge's lower position, then at its higher one.

@@ -86,9 +86,9 @@ void apply(const MaterialOverride& o, SceneMaterial& material) {
 }
 
 /// The mesh's material of this number as the scene has it: renamed and overridden.
-MeshMaterial resolved(const Mesh& mesh, std::size_t number, const MeshEntry& entry,
-                      const std::vector<MaterialOverride>& overrides) {
-  MeshMaterial result = mesh.materials[number];
+ImportedMaterial resolved(const ImportedMesh& mesh, std::size_t number, const MeshEntry& entry,
+                          const std::vector<MaterialOverride>& overrides) {
+  ImportedMaterial result = mesh.materials[number];
   std::string name = result.material.name;
   for (const auto& [from, to] : entry.materials)
     if (from == name) result.material.name = to;
@@ -96,7 +96,7 @@ MeshMaterial resolved(const Mesh& mesh, std::size_t number, const MeshEntry& ent
   if (result.material.name != name) {
     name = result.material.name;
     const auto own = std::find_if(mesh.materials.begin(), mesh.materials.end(),
-                                  [&name](const MeshMaterial& m) { return m.defined && m.material.name == name; });
+                                  [&name](const ImportedMaterial& m) { return m.defined && m.material.name == name; });
     result.defined = own != mesh.materials.end();
     result.material = result.defined ? own->material : SceneMaterial{};
     result.material.name = name;
@@ -110,10 +110,10 @@ MeshMaterial resolved(const Mesh& mesh, std::size_t number, const MeshEntry& ent
   return result;
 }
 
-[[noreturn]] void refuse_unknown(const MeshMaterial& material, const Mesh& mesh,
+[[noreturn]] void refuse_unknown(const ImportedMaterial& material, const ImportedMesh& mesh,
                                  const std::vector<MaterialOverride>& overrides) {
   std::vector<std::string> known;
-  for (const MeshMaterial& m : mesh.materials)
+  for (const ImportedMaterial& m : mesh.materials)
     if (m.defined) known.push_back(m.material.name);
   for (const MaterialOverride& o : overrides) known.push_back(o.name);
   const std::string near = nearest_name(material.material.name, known);
@@ -158,7 +158,8 @@ void SceneBuilder::add_triangle(const SceneTriangle& triangle, const Place& plac
   origins_.push_back({static_cast<std::uint32_t>(files_.size() - 1), static_cast<std::uint32_t>(place.line)});
 }
 
-void SceneBuilder::add_mesh(const Mesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides) {
+void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
+                            const std::vector<MaterialOverride>& overrides) {
   constexpr std::uint32_t not_yet = 0xFFFF'FFFFU;
   std::vector<std::uint32_t> number(mesh.materials.size(), not_yet);
   const Transform transform(entry);
@@ -173,9 +174,9 @@ void SceneBuilder::add_mesh(const Mesh& mesh, const MeshEntry& entry, const std:
   }
   for (const Vec3d& n : mesh.normals) normals_.push_back(vec::scale(transform.normal(n), entry.flip ? -1.0 : 1.0));
   const bool turn = transform.mirrors() != entry.flip;
-  for (const MeshTriangle& read : mesh.triangles) {
+  for (const ImportedTriangle& read : mesh.triangles) {
     if (number[read.material] == not_yet) {
-      const MeshMaterial material = resolved(mesh, read.material, entry, overrides);
+      const ImportedMaterial material = resolved(mesh, read.material, entry, overrides);
       if (!material.defined) refuse_unknown(material, mesh, overrides);
       number[read.material] = add_material(material.material, material.place);
     }

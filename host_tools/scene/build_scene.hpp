@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "host_tools/scene/mesh.hpp"
+#include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/scene_file.hpp"
 
 namespace torolux {
@@ -16,7 +16,7 @@ class SceneBuilder {
 
   /// Overrides by name apply to all meshes. Throws InputError: a material that neither the mesh nor an override
   /// defines.
-  void add_mesh(const Mesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides);
+  void add_mesh(const ImportedMesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides);
   /// Four corners, counter-clockwise seen from the front.
   void add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material, const Place& place);
 

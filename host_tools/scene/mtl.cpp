@@ -140,14 +140,14 @@ SceneMaterial mapped(const tinyobj::material_t& read, const Checked& checked, No
 
 }  // namespace
 
-void import_mtl(std::string_view text, const std::string& file, std::vector<MeshMaterial>& materials,
+void import_mtl(std::string_view text, const std::string& file, std::vector<ImportedMaterial>& materials,
                 Notices& notices) {
   CheckedLibrary library;
   StatementReader reader(text, file);
   for (Statement statement; reader.next(statement);)
     check_statement(statement, {file, statement.line}, library, notices);
   for (const Checked& checked : library.materials)
-    for (const MeshMaterial& other : materials)
+    for (const ImportedMaterial& other : materials)
       if (other.material.name == checked.name)
         refuse(checked.place, "material " + in_quotes(checked.name) + " is already defined at " + other.place.text());
 

@@ -5,12 +5,13 @@
 #include <string_view>
 #include <vector>
 
-#include "host_tools/scene/mesh.hpp"
+#include "host_tools/scene/imported_mesh.hpp"
 
 namespace torolux {
 
 /// Appends the library's materials. Throws InputError with file and line: a value missing, not a number or negative,
 /// a statement before newmtl, a name given twice.
-void import_mtl(std::string_view text, const std::string& file, std::vector<MeshMaterial>& materials, Notices& notices);
+void import_mtl(std::string_view text, const std::string& file, std::vector<ImportedMaterial>& materials,
+                Notices& notices);
 
 }  // namespace torolux

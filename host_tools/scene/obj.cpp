@@ -19,7 +19,8 @@ constexpr const char* kNoMaterialName = "(none)";
 /// Receives tinyobjloader's calls in the order of the file.
 class MeshBuilder {
  public:
-  MeshBuilder(Mesh& mesh, const CheckedObj& checked, std::vector<std::uint32_t> material_of_use, Notices& notices)
+  MeshBuilder(ImportedMesh& mesh, const CheckedObj& checked, std::vector<std::uint32_t> material_of_use,
+              Notices& notices)
       : mesh_(mesh), checked_(checked), material_of_use_(std::move(material_of_use)), notices_(notices) {}
 
   void use(const std::string& number) { material_ = material_of_use_.at(std::stoul(number)); }
@@ -52,7 +53,7 @@ class MeshBuilder {
   };
 
   void add(const std::array<std::uint32_t, 3>& triangle, const Place& place) {
-    MeshTriangle out{{}, {}, material(place), static_cast<std::uint32_t>(place.line)};
+    ImportedTriangle out{{}, {}, material(place), static_cast<std::uint32_t>(place.line)};
     bool normals = true;
     for (std::size_t i = 0; i < 3; ++i) {
       out.position[i] = corners_[triangle[i]].position;
@@ -77,7 +78,7 @@ class MeshBuilder {
   }
 
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFU;
-  Mesh& mesh_;
+  ImportedMesh& mesh_;
   const CheckedObj& checked_;
   std::vector<std::uint32_t> material_of_use_;
   Notices& notices_;
@@ -87,8 +88,8 @@ class MeshBuilder {
   std::vector<Vec3d> points_;
 };
 
-void import_libraries(const CheckedObj& checked, const std::filesystem::path& folder, SceneFiles& files, Mesh& mesh,
-                      Notices& notices) {
+void import_libraries(const CheckedObj& checked, const std::filesystem::path& folder, SceneFiles& files,
+                      ImportedMesh& mesh, Notices& notices) {
   std::vector<std::string> done;
   const auto import = [&](const std::string& name, const Place& place) {
     for (const std::string& other : done)
@@ -114,7 +115,7 @@ void import_libraries(const CheckedObj& checked, const std::filesystem::path& fo
 }
 
 /// Where each use's material stands in the mesh; unknown ones are added as not defined.
-std::vector<std::uint32_t> resolve_uses(const CheckedObj& checked, Mesh& mesh) {
+std::vector<std::uint32_t> resolve_uses(const CheckedObj& checked, ImportedMesh& mesh) {
   std::vector<std::uint32_t> material_of_use;
   for (const NameUse& use : checked.materials) {
     std::size_t found = 0;
@@ -131,8 +132,8 @@ std::vector<std::uint32_t> resolve_uses(const CheckedObj& checked, Mesh& mesh) {
 
 }  // namespace
 
-Mesh import_obj(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at, Notices& notices) {
-  Mesh mesh;
+ImportedMesh import_obj(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at, Notices& notices) {
+  ImportedMesh mesh;
   mesh.file = path.string();
   CheckedObj checked = check_obj(files.read(path, asked_at, kMostMeshBytes), mesh.file, notices);
   mesh.positions = std::move(checked.positions);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_tools/scene/mesh.hpp"
+#include "host_tools/scene/imported_mesh.hpp"
 
 namespace torolux {
 

@@ -3,7 +3,7 @@
 #include "host_tools/scene/scene_file.hpp"
 
 #include "host_tools/scene/camera.hpp"
-#include "host_tools/scene/mesh.hpp"
+#include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/toml_table.hpp"
 
 namespace torolux {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The few operations on three doubles that the scene code needs.
+// The few operations on three doubles that the host needs.
 #pragma once
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 
@@ -38,11 +38,11 @@ PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_
 CameraRays::CameraRays(const Camera& camera, const SceneSpace& space, std::uint32_t width, std::uint32_t height,
                        std::uint32_t samples, std::uint32_t seed)
     : width_(width), height_(height), samples_(samples), seed_(seed), eye_(to_float(space.to_normalised(camera.eye))) {
-  const Vec3d view = subtract(camera.look_at, camera.eye);
-  const double view_length = length(view);
-  const double up_length = length(camera.up);
-  const Vec3d across = cross(view, camera.up);
-  if (!(view_length > 0) || !(length(across) > 1e-9 * view_length * up_length) || !std::isfinite(view_length)) {
+  const Vec3d view = vec::subtract(camera.look_at, camera.eye);
+  const double view_length = vec::length(view);
+  const double up_length = vec::length(camera.up);
+  const Vec3d across = vec::cross(view, camera.up);
+  if (!(view_length > 0) || !(vec::length(across) > 1e-9 * view_length * up_length) || !std::isfinite(view_length)) {
     throw InputError("the camera looks nowhere: eye and look-at must differ, and up must not lie along the view");
   }
   if (!(camera.field_of_view_degrees > 0 && camera.field_of_view_degrees < 180)) {
@@ -54,11 +54,11 @@ CameraRays::CameraRays(const Camera& camera, const SceneSpace& space, std::uint3
       throw InputError("the camera's eye is more than a million times the scene's size away");
     }
   }
-  forward_ = unit(view);
-  const Vec3d right = unit(across);
+  forward_ = vec::unit(view);
+  const Vec3d right = vec::unit(across);
   const double half_height = std::tan(camera.field_of_view_degrees * std::numbers::pi / 360);
-  down_ = scale(cross(forward_, right), half_height);
-  right_ = scale(right, half_height * width / height);
+  down_ = vec::scale(vec::cross(forward_, right), half_height);
+  right_ = vec::scale(right, half_height * width / height);
 }
 
 CameraRay CameraRays::ray(std::uint32_t pixel, std::uint32_t sample) const {
@@ -71,7 +71,7 @@ CameraRay CameraRays::ray(std::uint32_t pixel, std::uint32_t sample) const {
   const std::uint32_t row = pixel / width_;
   const double x = 2 * (column + place.x) / width_ - 1;
   const double y = 2 * (row + place.y) / height_ - 1;
-  ray.direction = to_float(unit(add(forward_, add(scale(right_, x), scale(down_, y)))));
+  ray.direction = to_float(vec::unit(vec::add(forward_, vec::add(vec::scale(right_, x), vec::scale(down_, y)))));
   return ray;
 }
 

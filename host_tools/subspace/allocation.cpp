@@ -10,6 +10,7 @@
 #include <string>
 
 #include "emulator/errors.hpp"
+#include "emulator/torus/shape.hpp"
 
 namespace torolux {
 namespace {
@@ -30,7 +31,7 @@ std::optional<std::array<std::size_t, 3>> skew_axes(std::string_view name) {
 
 /// Column and row of a cell, where a formula gives them.
 std::function<std::array<std::uint32_t, 2>(const Cell&)> formula(std::string_view name, const Grid& grid,
-                                                                 const Torus& torus) {
+                                                                 const TorusSize& torus) {
   const std::uint32_t p = torus.columns;
   const std::uint32_t q = torus.rows;
   if (const auto axes = skew_axes(name)) {
@@ -48,7 +49,7 @@ std::function<std::array<std::uint32_t, 2>(const Cell&)> formula(std::string_vie
   return {};
 }
 
-std::vector<PeNumber> balanced(const Grid& grid, const Torus& torus, std::span<const CellCost> costs) {
+std::vector<PeNumber> balanced(const Grid& grid, const TorusSize& torus, std::span<const CellCost> costs) {
   CellCost total;
   for (const CellCost& cost : costs) {
     total.bytes += cost.bytes;
@@ -86,19 +87,15 @@ std::vector<PeNumber> balanced(const Grid& grid, const Torus& torus, std::span<c
 
 }  // namespace
 
-unsigned Torus::hops(PeNumber a, PeNumber b) const {
-  const auto around = [](unsigned from, unsigned to, unsigned size) {
-    const unsigned apart = from > to ? from - to : to - from;
-    return std::min(apart, size - apart);
-  };
-  return around(a % columns, b % columns, columns) + around(a / columns, b / columns, rows);
+unsigned TorusSize::hops(PeNumber a, PeNumber b) const {
+  return TorusShape(columns, rows).hops(a, b);
 }
 
 bool is_allocation(std::string_view name) {
-  return name == "balanced" || static_cast<bool>(formula(name, Grid{}, Torus{}));
+  return name == "balanced" || static_cast<bool>(formula(name, Grid{}, TorusSize{}));
 }
 
-std::vector<PeNumber> allocate(std::string_view name, const Grid& grid, const Torus& torus,
+std::vector<PeNumber> allocate(std::string_view name, const Grid& grid, const TorusSize& torus,
                                std::span<const CellCost> costs) {
   if (name == "balanced") return balanced(grid, torus, costs);
   const auto place = formula(name, grid, torus);
@@ -114,7 +111,7 @@ std::vector<PeNumber> allocate(std::string_view name, const Grid& grid, const To
   return pe_of_cell;
 }
 
-double mean_neighbour_hops(const Grid& grid, const Torus& torus, std::span<const PeNumber> pe_of_cell) {
+double mean_neighbour_hops(const Grid& grid, const TorusSize& torus, std::span<const PeNumber> pe_of_cell) {
   std::uint64_t pairs = 0;
   std::uint64_t hops = 0;
   for (CellIndex index = 0; index < grid.count(); ++index) {

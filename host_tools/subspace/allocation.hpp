@@ -12,7 +12,7 @@
 
 namespace torolux {
 
-struct Torus {
+struct TorusSize {
   unsigned columns = 1;
   unsigned rows = 1;
   unsigned pes() const { return columns * rows; }
@@ -34,13 +34,13 @@ struct CellCost {
 ///   block        (x P / Gx, y Q / Gy): blocks of neighbours
 ///   balanced     dearest subspace first, each to the PE that is then the least full in memory and load
 /// Throws UsageError for another name.
-std::vector<protocol::PeNumber> allocate(std::string_view name, const Grid& grid, const Torus& torus,
+std::vector<protocol::PeNumber> allocate(std::string_view name, const Grid& grid, const TorusSize& torus,
                                          std::span<const CellCost> costs);
 
 /// For checks on the command line and its help.
 bool is_allocation(std::string_view name);
 
-/// Mean of Torus::hops over all pairs of face-adjacent cells; 0 with one cell.
-double mean_neighbour_hops(const Grid& grid, const Torus& torus, std::span<const protocol::PeNumber> pe_of_cell);
+/// Mean of TorusSize::hops over all pairs of face-adjacent cells; 0 with one cell.
+double mean_neighbour_hops(const Grid& grid, const TorusSize& torus, std::span<const protocol::PeNumber> pe_of_cell);
 
 }  // namespace torolux

@@ -27,7 +27,7 @@ TEST(Allocation, EverySubspaceIsOnAPeOfTheTorus) {
   const Grid grid = grid_of({8, 6, 9});
   for (const char* name : kNames) {
     EXPECT_TRUE(is_allocation(name));
-    for (const Torus& torus : {Torus{1, 1}, Torus{4, 4}, Torus{3, 5}, Torus{1, 8}}) {
+    for (const TorusSize& torus : {TorusSize{1, 1}, TorusSize{4, 4}, TorusSize{3, 5}, TorusSize{1, 8}}) {
       const auto pes = allocate(name, grid, torus, costs_of(grid));
       ASSERT_EQ(pes.size(), grid.count());
       EXPECT_LT(*std::max_element(pes.begin(), pes.end()), torus.pes()) << name;
@@ -45,7 +45,7 @@ TEST(Allocation, EveryPeIsUsedWhereTheGridIsLargeEnough) {
 
 TEST(Allocation, SkewedPutsNeighboursOnTheSameOrAdjacentPes) {
   const Grid grid = grid_of({7, 9, 8});
-  const Torus torus{4, 5};
+  const TorusSize torus{4, 5};
   for (const char* name : {"skewed", "skewed:xy", "skewed:yz"}) {
     const auto pes = allocate(name, grid, torus, {});
     for (CellIndex index = 0; index < grid.count(); ++index) {
@@ -61,7 +61,7 @@ TEST(Allocation, SkewedPutsNeighboursOnTheSameOrAdjacentPes) {
 TEST(Allocation, FormulasAreAsDocumented) {
   const Grid grid = grid_of({8, 8, 8});
   const CellIndex cell = grid.index({3, 6, 2});
-  const Torus torus{4, 4};
+  const TorusSize torus{4, 4};
   EXPECT_EQ(allocate("skewed", grid, torus, {})[cell], 4 * (6 % 4) + (3 + 2) % 4);
   EXPECT_EQ(allocate("skewed:xy", grid, torus, {})[cell], 4 * (2 % 4) + (3 + 6) % 4);
   EXPECT_EQ(allocate("skewed-both", grid, torus, {})[cell], 4 * ((6 + 2) % 4) + (3 + 2) % 4);
@@ -97,7 +97,7 @@ TEST(Allocation, UnknownNamesAreRefusedWithTheKnownOnes) {
 }
 
 TEST(Torus, HopsGoTheShorterWay) {
-  const Torus torus{5, 4};
+  const TorusSize torus{5, 4};
   EXPECT_EQ(torus.hops(0, 4), 1U);
   EXPECT_EQ(torus.hops(0, 2), 2U);
   EXPECT_EQ(torus.hops(0, 15), 1U);

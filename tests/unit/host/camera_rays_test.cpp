@@ -9,7 +9,7 @@
 #include <set>
 
 #include "emulator/errors.hpp"
-#include "host_tools/mesh/vector.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
@@ -25,7 +25,7 @@ TEST(CameraRays, FieldOfViewIsVerticalAndRowZeroOnTop) {
   EXPECT_NEAR(static_cast<double>(top[1] / -top[2]), half * (1 - 1.0 / 101), 1e-6);
   EXPECT_NEAR(static_cast<double>(middle[1]), 0, 1e-7);
   EXPECT_NEAR(static_cast<double>(left[0] / -left[2]), -half * 200 / 101 * (1 - 1.0 / 200), 1e-6);
-  EXPECT_NEAR(length(to_double(top)), 1, 1e-6);
+  EXPECT_NEAR(vec::length(to_double(top)), 1, 1e-6);
 }
 
 TEST(CameraRays, CamerasThatLookNowhereAreRefused) {
@@ -83,7 +83,7 @@ TEST(FirstSubspace, RaysFromOutsideEnterWhereTheyMeetTheBox) {
     const Vec3d target{inner(random), inner(random), inner(random)};
     const bool inside = eye[0] > 0 && eye[0] < 1 && eye[1] > 0 && eye[1] < 1 && eye[2] > 0 && eye[2] < 1;
     if (inside) continue;
-    const Vec3d direction = unit(subtract(target, eye));
+    const Vec3d direction = vec::unit(vec::subtract(target, eye));
     double t = 0;
     std::size_t axis = 0;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -93,7 +93,7 @@ TEST(FirstSubspace, RaysFromOutsideEnterWhereTheyMeetTheBox) {
         axis = a;
       }
     }
-    const Vec3d at = add(eye, scale(direction, t + 1e-9));
+    const Vec3d at = vec::add(eye, vec::scale(direction, t + 1e-9));
     const auto first = first_subspace(grid, to_float(eye), to_float(direction), nullptr);
     ASSERT_TRUE(first) << trial;
     EXPECT_EQ(first->flags >> protocol::kEntryAxisShift, axis) << trial;
@@ -112,7 +112,7 @@ TEST(FirstSubspace, RaysThatMissAreNotSent) {
   const Grid grid = grid_of({4, 4, 4});
   EXPECT_FALSE(first_subspace(grid, {-1, 0.5F, 0.5F}, {-1, 0, 0}, nullptr));
   EXPECT_FALSE(first_subspace(grid, {-1, 0.5F, 0.5F}, {0, 1, 0}, nullptr));
-  EXPECT_FALSE(first_subspace(grid, {-1, 3, 0.5F}, to_float(unit({1, 0.1, 0})), nullptr));
+  EXPECT_FALSE(first_subspace(grid, {-1, 3, 0.5F}, to_float(vec::unit({1, 0.1, 0})), nullptr));
   EXPECT_TRUE(first_subspace(grid, {-1, 0.5F, 0.5F}, {1, 0, 0}, nullptr));
 }
 

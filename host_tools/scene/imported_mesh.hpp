@@ -13,25 +13,25 @@
 namespace torolux {
 
 /// A material as read; checks of its values come after scene.toml's overrides.
-struct MeshMaterial {
+struct ImportedMaterial {
   SceneMaterial material;
   bool defined = true;  ///< false: used by faces, but in no library (scene.toml may still define it)
   Place place;          ///< its newmtl, or its first use
 };
 
-struct MeshTriangle {
+struct ImportedTriangle {
   std::array<std::uint32_t, 3> position;
   std::array<std::uint32_t, 3> normal;  ///< all kNoNormal where a corner has none
-  std::uint32_t material;               ///< into Mesh::materials
+  std::uint32_t material;               ///< into ImportedMesh::materials
   std::uint32_t line;                   ///< of its face
 };
 
-struct Mesh {
+struct ImportedMesh {
   std::string file;
   std::vector<Vec3d> positions;
   std::vector<Vec3d> normals;  ///< as written, any length
-  std::vector<MeshTriangle> triangles;
-  std::vector<MeshMaterial> materials;
+  std::vector<ImportedTriangle> triangles;
+  std::vector<ImportedMaterial> materials;
 };
 
 /// More are refused, with the number: what a PE's polygon numbers and this computer's memory bear with ease.
