@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Radiosity records: the flux of one hemi-cube pixel on its way. Enters: a record that arrived or was just created;
 // leaves: flux in an element, a record for another PE, or a sum in the tally.
-#include "firmware/pe/pe.hpp"
-#include "firmware/pe/segment.hpp"
+#include "firmware/pe/follow.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/flux.hpp"
@@ -66,12 +65,6 @@ bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   return true;
 }
 
-enum class RecordField : std::uint32_t { kind, subspace, entry_axis, patch, side, element, flux, slot };
-
-void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {
-  if (!holds) niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(field), value);
-}
-
 void check_deposit(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
   const Scene& scene = pe.scene;
   require(niu, record.subspace < scene.patches.size(), RecordField::patch, record.subspace);
@@ -92,15 +85,13 @@ void check_record(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
     return;
   }
   require(niu, record.kind <= RecordKind::seek, RecordField::kind, static_cast<std::uint32_t>(record.kind));
-  require(niu, record.subspace < pe.scene.subspaces.size(), RecordField::subspace, record.subspace);
-  require(niu, (record.flags & protocol::kEntryAxisMask) != protocol::kEntryAxisMask, RecordField::entry_axis,
-          record.flags);
+  check_walk(pe, niu, record);
 }
 
 }  // namespace
 
 void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
-  require(niu, slot < pe.slots.count() && !pe.slots.is_own(slot), RecordField::slot, slot);
+  check_slot(pe, niu, slot);
   const auto& record = pe.slots.at<RadiosityRecord>(slot);
   check_record(pe, niu, record);
   if (record.kind != RecordKind::deposit) {
@@ -116,11 +107,7 @@ void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
 void follow_light(Pe& pe, Niu& niu, Slot slot) {
   auto& record = pe.slots.at<RadiosityRecord>(slot);
   for (;;) {
-    Segment segment = segment_of(record);
-    niu.enter_phase<Phase::traverse>();
-    const Way way = traverse(pe.scene, niu.pe(), segment);
-    niu.leave_phase<Phase::traverse>();
-    note_progress(record, segment);
+    const Way way = traverse_record(pe, niu, record);
     if (way.end == WayEnd::handed_on) {
       pe.outbox.put(niu, pe.slots, way.next, slot);
       return;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray records: one sample's light path, followed from the eye. Enters: a record that arrived; leaves: light for a
 // pixel, or the record for another PE.
-#include "firmware/pe/pe.hpp"
-#include "firmware/pe/segment.hpp"
+#include "firmware/pe/follow.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/random.hpp"
@@ -136,11 +135,7 @@ bool next_path(Pe& pe, Niu& niu, Slot slot) {
 void follow_ray(Pe& pe, Niu& niu, Slot slot) {
   auto& record = pe.slots.at<RayRecord>(slot);
   for (;;) {
-    Segment segment = segment_of(record);
-    niu.enter_phase<Phase::traverse>();
-    const Way way = traverse(pe.scene, niu.pe(), segment);
-    niu.leave_phase<Phase::traverse>();
-    note_progress(record, segment);
+    const Way way = traverse_record(pe, niu, record);
     if (way.end == WayEnd::handed_on) {
       pe.outbox.put(niu, pe.slots, way.next, slot);
       return;
@@ -159,12 +154,6 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
   }
 }
 
-enum class RecordField : std::uint32_t { kind, subspace, entry_axis, waiting, branch_pe, branch_subspace, slot };
-
-void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {
-  if (!holds) niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(field), value);
-}
-
 void check_ray(const Pe& pe, Niu& niu, const RayRecord& record) {
   const auto subspaces = static_cast<std::uint32_t>(pe.scene.subspaces.size());
   const bool known = record.kind <= RecordKind::seek || (record.kind == RecordKind::branch && record.waiting > 0);
@@ -180,15 +169,13 @@ void check_ray(const Pe& pe, Niu& niu, const RayRecord& record) {
     require(niu, last.pe == niu.pe(), RecordField::branch_pe, last.pe);
     return;
   }
-  require(niu, record.subspace < subspaces, RecordField::subspace, record.subspace);
-  require(niu, (record.flags & protocol::kEntryAxisMask) != protocol::kEntryAxisMask, RecordField::entry_axis,
-          record.flags);
+  check_walk(pe, niu, record);
 }
 
 }  // namespace
 
 void handle_ray(Pe& pe, Niu& niu, Slot slot) {
-  require(niu, slot < pe.slots.count() && !pe.slots.is_own(slot), RecordField::slot, slot);
+  check_slot(pe, niu, slot);
   auto& record = pe.slots.at<RayRecord>(slot);
   check_ray(pe, niu, record);
   if (record.kind == RecordKind::branch) resume_branch(record);

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What records of both stages share: the checks of one that has just arrived, and its way through this PE's subspaces.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/pe/pe.hpp"
+#include "firmware/pe/segment.hpp"
+#include "firmware/pe/traverse.hpp"
+
+namespace torolux::pe {
+
+/// First detail of FaultCode::bad_record.
+enum class RecordField : std::uint32_t {
+  kind,
+  subspace,
+  entry_axis,
+  slot,
+  patch,
+  side,
+  element,
+  flux,
+  waiting,
+  branch_pe,
+  branch_subspace,
+};
+
+inline void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {
+  if (!holds) niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(field), value);
+}
+
+inline void check_slot(const Pe& pe, Niu& niu, Slot slot) {
+  require(niu, slot < pe.slots.count() && !pe.slots.is_own(slot), RecordField::slot, slot);
+}
+
+/// Where the walk stands, of a record of kind light or seek.
+template <class Record>
+void check_walk(const Pe& pe, Niu& niu, const Record& record) {
+  require(niu, record.subspace < pe.scene.subspaces.size(), RecordField::subspace, record.subspace);
+  require(niu, (record.flags & protocol::kEntryAxisMask) != protocol::kEntryAxisMask, RecordField::entry_axis,
+          record.flags);
+}
+
+/// As far as this PE can follow it; the record says where it has come to.
+template <class Record>
+Way traverse_record(const Pe& pe, Niu& niu, Record& record) {
+  Segment segment = segment_of(record);
+  niu.enter_phase<Phase::traverse>();
+  const Way way = traverse(pe.scene, niu.pe(), segment);
+  niu.leave_phase<Phase::traverse>();
+  note_progress(record, segment);
+  return way;
+}
+
+}  // namespace torolux::pe
