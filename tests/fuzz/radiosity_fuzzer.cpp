@@ -13,14 +13,18 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   return 0;
 }
 
-/// libFuzzer's own changes, but of a valid file where it has none: the head and the names of scene and settings (104
-/// bytes) are not to be found by chance.
+/// libFuzzer's own changes, but of a valid file where it has none yet; every second one keeps the valid file's length.
+/// Head, names of scene and settings, and length are not to be found by chance.
 extern "C" std::size_t LLVMFuzzerMutate(unsigned char* data, std::size_t size, std::size_t most);
-extern "C" std::size_t LLVMFuzzerCustomMutator(unsigned char* data, std::size_t size, std::size_t most, unsigned) {
+extern "C" std::size_t LLVMFuzzerCustomMutator(unsigned char* data, std::size_t size, std::size_t most, unsigned seed) {
   static const std::vector<std::byte> valid = torolux::RadiosityFuzz().valid_file();
-  if (size < 104 && valid.size() <= most) {
+  if (valid.size() > most) return LLVMFuzzerMutate(data, size, most);
+  if (size < 104) {
     std::memcpy(data, valid.data(), valid.size());
     size = valid.size();
   }
-  return LLVMFuzzerMutate(data, size, most);
+  const std::size_t changed = LLVMFuzzerMutate(data, size, most);
+  if (seed % 2 == 0) return changed;
+  if (changed < valid.size()) std::memcpy(data + changed, valid.data() + changed, valid.size() - changed);
+  return valid.size();
 }
