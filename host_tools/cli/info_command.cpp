@@ -87,8 +87,14 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
                                      ", max " + bytes_text(*most));
   }
   const double hertz = machine.description.processor.clock_hertz;
-  line("predicted time", significant(plan.predicted_cycles, 2) + " cycles, " + duration(plan.predicted_cycles / hertz) +
-                             " of the machine's time (rough)");
+  const Prediction& prediction = plan.prediction;
+  const auto rounded = [](double value) { return grouped(static_cast<std::uint64_t>(value)); };
+  line("predicted work", rounded(prediction.records) + " records of " + grouped(prediction.shots) + " shots, " +
+                             rounded(prediction.rays) + " camera rays, " + significant(prediction.instructions, 2) +
+                             " instructions");
+  line("predicted time", significant(prediction.cycles(), 2) + " cycles, " + duration(prediction.cycles() / hertz) +
+                             " of the machine's time; on this computer some " + duration(prediction.wall_seconds) +
+                             " (both rough)");
 }
 
 int run_info(const RenderOptions& options) {

@@ -97,11 +97,6 @@ Placement make_placement(const Mesh& mesh, const PlacementChoice& choice) {
   const std::vector<CellCost> costs = predict(mesh, placement, patch_cell, choice.records_per_patch);
   placement.pe_of_cell = allocate(choice.allocation, placement.grid, placement.torus, costs);
   spread(mesh, patch_cell, placement);
-  std::vector<double> load(placement.torus.pes(), 0.0);
-  for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
-    load[placement.pe_of_cell[cell]] += static_cast<double>(costs[cell].cycles);
-  }
-  placement.predicted_radiosity_cycles = *std::max_element(load.begin(), load.end());
   return placement;
 }
 

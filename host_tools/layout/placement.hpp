@@ -29,7 +29,6 @@ struct Placement {
   std::vector<std::vector<std::uint32_t>> polygons_of_pe;  ///< ascending: local number -> triangle
   std::vector<std::vector<std::uint32_t>> patches_of_pe;   ///< ascending: local number -> global patch
   std::vector<PatchHome> patch_home;                       ///< by global patch
-  double predicted_radiosity_cycles = 0;                   ///< rough: of the most loaded PE, records_per_patch each
   std::uint64_t filled_cells = 0;
 };
 
@@ -37,7 +36,7 @@ struct PlacementChoice {
   TorusSize torus;
   std::optional<std::array<std::uint32_t, 3>> subspaces;
   std::string allocation = "skewed";
-  double records_per_patch = 12288;  ///< expected in the radiosity stage; for predictions only
+  double records_per_patch = 12288;  ///< expected in the radiosity stage; for `balanced` only
 };
 
 /// Throws UsageError: unknown allocation, grid out of range.

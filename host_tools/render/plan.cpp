@@ -4,25 +4,11 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/render/predict.hpp"
 #include "host_tools/render/render.hpp"
 #include "host_tools/render/setup.hpp"
 
 namespace torolux {
-namespace {
-
-/// Rough: a camera ray crosses some subspaces with a dozen polygons each and is shaded once.
-constexpr double kCyclesPerRay = 12'000;
-
-void predict(const RenderSetup& setup, const Quality& quality, RenderPlan& plan) {
-  const double rays = static_cast<double>(quality.width) * quality.height * quality.samples;
-  std::uint64_t bytes = 0;
-  for (const std::uint64_t pe_bytes : setup.need.pe_bytes) bytes += pe_bytes;
-  // Loading goes over the bus at eight bytes a cycle, one PE after the other.
-  plan.predicted_cycles = setup.placement.predicted_radiosity_cycles +
-                          rays * kCyclesPerRay / setup.placement.torus.pes() + static_cast<double>(bytes) / 8;
-}
-
-}  // namespace
 
 RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice& machine,
                 const std::filesystem::path& pe_image) {
@@ -44,7 +30,7 @@ RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice&
         mean_neighbour_hops(setup.placement.grid, setup.placement.torus, setup.placement.pe_of_cell);
     if (!setup.memory) plan.refusals.push_back(setup.need.refusal(available));
     plan.notes = setup.notes;
-    predict(setup, quality, plan);
+    plan.prediction = predict(scene, setup, quality, machine);
   } catch (const InputError& error) {
     plan.refusals.emplace_back(error.what());
   }

@@ -82,6 +82,19 @@ struct RenderFiles {
   std::optional<std::filesystem::path> radiosity;  ///< skip the radiosity stage
 };
 
+/// Before anything has run.
+struct Prediction {
+  double load_cycles = 0, radiosity_cycles = 0, ray_tracing_cycles = 0;  ///< virtual time, both loads in one
+  double records = 0;                                                    ///< of the radiosity stage
+  std::uint64_t shots = 0;
+  double rays = 0;          ///< camera rays
+  double packets = 0;       ///< on the torus
+  double instructions = 0;  ///< of all PEs
+  double wall_seconds = 0;  ///< on the engine `qemu`, on a computer like the one where its speed was measured
+
+  double cycles() const { return load_cycles + radiosity_cycles + ray_tracing_cycles; }
+};
+
 /// What `torolux info` tells: nothing is run.
 struct RenderPlan {
   std::uint64_t triangles, patches, elements;
@@ -90,9 +103,9 @@ struct RenderPlan {
   std::uint32_t local_memory_needed;    ///< of the fullest PE, both stages
   std::uint32_t local_memory_bytes;     ///< chosen or given
   std::vector<std::uint64_t> pe_bytes;  ///< needed, by PE
-  double predicted_cycles;              ///< rough, all stages
-  double mean_neighbour_hops;           ///< torus distance between face-adjacent subspaces
-  std::vector<std::string> refusals;    ///< empty: it would run
+  Prediction prediction;
+  double mean_neighbour_hops;         ///< torus distance between face-adjacent subspaces
+  std::vector<std::string> refusals;  ///< empty: it would run
   std::vector<std::string> notes;
 };
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// See predict.hpp.
+#include "host_tools/render/predict.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/render/path_sample.hpp"
+
+namespace torolux {
+namespace {
+
+/// Paths that are followed for a prediction, from emitters; each goes on over some surfaces.
+constexpr std::uint32_t kPaths = 4000;
+
+/// Cycles of pe.elf with the built-in latencies, from the phases of renders of scenes/ on 1x1 to 4x4 PEs.
+constexpr double kCyclesToMake = 1000;    // a hemi-cube pixel's record, with its share of control
+constexpr double kCyclesToStart = 1700;   // a path: set-up, and the polygons that it really meets
+constexpr double kCyclesPerVisit = 130;   // of a subspace
+constexpr double kCyclesPerPolygon = 52;  // in its list; most are passed over by their boxes
+constexpr double kCyclesPerArrival = 830;
+constexpr double kCyclesPerTurn = 1000;  // at mirror or glass
+constexpr double kCyclesPerDeposit = 400;
+constexpr double kCyclesToShow = 600;  // light of a surface, into the frame buffer
+constexpr double kCyclesPerInstruction = 1.7;
+/// Of a PE's time in a round; the rest it waits for light that is on its way. With one PE nothing waits.
+constexpr double kUtilisation = 0.8;
+
+/// Instructions per second of this computer's cores and what a packet costs them, measured on one of 2020 with QEMU.
+constexpr double kInstructionsPerSecond = 400e6;
+constexpr double kSecondsPerPacket = 30e-6;
+/// Records in a packet on its way between PEs, on average.
+constexpr double kRecordsPerPacket = 5;
+
+double path_cycles(const PathWork& work, double starts) {
+  return starts * kCyclesToStart + work.arrivals * kCyclesPerArrival + work.visits * kCyclesPerVisit +
+         work.polygons * kCyclesPerPolygon + work.turns * (kCyclesPerTurn + kCyclesToStart) +
+         work.deposits * kCyclesPerDeposit;
+}
+
+/// Cycles of each PE per record of a sample. A path's start is counted where it ends, for want of better knowledge.
+std::vector<double> cycles_of_pes(const PathSample& sample) {
+  const double deposits = std::max(1e-9, sample.sum().deposits);
+  std::vector<double> cycles;
+  for (const PathWork& pe : sample.of_pe) cycles.push_back(path_cycles(pe, pe.deposits / deposits));
+  return cycles;
+}
+
+/// One side of a patch as a source of light. Of all emitted light the same share falls on it as of the sample's, and
+/// likewise of all reflected light, wherever that comes from.
+struct Source {
+  double unshot;          ///< [quanta, R + G + B]
+  double from_emitted;    ///< share of what is shot of emitted light that this side will reflect
+  double from_reflected;  ///< and of reflected light
+  std::uint32_t pe;
+  bool emits;
+};
+
+std::vector<Source> sources_of(const Scene& scene, const RenderSetup& setup, const LightSample& light) {
+  std::vector<Source> sources;
+  for (std::size_t t = 0; t < setup.mesh.triangles.size(); ++t) {
+    const MeshTriangle& triangle = setup.mesh.triangles[t];
+    const Vec3d& diffuse = scene.materials[triangle.material].diffuse;
+    const double reflectance = (diffuse[0] + diffuse[1] + diffuse[2]) / 3;
+    const std::uint32_t patches = protocol::triangles_of_level(triangle.patch_level);
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (triangle.first_side[side] == protocol::kNoSide) continue;
+      const protocol::Flux emission = patch_emission(scene, triangle, side, setup.units);
+      const auto emitted = static_cast<double>(emission[0] + emission[1] + emission[2]);
+      const double share = reflectance / patches;
+      for (std::uint32_t p = 0; p < patches; ++p) {
+        const std::uint32_t pe = setup.placement.patch_home[triangle.first_patch + p].pe;
+        sources.push_back({0, share * light.emitted.hits[t][side], share * light.reflected.hits[t][side], pe, false});
+        if (emitted > 0) sources.push_back({emitted, 0, 0, pe, true});
+      }
+    }
+  }
+  return sources;
+}
+
+/// The radiosity stage round by round: who would shoot, and how long the busiest PE would be at it.
+class Rounds {
+ public:
+  Rounds(const Scene& scene, const RenderSetup& setup, const Quality& quality, const LightSample& light)
+      : setup_(setup), settings_(radiosity_settings(scene, setup, quality)), sources_(sources_of(scene, setup, light)) {
+    const double pixels = protocol::hemicube_pixels(quality.hemicube);
+    kinds_ = {Kind{pixels * setup.parameters.shot_points * setup.parameters.shot_points, cycles_of_pes(light.reflected),
+                   light.reflected.sum().arrivals},
+              Kind{pixels * setup.parameters.emission_points * setup.parameters.emission_points,
+                   cycles_of_pes(light.emitted), light.emitted.sum().arrivals}};
+  }
+
+  void run(Prediction& prediction) {
+    double unshot = 0;
+    for (const Source& source : sources_) unshot += source.unshot;
+    while (unshot > static_cast<double>(settings_.enough_unshot) && shots_ < most_shots()) {
+      const std::size_t chosen = choose();
+      if (chosen == 0) break;
+      unshot = shoot(chosen, prediction);
+    }
+    prediction.shots = shots_;
+  }
+
+ private:
+  /// Of light reflected, or emitted.
+  struct Kind {
+    double records;              ///< of a shot
+    std::vector<double> cycles;  ///< of each PE, per record
+    double arrivals;             ///< per record
+  };
+  const Kind& kind_of(const Source& source) const { return kinds_[source.emits ? 1 : 0]; }
+  std::uint64_t most_shots() const { return settings_.max_shots > 0 ? settings_.max_shots : 10'000'000; }
+
+  /// Puts the shooters of the next round in front; their number.
+  std::size_t choose() {
+    const auto most = std::min<std::uint64_t>({settings_.shooters, sources_.size(), most_shots() - shots_});
+    const auto end = sources_.begin() + static_cast<std::ptrdiff_t>(most);
+    const auto more = [](const Source& a, const Source& b) { return a.unshot > b.unshot; };
+    if (end != sources_.end()) std::nth_element(sources_.begin(), end, sources_.end(), more);
+    return static_cast<std::size_t>(std::count_if(sources_.begin(), end, [this](const Source& source) {
+      return source.unshot > static_cast<double>(settings_.least_unshot);
+    }));
+  }
+
+  /// What is unshot afterwards.
+  double shoot(std::size_t chosen, Prediction& prediction) {
+    std::vector<double> busy(setup_.placement.torus.pes());
+    double emitted = 0;
+    double reflected = 0;
+    for (auto source = sources_.begin(); chosen > 0; ++source) {
+      if (!(source->unshot > static_cast<double>(settings_.least_unshot))) continue;
+      --chosen;
+      const Kind& kind = kind_of(*source);
+      (source->emits ? emitted : reflected) += source->unshot;
+      source->unshot = 0;
+      busy[source->pe] += kind.records * kCyclesToMake;
+      for (std::size_t pe = 0; pe < busy.size(); ++pe) busy[pe] += kind.records * kind.cycles[pe];
+      prediction.records += kind.records;
+      prediction.packets += kind.records * kind.arrivals / kRecordsPerPacket;
+      ++shots_;
+    }
+    double unshot = 0;
+    for (Source& source : sources_) {
+      source.unshot += emitted * source.from_emitted + reflected * source.from_reflected;
+      unshot += source.unshot;
+    }
+    for (const double cycles : busy) prediction.instructions += cycles / kCyclesPerInstruction;
+    prediction.radiosity_cycles += *std::max_element(busy.begin(), busy.end()) / (busy.size() > 1 ? kUtilisation : 1.0);
+    return unshot;
+  }
+
+  const RenderSetup& setup_;
+  RadiositySettings settings_;
+  std::vector<Source> sources_;
+  std::array<Kind, 2> kinds_;
+  std::uint64_t shots_ = 0;
+};
+
+void predict_load(const RenderSetup& setup, const MachineDescription& machine, Prediction& prediction) {
+  double all = 0;
+  for (const std::uint64_t bytes : setup.need.pe_bytes) all += static_cast<double>(bytes);
+  // Both stages, over the bus in turn and into each PE's memory.
+  prediction.load_cycles = 2 * std::max(all / machine.bus.bytes_per_cycle, static_cast<double>(setup.need.most()));
+}
+
+void predict_rays(const Quality& quality, const PathSample& reflected, Prediction& prediction) {
+  const double rays = static_cast<double>(quality.width) * quality.height * quality.samples;
+  const std::vector<double> cycles = cycles_of_pes(reflected);
+  const double busiest = *std::max_element(cycles.begin(), cycles.end());
+  double sum = 0;
+  for (const double pe : cycles) sum += pe;
+  prediction.rays = rays;
+  const double show = kCyclesToShow / static_cast<double>(cycles.size());
+  prediction.ray_tracing_cycles = rays * (busiest + show) / (cycles.size() > 1 ? kUtilisation : 1.0);
+  prediction.instructions += rays * (sum + kCyclesToShow) / kCyclesPerInstruction;
+  prediction.packets += rays * reflected.sum().arrivals / kRecordsPerPacket;
+}
+
+}  // namespace
+
+Prediction predict(const Scene& scene, const RenderSetup& setup, const Quality& quality, const MachineChoice& machine) {
+  Prediction prediction;
+  const LightSample light = sample_light(scene, setup.mesh, setup.placement, kPaths);
+  predict_load(setup, machine.description, prediction);
+  Rounds(scene, setup, quality, light).run(prediction);
+  predict_rays(quality, light.reflected, prediction);
+  const unsigned cores = machine.threads != 0 ? machine.threads : std::max(1U, std::thread::hardware_concurrency());
+  prediction.wall_seconds =
+      prediction.instructions / (kInstructionsPerSecond * std::min(cores, setup.placement.torus.pes())) +
+      prediction.packets * kSecondsPerPacket;
+  return prediction;
+}
+
+}  // namespace torolux

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What a render will take: mesh, placement and settings in; virtual time, records and instructions out, before anything
+// runs. Rough: within a factor of two where light fills the scene as it does in a room.
+#pragma once
+
+#include <cstdint>
+
+#include "host_tools/render/render.hpp"
+#include "host_tools/render/setup.hpp"
+
+namespace torolux {
+
+/// Throws InputError where there is no light.
+Prediction predict(const Scene& scene, const RenderSetup& setup, const Quality& quality, const MachineChoice& machine);
+
+}  // namespace torolux
