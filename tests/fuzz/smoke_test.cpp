@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fuzzers' corpus, cut and changed at random (a fixed seed) into ten thousand files of each kind: none crashes, each
-// refusal says where. Runs without libFuzzer, in every build.
+// The fuzzers' corpus, cut and changed at random (a fixed seed) into ten thousand files of each kind: none crashes,
+// each refusal says where. Runs without libFuzzer, in every build.
 #include <gtest/gtest.h>
 
 #include <algorithm>
