@@ -20,11 +20,11 @@ void pick(Value& value, const std::optional<Given>& given, const std::optional<S
 
 /// Runs `take` on a value of the scene; what it refuses is the scene's fault.
 template <class Take>
-void from_scene(const Scene& scene, const char* key, Take take) {
+void from_scene(const std::string& place, const char* key, Take take) {
   try {
     take();
   } catch (const std::runtime_error& error) {
-    throw InputError("scene " + scene.name + ": default " + key + ": " + error.what());
+    throw InputError(place + ": [defaults] '" + key + "': " + error.what());
   }
 }
 
@@ -67,9 +67,10 @@ MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   if (options.subspaces)
     machine.subspaces = options.subspaces->cells;
   else if (scene.defaults.subspaces)
-    from_scene(scene, "subspaces", [&] { machine.subspaces = parse_subspaces(*scene.defaults.subspaces); });
+    from_scene(scene.defaults.subspaces_place, "subspaces",
+               [&] { machine.subspaces = parse_subspaces(*scene.defaults.subspaces); });
   if (!options.allocation && scene.defaults.allocation)
-    from_scene(scene, "allocation", [&] { check_allocation(*scene.defaults.allocation); });
+    from_scene(scene.defaults.allocation_place, "allocation", [&] { check_allocation(*scene.defaults.allocation); });
   pick(machine.allocation, options.allocation, scene.defaults.allocation);
   machine.skip_empty_subspaces = !options.enter_empty;
   if (options.engine) machine.engine = *options.engine;

@@ -23,6 +23,9 @@ class SceneBuilder {
   /// Of all that was added so far.
   vec::Box bounds() const;
 
+  /// Whether any triangle added so far has an area.
+  bool has_surface() const;
+
   /// Positions, normals, triangles and the materials in use. Throws InputError: no surface with an area.
   void finish(Scene& scene, const Place& place);
 

@@ -85,12 +85,20 @@ bool normals_usable(const std::array<Vec3d, 3>& normals, const Vec3d& flat) {
 
 }  // namespace
 
-void SceneBuilder::finish(Scene& scene, const Place& place) {
+bool SceneBuilder::has_surface() const {
+  if (triangles_.empty()) return false;
   const vec::Box box = bounds();
-  const Vec3d extent = box.extent();
-  const double longest = triangles_.empty() ? 0 : vec::largest(extent);
-  if (!(longest > 1e-30)) refuse(place, "no surface with an area: there is nothing to render");
+  const double longest = vec::largest(box.extent());
+  return longest > 1e-30 && std::ranges::any_of(triangles_, [&](const SceneTriangle& triangle) {
+           const auto corner = [&](std::size_t i) { return as_float(positions_[triangle.position[i]], box, longest); };
+           return has_area(corner(0), corner(1), corner(2));
+         });
+}
 
+void SceneBuilder::finish(Scene& scene, const Place& place) {
+  if (!has_surface()) refuse(place, "no surface with an area: there is nothing to render");
+  const vec::Box box = bounds();
+  const double longest = vec::largest(box.extent());
   const std::vector<std::uint32_t> first = first_equal(positions_);
   for (SceneTriangle& triangle : triangles_)
     for (std::uint32_t& p : triangle.position) p = first[p];
@@ -133,7 +141,6 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
   scene.normals = normals.take();
   for (Vec3d& n : scene.normals) n = vec::unit(n);
   scene.materials = materials.take();
-  if (scene.triangles.empty()) refuse(place, "no surface with an area: there is nothing to render");
 }
 
 }  // namespace torolux

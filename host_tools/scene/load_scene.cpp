@@ -103,6 +103,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   scene.camera = file.camera;
   const vec::Box bounds = builder.bounds();
   if (options.studio) {
+    if (!builder.has_surface()) refuse(whole, "no surface with an area: there is nothing to put into the studio");
     if (options.camera) scene.camera = options.camera;
     add_studio(builder, scene.camera);
   }

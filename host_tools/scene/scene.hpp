@@ -43,6 +43,7 @@ struct SceneDefaults {
   std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, max_shots, bounces;
   std::optional<double> exposure_ev, patch_length, element_length, unshot;
   std::optional<std::string> subspaces, allocation;
+  std::string subspaces_place, allocation_place;  ///< FILE:LINE of these two, for messages
   std::optional<bool> two_sided_lights;
   std::optional<std::uint64_t> seed;
 };

@@ -106,8 +106,8 @@ std::optional<std::uint32_t> narrow(std::optional<std::uint64_t> value) {
 
 SceneDefaults read_defaults(TomlTable table) {
   SceneDefaults d;
-  d.width = narrow(table.integer("width", 1, 16384));
-  d.height = narrow(table.integer("height", 1, 16384));
+  d.width = narrow(table.integer("width", 1, 32768));
+  d.height = narrow(table.integer("height", 1, 32768));
   d.samples = narrow(table.integer("samples", 1, 65536));
   d.hemicube = narrow(table.integer("hemicube", 4, 256));
   if (d.hemicube && *d.hemicube % 2 != 0) refuse(table.place("hemicube"), "[defaults] 'hemicube' must be even");
@@ -120,6 +120,8 @@ SceneDefaults read_defaults(TomlTable table) {
   d.unshot = table.number("unshot", 0, 1);
   d.subspaces = table.text("subspaces");
   d.allocation = table.text("allocation");
+  if (d.subspaces) d.subspaces_place = table.place("subspaces").text();
+  if (d.allocation) d.allocation_place = table.place("allocation").text();
   d.two_sided_lights = table.flag("two_sided_lights");
   d.seed = table.integer("seed", 0, 0x7FFF'FFFF'FFFF'FFFFU);
   table.finish();

@@ -130,10 +130,12 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_THAT(settled.outputs, testing::ElementsAre("a.exr", "b.pfm"));
 }
 
-TEST(Settle, FaultsOfTheSceneNameTheScene) {
+TEST(Settle, FaultsOfTheSceneNameTheirPlace) {
   Scene scene = scene_with_defaults();
   scene.defaults.subspaces = "2x3";
-  EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }), HasSubstr("room"));
+  scene.defaults.subspaces_place = "room/scene.toml:7";
+  EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }),
+              testing::StartsWith("room/scene.toml:7: [defaults] 'subspaces'"));
   scene = scene_with_defaults();
   scene.defaults.allocation = "heaps";
   EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }), HasSubstr("heaps"));

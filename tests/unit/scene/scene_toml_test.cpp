@@ -118,6 +118,7 @@ TEST(SceneToml, CameraAndDefaults) {
   EXPECT_EQ(scene.defaults.unshot, 0.05);
   EXPECT_EQ(scene.defaults.subspaces, "2x2x2");
   EXPECT_EQ(scene.defaults.allocation, "block");
+  EXPECT_THAT(scene.defaults.subspaces_place, testing::MatchesRegex(".*:[0-9]+"));
   EXPECT_EQ(scene.defaults.two_sided_lights, true);
   EXPECT_EQ(scene.defaults.seed, 5U);
 }
@@ -157,7 +158,7 @@ TEST(SceneToml, RefusalsNameFileAndLine) {
   EXPECT_THAT(refused(kMesh + "[camera]\neye = [0, 1, 0]\nlook_at = [0, 0, 0]\nfov = 180\n"), HasSubstr("'fov'"));
   EXPECT_THAT(refused(kMesh + "[defaults]\nhemicube = 7\n"),
               StartsWith("s.toml:4: [defaults] 'hemicube' must be even"));
-  EXPECT_THAT(refused(kMesh + "[defaults]\nwidth = 0\n"), HasSubstr("allowed are 1 to 16384"));
+  EXPECT_THAT(refused(kMesh + "[defaults]\nwidth = 0\n"), HasSubstr("allowed are 1 to 32768"));
   EXPECT_THAT(refused(kMesh + "[defaults]\nseed = -1\n"), StartsWith("s.toml:4: "));
   EXPECT_THAT(refused("name = 'nothing'\n"), HasSubstr("nothing to render"));
   EXPECT_THAT(refused(std::string(5000, 'a') + "." + std::string(300, '.') + "\n"), StartsWith("s.toml:1: "));

@@ -145,6 +145,12 @@ TEST(Studio, RoomIsClosedFacesInwardsAndHoldsTheUsersCamera) {
   }
 }
 
+TEST(Studio, AMeshWithoutAreaIsRefused) {
+  for (const std::string mesh : {"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\n", ""}) {
+    EXPECT_THROW(load_texts({{"a.obj", mesh}}, "a.obj", true), InputError) << mesh;
+  }
+}
+
 TEST(Studio, NamesOfFoldersWithoutSceneAreExplained) {
   try {
     load_scene(kRoot / "tests/data", {});
