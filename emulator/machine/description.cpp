@@ -61,7 +61,9 @@ void add_other_keys(Description& d, std::vector<Key>& keys) {
   keys.push_back({"frame_buffer.queue_messages", &d.frame_buffer.queue_messages, 1, 65536});
   keys.push_back({"host.cycles_per_message", &d.host.cycles_per_message, 1, kMostCycles});
   keys.push_back({"records.credits_per_pe", &d.records.credits_per_pe, 1, 65536});
-  keys.push_back({"records.niu_slots", &d.records.niu_slots, protocol::kMostRecordsPerPacket, 8192});
+  keys.push_back({"records.niu_slots", &d.records.niu_slots, protocol::kMostRecordsPerPacket, 4096});
+  keys.push_back({"records.gather_cycles", &d.records.gather_cycles, 0, 1'000'000'000});
+  keys.push_back({"records.gather_records", &d.records.gather_records, 1, 4096});
 }
 
 std::vector<Key> keys_of(Description& description) {

@@ -44,23 +44,23 @@ struct MachineDescription {
 
   struct Torus {
     std::uint32_t flit_bytes = 16;
-    std::uint32_t router_cycles = 3;       ///< head of a packet through a router
-    std::uint32_t link_cycles = 1;         ///< and over a link, >= 1
-    std::uint32_t buffer_packets = 4;      ///< slots of the largest packet in each input buffer, >= 2
-    std::uint32_t slot_return_cycles = 1;  ///< until the router upstream knows of a freed slot, >= 1
-    std::uint32_t send_queue_packets = 4;  ///< outgoing queue of a NIU, >= 1
-    bool bubble = true;                    ///< off only to see the deadlock that it prevents
-    double link_error_rate = 0;            ///< chance that a packet's CRC fails on a link, 0..0.5
-    std::uint32_t retry_cycles = 8;        ///< from a failed CRC to the start of the next try
+    std::uint32_t router_cycles = 3;        ///< head of a packet through a router
+    std::uint32_t link_cycles = 1;          ///< and over a link, >= 1
+    std::uint32_t buffer_packets = 4;       ///< slots of the largest packet in each input buffer, >= 2
+    std::uint32_t slot_return_cycles = 1;   ///< until the router upstream knows of a freed slot, >= 1
+    std::uint32_t send_queue_packets = 32;  ///< outgoing queue of a NIU, >= 1
+    bool bubble = true;                     ///< off only to see the deadlock that it prevents
+    double link_error_rate = 0;             ///< chance that a packet's CRC fails on a link, 0..0.5
+    std::uint32_t retry_cycles = 8;         ///< from a failed CRC to the start of the next try
 
     bool operator==(const Torus&) const = default;
   } torus;
 
   struct Bus {
     std::uint32_t bytes_per_cycle = 8;
-    std::uint32_t arbitration_cycles = 4;   ///< >= 1
-    std::uint32_t send_queue_messages = 4;  ///< outgoing queue of a NIU, >= 1
-    std::uint32_t control_buffers = 2;      ///< messages that wait in a NIU for the processor, >= 1
+    std::uint32_t arbitration_cycles = 4;    ///< >= 1
+    std::uint32_t send_queue_messages = 16;  ///< outgoing queue of a NIU, >= 1
+    std::uint32_t control_buffers = 2;       ///< messages that wait in a NIU for the processor, >= 1
 
     bool operator==(const Bus&) const = default;
   } bus;
@@ -79,8 +79,10 @@ struct MachineDescription {
   } host;
 
   struct Records {
-    std::uint32_t credits_per_pe = 64;  ///< W = this * PEs, >= 1
-    std::uint32_t niu_slots = 512;      ///< record slots of a NIU, >= kMostRecordsPerPacket
+    std::uint32_t credits_per_pe = 128;    ///< W = this * PEs, >= 1
+    std::uint32_t niu_slots = 2048;        ///< record slots of a NIU, >= kMostRecordsPerPacket
+    std::uint32_t gather_cycles = 262144;  ///< NiuWindow::gather of the PE firmware
+    std::uint32_t gather_records = 2048;   ///< likewise
 
     bool operator==(const Records&) const = default;
   } records;

@@ -26,7 +26,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       image_(image),
       program_(program),
       events_(2 * std::size_t{pes_} + 3),
-      bounds_(pes_, kCommandCycles),
+      times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},
       nius_(make_nius(channels, setup.description)),
       parts_(pes_),
       torus_(TorusShape(setup.columns, setup.rows), setup.description.torus, setup.description.injected_delay_cycles,
@@ -132,7 +132,7 @@ void Emulation::slots_changed(unsigned pe) {
 
 void Emulation::injected(unsigned pe, Cycles now) {
   ++parts_[pe].packets_sent;
-  nius_[pe].left_torus_queue(now, bounds_);
+  nius_[pe].left_torus_queue(now, times_);
 }
 
 /// Slots if there are enough; otherwise the divert buffer, once it is free.
@@ -151,7 +151,7 @@ bool Emulation::accept(unsigned pe, BlockIndex block) {
 
 void Emulation::deliver(unsigned pe, BlockIndex block) {
   ++parts_[pe].packets_delivered;
-  if (parts_[pe].diverting != block) return nius_[pe].deliver(block, now_, pool_, bounds_);
+  if (parts_[pe].diverting != block) return nius_[pe].deliver(block, now_, pool_, times_);
   bus_.set_ready(BusRequester::divert(pe), true);
   bus_.try_grant(now_);
 }
@@ -189,7 +189,7 @@ BlockIndex Emulation::take(BusRequester requester, Cycles now) {
     }
   }
   update_outgoing(pe);
-  nius_[pe].left_bus_queue(now, bounds_);
+  nius_[pe].left_bus_queue(now, times_);
   return block;
 }
 
@@ -202,7 +202,7 @@ void Emulation::bus_done(BlockIndex index) {
     host_.arrive(index, now_);
     torus_.try_ejection(block.destination, now_);
   } else if (block.records != 0 || from_host_queue) {
-    nius_[block.destination].deliver(index, now_, pool_, bounds_);
+    nius_[block.destination].deliver(index, now_, pool_, times_);
   } else if (block.destination == protocol::kFrameBuffer) {
     controller_.arrive(index, now_);
   } else {

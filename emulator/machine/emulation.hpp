@@ -80,7 +80,7 @@ class Emulation final : private TorusClient, private BusClient {
   HostProgram& program_;
   EventQueue events_;
   BlockPool pool_;
-  BoundTree bounds_;
+  PeTimes times_;
   std::vector<NiuNetworkSide> nius_;
   std::vector<PePart> parts_;
   Torus torus_;

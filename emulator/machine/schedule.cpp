@@ -43,7 +43,7 @@ void Emulation::attend_now_and_then() {
 void Emulation::await(unsigned pe, Cycles wanted) {
   NiuNetworkSide& niu = nius_[pe];
   for (int i = 0; i < kLooks; ++i) {
-    if (niu.refresh(events_, pool_, bounds_)) return;
+    if (niu.refresh(events_, pool_, times_)) return;
     __builtin_ia32_pause();
   }
   niu.sleep_until_bound(wanted);
@@ -54,16 +54,21 @@ void Emulation::await(unsigned pe, Cycles wanted) {
 bool Emulation::next_event(Event& event) {
   for (;;) {
     const Cycles time = events_.empty() ? kNever : events_.top().time;
-    const Cycles least = bounds_.least();
+    const Cycles least = times_.bounds.least();
+    // Everything before this has happened, and no PE adds to it.
+    const Cycles known = std::min(time, least);
+    if (times_.releases.least() <= known && known != kNever) {
+      nius_[times_.releases.least_index()].release(known, times_);
+      continue;
+    }
     if (least > time) {
       event = events_.pop();
       return true;
     }
     if (least == kNever) return false;
-    const auto pe = static_cast<unsigned>(bounds_.least_index());
-    if (nius_[pe].refresh(events_, pool_, bounds_)) continue;
-    // Everything before `least` has happened, and no PE adds to it.
-    if (nius_[pe].waits_for() == WaitKind::receive_if_any) nius_[pe].publish_horizon(least);
+    const auto pe = static_cast<unsigned>(times_.bounds.least_index());
+    if (nius_[pe].refresh(events_, pool_, times_)) continue;
+    nius_[pe].publish_horizon(known);
     await(pe, time);
   }
 }
@@ -73,6 +78,10 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
   host_.start();
   Event event{};
   while (next_event(event)) {
+    if (event.time < now_) {  // only a wrong bound can do that
+      throw MachineFailure("virtual time runs backwards: an event of cycle " + std::to_string(event.time) +
+                           " became known at cycle " + std::to_string(now_));
+    }
     now_ = event.time;
     trace_hash_ = mix(mix(trace_hash_, event.time), event.order);
     handle(event);
@@ -90,7 +99,7 @@ bool Emulation::empty() const {
   if (torus_.packets_inside() != 0 || bus_.busy() || controller_.waiting() != 0 || !host_.idle()) return false;
   for (unsigned pe = 0; pe < pes_; ++pe) {
     const WaitKind waits = nius_[pe].waits_for();
-    if (waits != WaitKind::receive && waits != WaitKind::halted) return false;
+    if ((waits != WaitKind::receive || !nius_[pe].nothing_gathered()) && waits != WaitKind::halted) return false;
     if (!parts_[pe].outgoing.empty() || parts_[pe].diverting != kNoBlock || host_.waiting(pe) != 0) return false;
   }
   return true;
@@ -100,7 +109,7 @@ bool Emulation::empty() const {
 
 /// Whether a PE can do nothing before something else happens.
 bool Emulation::settled(unsigned pe) {
-  nius_[pe].refresh(events_, pool_, bounds_);
+  nius_[pe].refresh(events_, pool_, times_);
   return nius_[pe].waits_for() != WaitKind::running;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,33 +17,37 @@ namespace torolux {
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "shared between processes");
 
 /// Header: a struct that begins with `std::uint64_t time` and has `std::uint32_t bytes`, the payload's length.
-/// Zeroed memory is an empty ring. kBytes: a power of two.
-template <class Header, std::uint32_t kBytes>
+/// Zeroed memory is an empty ring. kMostBytes: a power of two.
+template <class Header, std::uint32_t kMostBytes>
 class ByteRing {
-  static_assert((kBytes & (kBytes - 1)) == 0 && sizeof(Header) % 8 == 0);
+  static_assert((kMostBytes & (kMostBytes - 1)) == 0 && sizeof(Header) % 8 == 0);
 
  public:
   static constexpr std::size_t entry_bytes(std::size_t payload) { return sizeof(Header) + (payload + 7) / 8 * 8; }
+
+  /// Of the memory, only so much is used (and so becomes resident): a power of two, at most kMostBytes. Before all
+  /// else.
+  void set_bytes(std::uint32_t bytes) { halvings_ = static_cast<std::uint32_t>(std::countr_zero(kMostBytes / bytes)); }
 
   // ---- writer ----
 
   /// Whether an entry with so much payload fits, wherever it comes to lie.
   bool has_room(std::size_t payload) const {
     const std::size_t used = written_.load(std::memory_order_relaxed) - read_.load(std::memory_order_acquire);
-    return kBytes - used >= 2 * entry_bytes(payload);
+    return bytes() - used >= 2 * entry_bytes(payload);
   }
   /// Only after has_room(payload.size()).
   void push(Header header, std::span<const std::byte> payload) {
     header.bytes = static_cast<std::uint32_t>(payload.size());
     std::uint64_t at = written_.load(std::memory_order_relaxed);
     const std::size_t entry = entry_bytes(payload.size());
-    if (kBytes - at % kBytes < entry) {
+    if (bytes() - place(at) < entry) {
       const std::uint64_t skip = kSkip;
-      std::memcpy(&data_[at % kBytes], &skip, sizeof skip);
-      at += kBytes - at % kBytes;
+      std::memcpy(&data_[place(at)], &skip, sizeof skip);
+      at += bytes() - place(at);
     }
-    std::memcpy(&data_[at % kBytes], &header, sizeof header);
-    if (!payload.empty()) std::memcpy(&data_[at % kBytes] + sizeof header, payload.data(), payload.size());
+    std::memcpy(&data_[place(at)], &header, sizeof header);
+    if (!payload.empty()) std::memcpy(&data_[place(at)] + sizeof header, payload.data(), payload.size());
     written_.store(at + entry, std::memory_order_seq_cst);
   }
 
@@ -54,12 +59,12 @@ class ByteRing {
     if (empty()) return nullptr;
     std::uint64_t at = read_.load(std::memory_order_relaxed);
     std::uint64_t time = 0;
-    std::memcpy(&time, &data_[at % kBytes], sizeof time);
+    std::memcpy(&time, &data_[place(at)], sizeof time);
     if (time == kSkip) {
-      at += kBytes - at % kBytes;
+      at += bytes() - place(at);
       read_.store(at, std::memory_order_release);
     }
-    return reinterpret_cast<const Header*>(&data_[at % kBytes]);
+    return reinterpret_cast<const Header*>(&data_[place(at)]);
   }
   static std::span<const std::byte> payload(const Header& header) {
     return {reinterpret_cast<const std::byte*>(&header) + sizeof header, header.bytes};
@@ -73,9 +78,13 @@ class ByteRing {
   /// In place of a time: the next entry begins at the ring's start.
   static constexpr std::uint64_t kSkip = std::numeric_limits<std::uint64_t>::max();
 
+  std::size_t bytes() const { return kMostBytes >> halvings_; }
+  std::size_t place(std::uint64_t at) const { return at & (bytes() - 1); }
+
+  std::uint32_t halvings_;
   alignas(64) std::atomic<std::uint64_t> written_;  ///< bytes ever written, gaps included
   alignas(64) std::atomic<std::uint64_t> read_;     ///< bytes ever read
-  alignas(64) std::array<std::byte, kBytes> data_;
+  alignas(64) std::array<std::byte, kMostBytes> data_;
 };
 
 }  // namespace torolux

@@ -19,7 +19,25 @@ inline constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max(
 /// Greatest length of a NIU's outgoing queues.
 inline constexpr std::uint32_t kMostSendQueue = 256;
 /// Most record slots of a NIU.
-inline constexpr std::uint32_t kMostNiuSlots = 8192;
+inline constexpr std::uint32_t kMostNiuSlots = 4096;
+/// A wake-up: the clock of a sleeping processor becomes `wake`; it is for the arrivals up to `last`.
+struct Gathering {
+  std::uint64_t wake;
+  std::uint64_t last;
+};
+/// For an arrival at `time`, if nothing else wakes the processor: at a tick, for what had come some time before it.
+/// Between the two all that the processor will see is known, so it need not wait for others.
+constexpr Gathering gathering(std::uint64_t time, std::uint32_t cycles) {
+  if (cycles == 0) return {time, time};
+  const std::uint64_t lead = cycles / 4;
+  const std::uint64_t wake = ((time + lead - 1) / cycles + 1) * cycles;
+  return {wake, wake - lead};
+}
+
+/// Size of the rings between the two sides. The more there is room, the further a processor runs ahead of the network.
+inline constexpr std::uint32_t kMostRingBytes = 128U << 10U;
+inline constexpr std::uint32_t kLeastRingBytes = 16U << 10U;  ///< in a machine of many PEs
+inline constexpr unsigned kManyPes = 64;
 /// From the end of a HINT to the moment when the network side sees what it did [cycles]: the lookahead of this edge.
 inline constexpr std::uint64_t kCommandCycles = 1;
 
@@ -86,12 +104,12 @@ static_assert(sizeof(Arrival) == 24);
 
 /// What a processor waits for. While it waits, no command will come until the network side gives it that.
 enum class WaitKind : std::uint8_t {
-  running,         ///< for nothing
-  receive,         ///< for arrival number `count` (from 0)
-  receive_if_any,  ///< for the same, or for the horizon to pass its clock
-  torus_place,     ///< for `count` packets to have left the outgoing queue
-  bus_place,       ///< for `count` messages to have left the outgoing queue
-  halted,          ///< for ever
+  running,      ///< for nothing
+  receive,      ///< to be woken when it has taken `count` arrivals
+  poll,         ///< for an arrival, or for the horizon to pass `count`
+  torus_place,  ///< for `count` packets to have left the outgoing queue
+  bus_place,    ///< for `count` messages to have left the outgoing queue
+  halted,       ///< for ever
 };
 constexpr std::uint64_t pack_wait(WaitKind kind, std::uint64_t count) {
   return (count << 3U) | static_cast<std::uint64_t>(kind);
@@ -117,11 +135,12 @@ struct Departures {
 
 /// What only the processor's side uses; here so that its owner may be any engine.
 struct ProcessorState {
-  std::uint64_t packets_sent;    ///< into the torus queue
-  std::uint64_t messages_sent;   ///< into the bus queue
-  std::uint64_t arrivals_taken;  ///< by receive
-  std::uint64_t last_hint;       ///< clock at the end of the last HINT
-  std::uint64_t phase_begin;     ///< busy cycles at the last marker
+  std::uint64_t packets_sent;   ///< into the torus queue
+  std::uint64_t messages_sent;  ///< into the bus queue
+  std::uint64_t gather_end;     ///< arrivals up to here belong to the last wake-up
+  std::uint32_t gathered;       ///< records of them so far
+  std::uint64_t last_hint;      ///< clock at the end of the last HINT
+  std::uint64_t phase_begin;    ///< busy cycles at the last marker
   std::uint32_t phase_depth;
   std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
   std::uint32_t slots_address, slot_bytes, own_slots, niu_slots;
@@ -146,7 +165,10 @@ struct NiuChannel {
   std::atomic<std::uint64_t> clock;              ///< at the end of the last HINT, or where the present one waits
   std::atomic<std::uint64_t> idle;               ///< [cycles] of `clock` spent waiting
   std::atomic<std::uint64_t> instructions;
+  std::atomic<std::uint64_t> taken;  ///< arrivals, so far
   std::array<std::atomic<std::uint64_t>, protocol::kPhases> phase_cycles;
+
+  std::atomic<std::uint32_t> gather_cycles, gather_records;  ///< NiuWindow::gather when it began to receive
 
   // The scheduler sleeps on network_signal; whoever reaches a bound beyond `wanted` wakes it and sets kNever.
   alignas(64) std::atomic<std::uint64_t> wanted;
@@ -156,14 +178,16 @@ struct NiuChannel {
   alignas(64) std::atomic<std::uint32_t> asleep;
   std::atomic<std::uint32_t> processor_signal;
   std::atomic<std::uint32_t> stopping;
-  std::atomic<std::uint64_t> horizon;  ///< all arrivals with earlier times have been pushed
+  std::atomic<std::uint64_t> horizon;    ///< all arrivals with earlier times have been pushed
+  std::atomic<std::uint64_t> wakes;      ///< arrivals that had been taken when the last wake-up was due, plus one
+  std::atomic<std::uint64_t> wake_time;  ///< of that; written before `wakes`
 
   alignas(64) Departures torus_departures;
   alignas(64) Departures bus_departures;
   alignas(64) ProcessorState processor;
-  ByteRing<Command, 16384> commands;
-  ByteRing<Arrival, 16384> arrivals;
+  ByteRing<Command, kMostRingBytes> commands;
+  ByteRing<Arrival, kMostRingBytes> arrivals;
 };
-static_assert(sizeof(NiuChannel) <= 65536);
+static_assert(sizeof(NiuChannel) - 2 * (kMostRingBytes - kLeastRingBytes) <= 65536);
 
 }  // namespace torolux

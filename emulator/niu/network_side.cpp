@@ -22,22 +22,25 @@ NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, c
   channel.bus_queue = machine.bus.send_queue_messages;
   channel.pes = pes;
   channel.most_cycles_between_hints = machine.processor.most_cycles_between_hints;
+  const std::uint32_t ring_bytes = pes > kManyPes ? kLeastRingBytes : kMostRingBytes;
+  channel.commands.set_bytes(ring_bytes);
+  channel.arrivals.set_bytes(ring_bytes);
   channel.processor.first_free = kNoSlot;
   channel.bound.store(kCommandCycles);
   channel.wanted.store(kNever);
 }
 
-bool NiuNetworkSide::refresh(EventQueue& events, BlockPool& pool, BoundTree& bounds) {
+bool NiuNetworkSide::refresh(EventQueue& events, BlockPool& pool, PeTimes& times) {
   // In this order: a wait that is seen belongs to a bound that is seen, and both to commands that are seen.
   wait_ = channel_->wait.load(std::memory_order_seq_cst);
-  floor_ = std::max(floor_, channel_->bound.load(std::memory_order_acquire));
+  bound_ = channel_->bound.load(std::memory_order_acquire);
+  floor_ = std::max(floor_, bound_);
   drain(events, pool);
   refill(pool);
-  const WaitKind waits = waits_for();
-  const Cycles bound = waits == WaitKind::running || waits == WaitKind::receive_if_any ? floor_ : kNever;
-  if (bound == bounds.at(pe_)) return false;
-  bounds.set(pe_, bound);
-  return true;
+  for (const std::uint64_t taken = channel_->taken.load(std::memory_order_relaxed); taken_ < taken; ++taken_) {
+    gathered_.pop_front();
+  }
+  return set_times(times);
 }
 
 WaitKind NiuNetworkSide::waits_for() const {
@@ -46,8 +49,10 @@ WaitKind NiuNetworkSide::waits_for() const {
   bool waits = true;
   switch (kind) {
     case WaitKind::receive:
-    case WaitKind::receive_if_any:
-      waits = count == delivered_;
+      waits = wakes_ <= count;
+      break;
+    case WaitKind::poll:
+      waits = channel_->horizon.load(std::memory_order_relaxed) <= count && channel_->arrivals.empty();
       break;
     case WaitKind::torus_place:
       waits = channel_->torus_departures.count.load(std::memory_order_relaxed) < count;
@@ -61,11 +66,72 @@ WaitKind NiuNetworkSide::waits_for() const {
   return waits ? kind : WaitKind::running;
 }
 
-bool NiuNetworkSide::publish_horizon(Cycles horizon) {
-  if (channel_->horizon.load(std::memory_order_relaxed) >= horizon) return false;
-  channel_->horizon.store(horizon, std::memory_order_seq_cst);
+/// The next wake-up of a processor that receives, if nothing more comes before its end; kNever: nothing is there.
+Gathering NiuNetworkSide::next_wake() const {
+  if (gathered_.empty()) return {kNever, kNever};
+  Gathering next = gathering(gathered_.front().time, channel_->gather_cycles.load(std::memory_order_relaxed));
+  const std::uint32_t enough = channel_->gather_records.load(std::memory_order_relaxed);
+  std::uint32_t records = 0;
+  for (const Gathered& arrival : gathered_) {
+    if (arrival.time > next.last) break;
+    records += arrival.records;
+    if (arrival.records == 0 || records >= enough) next = {arrival.time, 0};
+  }
+  return {std::max(bound_ - kCommandCycles, next.wake), next.last};
+}
+
+/// True: something has changed.
+bool NiuNetworkSide::set_times(PeTimes& times) const {
+  Cycles bound = floor_;
+  Cycles release = kNever;
+  switch (waits_for()) {
+    case WaitKind::running:
+      break;
+    case WaitKind::receive:
+      bound = release = kNever;
+      if (const Gathering next = next_wake(); next.wake != kNever) {
+        bound = next.wake + kCommandCycles;
+        release = next.last + 1;
+      }
+      break;
+    case WaitKind::poll:
+      release = wait_count(wait_) + 1;
+      break;
+    default:
+      bound = kNever;
+      break;
+  }
+  const bool new_bound = times.bounds.at(pe_) != bound;
+  const bool new_release = times.releases.at(pe_) != release;
+  if (new_bound) times.bounds.set(pe_, bound);
+  if (new_release) times.releases.set(pe_, release);
+  return new_bound || new_release;
+}
+
+void NiuNetworkSide::release(Cycles horizon, PeTimes& times) {
+  publish_horizon(horizon);
+  if (waits_for() == WaitKind::receive) {
+    const Cycles wake = next_wake().wake;
+    floor_ = std::max(floor_, wake + kCommandCycles);
+    wakes_ = wait_count(wait_) + 1;
+    channel_->wake_time.store(wake, std::memory_order_relaxed);
+    channel_->wakes.store(wakes_, std::memory_order_seq_cst);
+  }
   wake_processor();
-  return true;
+  set_times(times);
+}
+
+/// Whether the processor polls right now, whatever it did at the last refresh.
+bool NiuNetworkSide::polls() const {
+  return wait_kind(channel_->wait.load(std::memory_order_seq_cst)) == WaitKind::poll;
+}
+
+void NiuNetworkSide::publish_horizon(Cycles horizon) {
+  // What waits for room in the ring is not known to the processor.
+  if (!overflow_.empty()) horizon = std::min(horizon, overflow_.front().time);
+  if (channel_->horizon.load(std::memory_order_relaxed) >= horizon) return;
+  channel_->horizon.store(horizon, std::memory_order_seq_cst);
+  if (polls()) wake_processor();  // it may just have begun to
 }
 
 void NiuNetworkSide::sleep_until_bound(Cycles wanted) {
@@ -141,19 +207,17 @@ void NiuNetworkSide::release_slots(std::uint32_t records) {
 
 // ---- Towards the processor ----
 
-void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, BoundTree& bounds) {
-  const bool waited = waits_for() == WaitKind::receive;
-  ++delivered_;
+void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, PeTimes& times) {
   const Block& block = pool[index];
+  gathered_.push_back({now, block.records});
   if (overflow_.empty() && channel_->arrivals.has_room(block.bytes)) {
     push_arrival(block, now);
     pool.give_back(index);
   } else {
     overflow_.push_back({now, index});
   }
-  if (waited) may_go_on(now, bounds);
-  const WaitKind kind = waits_for();
-  if (kind != WaitKind::torus_place && kind != WaitKind::bus_place) wake_processor();
+  set_times(times);
+  if (polls()) wake_processor();
 }
 
 void NiuNetworkSide::push_arrival(const Block& block, Cycles time) {
@@ -173,18 +237,15 @@ void NiuNetworkSide::refill(BlockPool& pool) {
   if (any) wake_processor();
 }
 
-void NiuNetworkSide::left(Departures& departures, Cycles now, BoundTree& bounds) {
-  const bool waited = waits_for() == WaitKind::torus_place || waits_for() == WaitKind::bus_place;
+void NiuNetworkSide::left(Departures& departures, Cycles now, PeTimes& times) {
+  const bool waited = waits_for() != WaitKind::running;
   departures.add(now);
-  const WaitKind waits = waits_for();
-  if (waited && waits == WaitKind::running) may_go_on(now, bounds);
-  if (waits != WaitKind::receive && waits != WaitKind::receive_if_any) wake_processor();
-}
-
-/// A processor that waited has got what it waited for at `now`: its next command comes later.
-void NiuNetworkSide::may_go_on(Cycles now, BoundTree& bounds) {
-  floor_ = std::max(floor_, now + kCommandCycles);
-  bounds.set(pe_, floor_);
+  if (waits_for() != WaitKind::running) return;
+  if (waited) {
+    floor_ = std::max(floor_, now + kCommandCycles);  // it goes on no earlier
+    set_times(times);
+  }
+  wake_processor();
 }
 
 }  // namespace torolux

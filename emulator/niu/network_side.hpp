@@ -22,6 +22,12 @@ struct PendingCommand {
   BlockIndex block;  ///< kNoBlock: no payload
 };
 
+/// What the scheduler knows of each PE. Both are kNever where nothing happens before the network side acts.
+struct PeTimes {
+  BoundTree bounds;    ///< no command with an earlier time will come
+  BoundTree releases;  ///< once everything before is known, a PE that waits for just that may go on
+};
+
 class NiuNetworkSide {
  public:
   /// channel: zeroed. Event source of the PE = pe.
@@ -29,12 +35,14 @@ class NiuNetworkSide {
 
   // ---- Bounds and waiting; only the scheduler calls these ----
 
-  /// Takes in what the processor has said. True: its bound has changed.
-  bool refresh(EventQueue& events, BlockPool& pool, BoundTree& bounds);
+  /// Takes in what the processor has said. True: its times have changed.
+  bool refresh(EventQueue& events, BlockPool& pool, PeTimes& times);
   /// As of the last refresh, deliveries since taken into account. `running` unless it truly waits.
   WaitKind waits_for() const;
-  /// Lets a processor in receive_if_any know that all arrivals before `horizon` are known. False: it knows already.
-  bool publish_horizon(Cycles horizon);
+  /// Everything before `horizon` is known: the processor, which waits for that, goes on.
+  void release(Cycles horizon, PeTimes& times);
+  /// The same for one that does not wait, but may ask.
+  void publish_horizon(Cycles horizon);
   /// Sleeps until the processor's bound is later than `wanted`, or it waits, or some milliseconds have passed.
   void sleep_until_bound(Cycles wanted);
   void tell_to_stop();
@@ -59,20 +67,23 @@ class NiuNetworkSide {
   // ---- Towards the processor ----
 
   /// A packet or message, its room reserved, has come at `now`. The block belongs to the NIU from here on.
-  void deliver(BlockIndex block, Cycles now, BlockPool& pool, BoundTree& bounds);
-  void left_torus_queue(Cycles now, BoundTree& bounds) { left(channel_->torus_departures, now, bounds); }
-  void left_bus_queue(Cycles now, BoundTree& bounds) { left(channel_->bus_departures, now, bounds); }
+  void deliver(BlockIndex block, Cycles now, BlockPool& pool, PeTimes& times);
+  void left_torus_queue(Cycles now, PeTimes& times) { left(channel_->torus_departures, now, times); }
+  void left_bus_queue(Cycles now, PeTimes& times) { left(channel_->bus_departures, now, times); }
 
   const NiuChannel& channel() const { return *channel_; }
-  std::uint64_t arrivals() const { return delivered_; }
+  /// Whether all that was delivered has been taken, as of the last refresh.
+  bool nothing_gathered() const { return gathered_.empty(); }
 
  private:
   void drain(EventQueue& events, BlockPool& pool);
   void refill(BlockPool& pool);
   void push_arrival(const Block& block, Cycles time);
-  void left(Departures& departures, Cycles now, BoundTree& bounds);
+  void left(Departures& departures, Cycles now, PeTimes& times);
   void wake_processor();
-  void may_go_on(Cycles now, BoundTree& bounds);
+  bool set_times(PeTimes& times) const;
+  Gathering next_wake() const;
+  bool polls() const;
 
   struct Overflow {
     Cycles time;
@@ -81,9 +92,18 @@ class NiuNetworkSide {
 
   NiuChannel* channel_;
   unsigned pe_;
+  /// An arrival that the processor has not taken.
+  struct Gathered {
+    Cycles time;
+    std::uint32_t records;  // 0: a message
+  };
+
   Cycles floor_ = kCommandCycles;  // no command with an earlier time
-  std::uint64_t wait_ = 0;         // as of the last refresh
-  std::uint64_t delivered_ = 0;
+  Cycles bound_ = kCommandCycles;  // as of the last refresh, like the two that follow
+  std::uint64_t wait_ = 0;
+  std::uint64_t taken_ = 0;
+  std::uint64_t wakes_ = 0;        // as in the channel
+  std::deque<Gathered> gathered_;  // numbers taken_ and up
   std::uint32_t sends_ = 0;
   std::uint32_t slots_ = 0, used_ = 0, high_water_ = 0;
   std::uint32_t control_buffers_, control_used_ = 0;

@@ -9,6 +9,8 @@
 
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/futex.hpp"
+#include "emulator/niu/profile.hpp"
+#include "emulator/niu/slot_list.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
 namespace torolux {
@@ -45,7 +47,8 @@ class HintRun {
  private:
   void send_records();
   void send_message();
-  void receive(bool may_return_empty);
+  void receive();
+  void poll(std::uint64_t by);
   void set_slots();
   void take(const Arrival& arrival);
   void take_records(const Arrival& arrival, std::span<const std::byte> records);
@@ -53,11 +56,12 @@ class HintRun {
 
   bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind);
   bool wait_for_room();
+  bool wakes_now(const Arrival& head) const;
+  void take_nothing();
   template <class Ready>
   bool sleep_until(WaitKind kind, std::uint64_t count, Ready ready);
 
-  bool release_slot(std::uint32_t slot);
-  std::uint16_t take_slot();
+  bool give_back(std::uint32_t slot);
   bool inside_memory(std::uint64_t address, std::uint64_t bytes) const {
     return address >= kLocalMemoryBase && address - kLocalMemoryBase + bytes <= memory_.size();
   }
@@ -71,7 +75,9 @@ class HintRun {
   }
   void push(const Command& command, std::span<const std::byte> payload) { channel_.commands.push(command, payload); }
   void end_with_fault(NiuFaultCode code, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0) {
-    const NiuFault fault{code, {a, b, c}};
+    end_with_fault({code, {a, b, c}});
+  }
+  void end_with_fault(const NiuFault& fault) {
     push(CommandKind::fault, 0, std::as_bytes(std::span(&fault, 1)));
     end();
   }
@@ -87,15 +93,19 @@ class HintRun {
   bool stop_ = false;
 };
 
+void wake_network(NiuChannel& channel) {
+  channel.wanted.store(kNever, std::memory_order_relaxed);
+  channel.network_signal.fetch_add(1, std::memory_order_seq_cst);
+  futex_wake(channel.network_signal);
+}
+
 void publish_bound(NiuChannel& channel, std::uint64_t bound, std::uint64_t wait) {
   channel.bound.store(bound, std::memory_order_release);
   channel.wait.store(wait, std::memory_order_seq_cst);
   const std::uint64_t wanted = channel.wanted.load(std::memory_order_seq_cst);
   const bool waits = wait_kind(wait) != WaitKind::running;
   if (wanted == kNever || (bound <= wanted && !waits)) return;
-  channel.wanted.store(kNever, std::memory_order_relaxed);
-  channel.network_signal.fetch_add(1, std::memory_order_seq_cst);
-  futex_wake(channel.network_signal);
+  wake_network(channel);
 }
 
 /// Says what the processor waits for, and sleeps a while unless `ready` holds. True: ready.
@@ -142,10 +152,13 @@ bool HintRun::execute(Hint hint) {
       send_message();
       break;
     case Hint::receive:
-      receive(false);
+      receive();
       break;
     case Hint::receive_if_any:
-      receive(true);
+      poll(clock_);
+      break;
+    case Hint::receive_more:
+      poll(state_.gather_end);
       break;
     case Hint::clock:
       window_.clock = clock_;
@@ -170,29 +183,10 @@ bool HintRun::execute(Hint hint) {
 
 // ---- Slots ----
 
-bool HintRun::release_slot(std::uint32_t slot) {
-  const std::uint32_t index = slot - state_.own_slots;
-  if (slot < state_.own_slots || index >= state_.niu_slots) {
-    end_with_fault(NiuFaultCode::bad_slot, slot, state_.own_slots, state_.niu_slots);
-    return false;
-  }
-  if (state_.next_free[index] != kSlotInUse) {
-    end_with_fault(NiuFaultCode::slot_not_in_use, slot);
-    return false;
-  }
-  state_.next_free[index] = state_.first_free;
-  state_.first_free = static_cast<std::uint16_t>(index);
-  ++state_.slots_free;
-  return true;
-}
-
-/// The network side has made sure that there is one.
-std::uint16_t HintRun::take_slot() {
-  const std::uint16_t index = state_.first_free;
-  state_.first_free = state_.next_free[index];
-  state_.next_free[index] = kSlotInUse;
-  --state_.slots_free;
-  return static_cast<std::uint16_t>(index + state_.own_slots);
+bool HintRun::give_back(std::uint32_t slot) {
+  const auto fault = release_slot(state_, slot);
+  if (fault) end_with_fault(*fault);
+  return !fault;
 }
 
 void HintRun::release_listed() {
@@ -203,7 +197,7 @@ void HintRun::release_listed() {
     return;
   }
   for (std::uint32_t i = 0; i < released; ++i) {
-    if (!release_slot(window_.release[i])) return;
+    if (!give_back(window_.release[i])) return;
   }
   window_.released = 0;
   push(CommandKind::release, released);
@@ -218,14 +212,7 @@ void HintRun::set_slots() {
   if (state_.slots_free != state_.niu_slots) {
     return end_with_fault(NiuFaultCode::slots_in_use, state_.niu_slots - state_.slots_free);
   }
-  state_.slots_address = slots.address;
-  state_.slot_bytes = slots.bytes;
-  state_.own_slots = slots.own;
-  state_.niu_slots = state_.slots_free = slots.niu;
-  for (std::uint32_t i = 0; i < slots.niu; ++i) {
-    state_.next_free[i] = i + 1 < slots.niu ? static_cast<std::uint16_t>(i + 1) : kNoSlot;
-  }
-  state_.first_free = slots.niu != 0 ? std::uint16_t{0} : kNoSlot;
+  set_slot_list(state_, slots);
   const SlotsCommand command{slots.niu, slots.bytes};
   push(CommandKind::set_slots, 0, std::as_bytes(std::span(&command, 1)));
 }
@@ -264,7 +251,7 @@ void HintRun::send_records() {
     }
     std::memcpy(&records[std::size_t{i} * state_.slot_bytes], slot_bytes(slot), state_.slot_bytes);
     if (slot < state_.own_slots) continue;
-    if (!release_slot(slot)) return;
+    if (!give_back(slot)) return;
     ++released;
   }
   ++state_.packets_sent;
@@ -299,29 +286,59 @@ void HintRun::send_message() {
 
 // ---- Receiving ----
 
-void HintRun::receive(bool may_return_empty) {
+/// Whether the first arrival alone decides when the processor is woken: then nobody need be asked.
+bool HintRun::wakes_now(const Arrival& head) const {
+  return static_cast<protocol::ArrivalKind>(head.kind) == protocol::ArrivalKind::message ||
+         head.count >= window_.gather.records || gathering(head.time, window_.gather.cycles).wake <= clock_;
+}
+
+void HintRun::receive() {
   release_listed();
   if (stop_) return;
-  const auto has_come = [&] { return !channel_.arrivals.empty(); };
-  if (!may_return_empty) {
-    if (sleep_until(WaitKind::receive, state_.arrivals_taken, has_come)) take(*channel_.arrivals.front());
-    return;
-  }
-  // The horizon is read before the ring: what came before it is then seen.
-  const auto is_known = [&] { return channel_.horizon.load(std::memory_order_seq_cst) > clock_ || has_come(); };
-  if (!sleep_until(WaitKind::receive_if_any, state_.arrivals_taken, is_known)) return;
   const Arrival* head = channel_.arrivals.front();
-  if (head != nullptr && head->time <= clock_) {
+  if (head != nullptr && (window_.gather.cycles == 0 || wakes_now(*head))) {
+    clock_ = std::max(clock_, head->time);
+  } else {
+    channel_.gather_cycles.store(window_.gather.cycles, std::memory_order_relaxed);
+    channel_.gather_records.store(window_.gather.records, std::memory_order_relaxed);
+    const std::uint64_t taken = channel_.taken.load(std::memory_order_relaxed);
+    const auto is_due = [&] { return channel_.wakes.load(std::memory_order_seq_cst) > taken; };
+    if (!sleep_until(WaitKind::receive, taken, is_due)) return;
+    clock_ = channel_.wake_time.load(std::memory_order_relaxed);
+    head = channel_.arrivals.front();
+  }
+  state_.gather_end = gathering(head->time, window_.gather.cycles).last;
+  state_.gathered = 0;
+  take(*head);
+}
+
+/// Takes the next of what has come by a time that is not after the clock, if there is one.
+void HintRun::poll(std::uint64_t by) {
+  release_listed();
+  if (stop_) return;
+  // The horizon is read before the ring: what came before it is then seen.
+  const auto is_known = [&] {
+    return channel_.horizon.load(std::memory_order_seq_cst) > by || !channel_.arrivals.empty();
+  };
+  if (!sleep_until(WaitKind::poll, by, is_known)) return;
+  const Arrival* head = channel_.arrivals.front();
+  if (head != nullptr && head->time <= by) {
     take(*head);
   } else {
-    window_.arrival.kind = protocol::ArrivalKind::none;
-    window_.arrival.source = protocol::kNobody;
-    window_.arrival.count = 0;
+    take_nothing();
   }
 }
 
+void HintRun::take_nothing() {
+  window_.arrival.kind = protocol::ArrivalKind::none;
+  window_.arrival.source = protocol::kNobody;
+  window_.arrival.count = 0;
+}
+
 void HintRun::take(const Arrival& arrival) {
-  clock_ = std::max(clock_, arrival.time);
+  state_.gathered += arrival.count;
+  const bool ends = arrival.count == 0 || state_.gathered >= window_.gather.records;
+  if (ends) state_.gather_end = 0;
   window_.arrival.kind = static_cast<protocol::ArrivalKind>(arrival.kind);
   window_.arrival.source = arrival.source;
   window_.arrival.count = arrival.count;
@@ -333,65 +350,30 @@ void HintRun::take(const Arrival& arrival) {
     if (!payload.empty()) std::memcpy(window_.message_bytes.data(), payload.data(), payload.size());
     push(CommandKind::received);
   }
-  ++state_.arrivals_taken;
+  channel_.taken.store(channel_.taken.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   channel_.arrivals.pop(arrival);
 }
 
 void HintRun::take_records(const Arrival& arrival, std::span<const std::byte> records) {
   for (std::uint32_t i = 0; i < arrival.count; ++i) {
-    const std::uint16_t slot = take_slot();
+    const std::uint16_t slot = take_slot(state_);
     window_.arrival.slots[i] = slot;
     std::memcpy(slot_bytes(slot), records.data() + std::size_t{i} * state_.slot_bytes, state_.slot_bytes);
   }
-}
-
-// ---- Markers ----
-
-constexpr bool is_marker(std::int32_t immediate) {
-  return immediate >= static_cast<std::int32_t>(Hint::enter_phase) &&
-         immediate < static_cast<std::int32_t>(Hint::leave_phase) + static_cast<std::int32_t>(protocol::kPhases) &&
-         immediate % 64 < static_cast<std::int32_t>(protocol::kPhases);
-}
-
-/// Charges the busy cycles since the last marker to the innermost open phase.
-void charge_phase(NiuChannel& channel, std::uint64_t clock) {
-  ProcessorState& state = channel.processor;
-  const std::uint64_t busy = clock - channel.idle.load(std::memory_order_relaxed);
-  if (state.phase_depth != 0) {
-    auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];
-    cycles.store(cycles.load(std::memory_order_relaxed) + busy - state.phase_begin, std::memory_order_relaxed);
-  }
-  state.phase_begin = busy;
-}
-
-/// False: markers do not nest as they should.
-bool mark(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock) {
-  ProcessorState& state = channel.processor;
-  charge_phase(channel, clock);
-  const auto phase = static_cast<std::uint8_t>(immediate % 64);
-  if (immediate < static_cast<std::int32_t>(Hint::leave_phase)) {
-    if (state.phase_depth == state.phases.size()) return false;
-    state.phases[state.phase_depth] = phase;
-    ++state.phase_depth;
-    return true;
-  }
-  if (state.phase_depth == 0 || state.phases[state.phase_depth - 1] != phase) return false;
-  --state.phase_depth;
-  return true;
-}
-
-void report_phase_mismatch(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock) {
-  const ProcessorState& state = channel.processor;
-  const std::uint32_t open = state.phase_depth != 0 ? state.phases[state.phase_depth - 1] : protocol::kPhases;
-  const NiuFault fault{NiuFaultCode::phase_mismatch, {static_cast<std::uint32_t>(immediate % 64), open, 0}};
-  channel.commands.push({clock + kCommandCycles, CommandKind::fault, 0, 0, 0, 0, 0},
-                        std::as_bytes(std::span(&fault, 1)));
 }
 
 }  // namespace
 
 std::size_t niu_channel_bytes() {
   return sizeof(NiuChannel);
+}
+std::uint64_t niu_channel_layout() {
+  const std::array<std::size_t, 6> facts{sizeof(NiuChannel),           offsetof(NiuChannel, wanted),
+                                         offsetof(NiuChannel, asleep), offsetof(NiuChannel, processor),
+                                         sizeof(ProcessorState),       protocol::kProtocolVersion};
+  std::uint64_t layout = 0;
+  for (const std::size_t fact : facts) layout = layout * 0x1'0000'01B3U + fact;
+  return layout;
 }
 NiuChannel* niu_channel_at(void* memory) {
   return static_cast<NiuChannel*>(memory);
@@ -408,20 +390,20 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     return {stop, clock};
   }
   channel_.instructions.store(instructions, std::memory_order_relaxed);
-  const bool marker = is_marker(immediate);
-  if (marker && mark(channel_, immediate, clock)) return {done, clock};
+  const bool marker = is_phase_marker_immediate(immediate);
+  if (marker && mark_phase(channel_, immediate, clock)) {
+    // Not a command, but news: the next HINT ends no earlier.
+    channel_.bound.store(clock + kCommandCycles, std::memory_order_release);
+    if (clock + kCommandCycles > channel_.wanted.load(std::memory_order_relaxed)) wake_network(channel_);
+    return {done, clock};
+  }
 
   auto& window = *reinterpret_cast<NiuWindow*>(local_memory_.data() + window_offset_);
   HintRun run(channel_, local_memory_, window_offset_, clock);
-  bool happened = false;
-  if (marker) {
-    report_phase_mismatch(channel_, immediate, clock);
-  } else {
-    happened = run.execute(static_cast<Hint>(immediate));
-    if (!happened && !run.must_stop()) {
-      window.retry = 1;
-      return {retry, clock};
-    }
+  const bool happened = !marker && run.execute(static_cast<Hint>(immediate));
+  if (!happened && !marker && !run.must_stop()) {
+    window.retry = 1;
+    return {retry, clock};
   }
   const std::uint64_t waited = run.clock() - clock;
   channel_.idle.store(channel_.idle.load(std::memory_order_relaxed) + waited, std::memory_order_relaxed);

@@ -15,6 +15,8 @@ struct NiuChannel;
 /// Bytes of a channel, and the channel that lies (zeroed or in use) at `memory`, aligned to 4096.
 std::size_t niu_channel_bytes();
 NiuChannel* niu_channel_at(void* memory);
+/// Differs between builds whose channels are laid out differently: both sides must be from one build.
+std::uint64_t niu_channel_layout();
 
 class NiuProcessorSide {
  public:

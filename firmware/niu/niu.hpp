@@ -97,7 +97,8 @@ class Niu {
     send_message(protocol::kHost, static_cast<std::uint16_t>(kind), std::as_bytes(std::span(&contents, 1)));
   }
 
-  /// Sleeps until something has come. The record slots that it names are the program's until sent or released.
+  /// Sleeps until something has come, and records have gathered as `gather` says. The record slots that the arrival
+  /// names are the program's until sent or released.
   const NiuWindow::Arrival& receive() {
     execute<Hint::receive>();
     return window().arrival;
@@ -107,6 +108,13 @@ class Niu {
     execute<Hint::receive_if_any>();
     return window().arrival;
   }
+  /// The rest of what had come when `receive` ended; kind `none` if there is nothing left of it.
+  const NiuWindow::Arrival& receive_more() {
+    execute<Hint::receive_more>();
+    return window().arrival;
+  }
+  /// `receive` lets records gather until `cycles` after the first one came, or until there are `records` of them.
+  void gather(std::uint32_t cycles, std::uint32_t records) { window().gather = {cycles, records}; }
   /// The message of the last arrival of kind `message`; valid until the next one.
   const protocol::MessageHeader& message() const { return window().message; }
   std::span<const std::byte> message_bytes() const { return {window().message_bytes.data(), window().message.bytes}; }

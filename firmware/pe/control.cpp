@@ -36,6 +36,7 @@ void begin(Pe& pe, Niu& niu) {
   pe.tally = {};
   niu.set_slots(layout.record_slots.address, protocol::slot_bytes(layout.stage), layout.own_slots,
                 layout.record_slots.count - layout.own_slots);
+  niu.gather(layout.gather_cycles, layout.gather_records);
   pe.state = State::running;
   niu.send(MessageKind::ready);
 }

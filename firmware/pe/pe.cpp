@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The loop of a PE: receive, handle, and when nothing more has come, send what waits and sleep.
+// The loop of a PE: sleep until woken, handle what has gathered, send what waits.
 #include "firmware/pe/pe.hpp"
 
 namespace torolux::pe {
@@ -30,19 +30,15 @@ void handle_records(Pe& pe, Niu& niu, const NiuWindow::Arrival& arrival) {
 
 void run_pe(Pe& pe, Niu& niu) {
   for (;;) {
-    const bool waiting = !pe.outbox.empty() || !pe.homecoming.empty();
-    const NiuWindow::Arrival& arrival = waiting ? niu.receive_if_any() : niu.receive();
-    switch (arrival.kind) {
-      case ArrivalKind::none:
-        flush(pe, niu);
-        break;
-      case ArrivalKind::records:
-        handle_records(pe, niu, arrival);
-        break;
-      case ArrivalKind::message:
-        if (!handle_message(pe, niu)) return;
-        break;
+    const NiuWindow::Arrival* arrival = &niu.receive();
+    for (; arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
+      if (arrival->kind == ArrivalKind::records) {
+        handle_records(pe, niu, *arrival);
+      } else if (!handle_message(pe, niu)) {
+        return;
+      }
     }
+    if (!pe.outbox.empty() || !pe.homecoming.empty()) flush(pe, niu);
   }
 }
 

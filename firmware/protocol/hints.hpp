@@ -14,7 +14,8 @@ enum class Hint : std::int32_t {
   send_records = 1,
   /// Send `window.send` as a message over the bus to the host or the FBC. Waits while the outgoing queue is full.
   send_message = 2,
-  /// Sleep until a packet or message has come, then bring it in: fills `window.arrival`.
+  /// Sleep until the NIU wakes the processor, then bring the first packet or message in: fills `window.arrival`.
+  /// It wakes at once for a message, and for records as `window.gather` says.
   receive = 3,
   /// As `receive`, but where nothing has come by now, `window.arrival.kind` is `none` and the processor goes on.
   receive_if_any = 4,
@@ -26,6 +27,9 @@ enum class Hint : std::int32_t {
   halt = 7,
   /// The program has failed: as halt, but ends the run; `window.fault` says why.
   fail = 8,
+  /// As `receive_if_any`, but only for the rest of what had gathered when the NIU last woke the processor, or would
+  /// have, had it not been busy. So the answer depends on what other PEs did in the past, and not now.
+  receive_more = 9,
   /// enter_phase + p and leave_phase + p, p in 0..kPhases-1: markers for the profile. They cost no cycles and may nest.
   enter_phase = 64,
   leave_phase = 128,

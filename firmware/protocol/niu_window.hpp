@@ -60,6 +60,14 @@ struct NiuWindow {
     std::array<std::uint16_t, kMostRecordsPerPacket> slots;
   } send;
 
+  /// How long the NIU lets records gather before it wakes the processor from `receive` (interrupt moderation): until so
+  /// many cycles after the first of them came, or until there are so many. Set by the program; zeros at the start: it
+  /// wakes at once.
+  struct Gather {
+    std::uint32_t cycles;
+    std::uint32_t records;
+  } gather;
+
   /// NIU slots whose records have died: freed, and `released` set to 0, by the next send or receive.
   std::uint32_t released;
   std::array<std::uint16_t, 64> release;

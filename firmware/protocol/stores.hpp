@@ -179,7 +179,8 @@ struct StageLayout {
   Store normals;                       ///< Vec3f[]
   Store record_slots;                  ///< RadiosityRecord[] or RayRecord[]: own_slots, then the NIU's
   std::uint32_t own_slots;
-  std::uint32_t bounces;  ///< path segments after which light is cut off
+  std::uint32_t gather_cycles, gather_records;  ///< NiuWindow::gather
+  std::uint32_t bounces;                        ///< path segments after which light is cut off
   // Radiosity stage (counts 0 in the other).
   Store patch_references;         ///< PatchReference[]
   Store patches;                  ///< Patch[]
@@ -194,6 +195,6 @@ struct StageLayout {
   float pixel_scale;   ///< quanta per unit of radiance
   float least_weight;  ///< a ray whose weights are all below dies
 };
-static_assert(sizeof(StageLayout) == 156);
+static_assert(sizeof(StageLayout) == 164);
 
 }  // namespace torolux::protocol

@@ -111,6 +111,8 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.record_slots =
       allocator.place("record slots", std::uint64_t{layout.own_slots} + map.niu_slots, protocol::slot_bytes(stage));
   result.end = allocator.next();
+  layout.gather_cycles = map.gather_cycles;
+  layout.gather_records = map.gather_records;
   if (stage == Stage::radiosity) {
     layout.hemicube_size = parameters.hemicube;
     layout.shot_points = parameters.shot_points;

@@ -84,7 +84,8 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
   placement.records_per_patch =
       4.0 * quality.shot_points * quality.shot_points * protocol::hemicube_pixels(quality.hemicube);
   setup.placement = make_placement(setup.mesh, placement);
-  setup.map = {image.stores_begin, machine.description.records.niu_slots};
+  const MachineDescription::Records& records = machine.description.records;
+  setup.map = {image.stores_begin, records.niu_slots, records.gather_cycles, records.gather_records};
   setup.need = memory_need(setup.mesh, setup.placement, setup.parameters, setup.map);
   setup.memory = choose_memory(setup.need, machine.pe_memory);
   setup.credits = std::uint64_t{machine.description.records.credits_per_pe} * setup.placement.torus.pes();

@@ -84,6 +84,7 @@ void HintRecorder::happened(std::int32_t immediate, std::uint64_t clock, std::ui
   switch (static_cast<Hint>(immediate)) {
     case Hint::receive:
     case Hint::receive_if_any:
+    case Hint::receive_more:
       add_receive(patches);
       break;
     case Hint::clock:

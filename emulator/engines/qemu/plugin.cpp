@@ -181,7 +181,7 @@ const char* install(qemu_plugin_id_t id, const qemu_info_t& info, std::string_vi
     return "the shared memory cannot be mapped";
   }
   auto& share = *reinterpret_cast<PluginShare*>(share_memory->data());
-  if (share.version != kPluginShareVersion) {
+  if (share.version != kPluginShareVersion || share.channel_layout != niu_channel_layout()) {
     return "plugin and emulator are not from the same build";
   }
   const auto channel = map_descriptor(share.channel_descriptor);

@@ -9,7 +9,7 @@
 
 namespace torolux {
 
-inline constexpr std::uint32_t kPluginShareVersion = 1;
+inline constexpr std::uint32_t kPluginShareVersion = 2;
 
 enum class HintLogUse : std::uint32_t { none, record, replay };
 
@@ -22,6 +22,7 @@ struct PluginShare {
   std::int32_t local_descriptor;     ///< local memory, likewise
   std::int32_t log_descriptor;       ///< see hint_log.hpp; only where it is used
   HintLogUse log_use;
+  std::uint64_t channel_layout;  ///< niu_channel_layout()
   LatencyTable latency;
 
   // Counted by the translated code at the start of each block, so ahead of the PE by up to a block.

@@ -13,6 +13,7 @@
 #include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/engines/qemu/qemu_process.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/niu/processor_side.hpp"
 
 namespace torolux {
 namespace {
@@ -110,6 +111,7 @@ PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Lau
   const PeMemory& pe = launch.setup.pes[number];
   auto& share = *new (memory.bytes().data()) PluginShare{};  // placed in memory that SharedMemory owns
   share.version = kPluginShareVersion;
+  share.channel_layout = niu_channel_layout();
   share.window_offset = launch.setup.image.niu_window - protocol::kLocalMemoryBase;
   share.local_memory_bytes = pe.local_memory_bytes;
   share.channel_descriptor = pe.channel.descriptor();

@@ -66,6 +66,7 @@ void FakePe::hint(std::int32_t immediate) {
     case Hint::receive:
       return receive(true);
     case Hint::receive_if_any:
+    case Hint::receive_more:
       return receive(false);
     case Hint::set_slots:
       return set_slots();

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Phases nest; each cycle belongs to the innermost one.
+#include "emulator/niu/profile.hpp"
+
+#include <span>
+
+#include "firmware/protocol/hints.hpp"
+
+namespace torolux {
+
+namespace {
+
+using protocol::Hint;
+
+constexpr auto kEnter = static_cast<std::int32_t>(Hint::enter_phase);
+constexpr auto kLeave = static_cast<std::int32_t>(Hint::leave_phase);
+
+void charge(NiuChannel& channel, std::uint64_t clock) {
+  ProcessorState& state = channel.processor;
+  const std::uint64_t busy = clock - channel.idle.load(std::memory_order_relaxed);
+  if (state.phase_depth != 0) {
+    auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];
+    cycles.store(cycles.load(std::memory_order_relaxed) + busy - state.phase_begin, std::memory_order_relaxed);
+  }
+  state.phase_begin = busy;
+}
+
+void report_mismatch(NiuChannel& channel, std::uint8_t phase, std::uint64_t clock) {
+  const ProcessorState& state = channel.processor;
+  const std::uint32_t open = state.phase_depth != 0 ? state.phases[state.phase_depth - 1] : protocol::kPhases;
+  const NiuFault fault{NiuFaultCode::phase_mismatch, {phase, open, 0}};
+  channel.commands.push({clock + kCommandCycles, CommandKind::fault, 0, 0, 0, 0, 0},
+                        std::as_bytes(std::span(&fault, 1)));
+}
+
+}  // namespace
+
+bool is_phase_marker_immediate(std::int32_t immediate) {
+  constexpr auto phases = static_cast<std::int32_t>(protocol::kPhases);
+  return immediate >= kEnter && immediate < kLeave + phases && immediate % 64 < phases;
+}
+
+bool mark_phase(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock) {
+  charge(channel, clock);
+  ProcessorState& state = channel.processor;
+  const auto phase = static_cast<std::uint8_t>(immediate % 64);
+  if (immediate < kLeave && state.phase_depth < state.phases.size()) {
+    state.phases[state.phase_depth] = phase;
+    ++state.phase_depth;
+    return true;
+  }
+  if (immediate >= kLeave && state.phase_depth != 0 && state.phases[state.phase_depth - 1] == phase) {
+    --state.phase_depth;
+    return true;
+  }
+  report_mismatch(channel, phase, clock);
+  return false;
+}
+
+}  // namespace torolux
