@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// How a NIU lets records gather before it wakes its processor: when, for what, and that it is the same every time.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "emulator/niu/channel.hpp"
+#include "tests/unit/emulator/wanderers.hpp"
+
+namespace torolux::test {
+
+namespace {
+
+constexpr std::uint32_t kTick = 1000;
+constexpr Cycles kLead = kTick / 4;
+/// From the end of a send of one record to its arrival at the next PE: see Machine.ZeroLoadLatencyIsExact.
+constexpr Cycles kLatency = 1 + 2 * 4 + 4;
+
+/// What one `receive` and the `receive_more` after it brought.
+struct Batch {
+  std::uint64_t woken;
+  std::uint32_t arrivals;
+  std::uint32_t records;
+};
+
+/// PE 0 sends one record each to arrive at PE 1 at the times given; the batches in which PE 1 gets them.
+std::vector<Batch> batches(const std::vector<Cycles>& arrive, std::uint32_t enough,
+                           const std::function<void(HostPort&)>& at_start = {}, std::uint32_t messages = 0) {
+  const auto program = [&](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, 64);
+    if (niu.pe() == 0) {
+      for (std::size_t i = 0; i < arrive.size(); ++i) {
+        clock.spend(arrive[i] - kLatency - 1 - clock.cycles());
+        record(niu, static_cast<std::uint32_t>(i)) = {};
+        send_one(niu, 1, static_cast<std::uint16_t>(i));
+      }
+    } else if (niu.pe() == 1) {
+      niu.gather(kTick, enough);
+      for (std::size_t got = 0; got < arrive.size() + messages;) {
+        Batch batch{0, 0, 0};
+        for (const auto* arrival = &niu.receive(); arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
+          if (batch.arrivals == 0) batch.woken = clock.cycles();
+          ++batch.arrivals;
+          batch.records += arrival->count;
+        }
+        got += batch.arrivals;
+        niu.send(static_cast<protocol::MessageKind>(kText), batch);
+      }
+      niu.send(static_cast<protocol::MessageKind>(kDone));
+    }
+    sleep_for_ever(niu);
+  };
+  NativeOptions options;
+  options.cycles_per_hint = 1;
+  class Host final : public ListeningHost {
+   public:
+    Host() : ListeningHost(0) {}
+    bool finished() const override { return !heard.empty() && heard.back().kind == kDone; }
+  } host;
+  host.at_start = at_start;
+  run(small_machine(2, 1), host, program, options);
+  std::vector<Batch> result;
+  for (const Heard& one : host.heard) {
+    if (one.kind == kText) result.push_back(one.as<Batch>());
+  }
+  return result;
+}
+
+TEST(Gather, WakesAtATickForWhatHadComeAQuarterBefore) {
+  // The first two have come at 2000 - 250, the third 30 cycles later: it is for the tick after.
+  const auto got = batches({1300, 2000 - kLead, 2000 - kLead + 30}, 64);
+  ASSERT_EQ(got.size(), 2U);
+  EXPECT_EQ(got[0].woken, 2000U);
+  EXPECT_EQ(got[0].arrivals, 2U);
+  EXPECT_EQ(got[1].woken, 3000U);
+  EXPECT_EQ(got[1].arrivals, 1U);
+}
+
+TEST(Gather, EnoughRecordsWakeAtOnce) {
+  const auto got = batches({1300, 1340, 1380, 1420}, 3);
+  ASSERT_EQ(got.size(), 2U);
+  EXPECT_EQ(got[0].woken, 1380U);
+  EXPECT_EQ(got[0].records, 3U);
+  EXPECT_EQ(got[1].woken, 2000U);
+}
+
+TEST(Gather, AMessageWakesAtOnceAndEndsWhatIsGathered) {
+  // Host message: made in 50 cycles per message before it, so some hundreds of them arrive between records.
+  const auto go = [](HostPort& port) { port.send_message(1, kGo, {}); };
+  const auto got = batches({1300, 1340}, 64, go, 1);
+  ASSERT_EQ(got.size(), 2U);
+  EXPECT_LT(got[0].woken, 200U);
+  EXPECT_EQ(got[0].records, 0U);
+  EXPECT_EQ(got[1].woken, 2000U);
+  EXPECT_EQ(got[1].records, 2U);
+}
+
+TEST(Gather, ABusyProcessorTakesWhatATickWouldHaveBroughtIt) {
+  // PE 1 works from 2000 until long after 4000: the records of the ticks at 3000 and 4000 come in two batches, at once.
+  const std::vector<Cycles> arrive = {1300, 2100, 2200, 3100};
+  ListeningHost host(1);
+  NativeOptions options;
+  options.cycles_per_hint = 1;
+  std::vector<Batch> got;
+  run(
+      small_machine(2, 1), host,
+      [&](Niu& niu, NativeClock& clock) {
+        set_test_slots(niu, 64);
+        if (niu.pe() == 0) {
+          for (std::size_t i = 0; i < arrive.size(); ++i) {
+            clock.spend(arrive[i] - kLatency - 1 - clock.cycles());
+            record(niu, static_cast<std::uint32_t>(i)) = {};
+            send_one(niu, 1, static_cast<std::uint16_t>(i));
+          }
+        } else {
+          niu.gather(kTick, 64);
+          for (int i = 0; i < 3; ++i) {
+            Batch batch{0, 0, 0};
+            for (const auto* a = &niu.receive(); a->kind != ArrivalKind::none; a = &niu.receive_more()) {
+              if (batch.arrivals++ == 0) batch.woken = clock.cycles();
+            }
+            got.push_back(batch);
+            if (i == 0) clock.spend(9000 - clock.cycles());
+          }
+          niu.send(static_cast<protocol::MessageKind>(kDone));
+        }
+        sleep_for_ever(niu);
+      },
+      options);
+  ASSERT_EQ(got.size(), 3U);
+  EXPECT_EQ(got[0].woken, 2000U);
+  EXPECT_EQ(got[1].arrivals, 2U);
+  EXPECT_EQ(got[1].woken, 9001U);
+  EXPECT_EQ(got[2].arrivals, 1U);
+  EXPECT_LT(got[2].woken, 9020U);
+}
+
+TEST(Gather, MoreThanTheRingHoldsIsStillOneBatch) {
+  // More than kManyPes PEs, so the rings are small: 1500 packets overflow PE 0's by far.
+  constexpr std::uint32_t kEach = 21;
+  const auto pes = kManyPes + 8;
+  Batch got{0, 0, 0};
+  ListeningHost host(1);
+  run(small_machine(8, 9), host, [&](Niu& niu, NativeClock& /*clock*/) {
+    set_test_slots(niu, niu.pe() == 0 ? 2048 : 0);
+    if (niu.pe() == 0) {
+      niu.gather(1'000'000, 4096);
+      for (const auto* a = &niu.receive(); a->kind != ArrivalKind::none; a = &niu.receive_more()) ++got.arrivals;
+      niu.send(static_cast<protocol::MessageKind>(kDone));
+    } else {
+      for (std::uint32_t i = 0; i < kEach; ++i) {
+        record(niu, i) = {};
+        send_one(niu, 0, static_cast<std::uint16_t>(i));
+      }
+    }
+    sleep_for_ever(niu);
+  });
+  EXPECT_EQ(got.arrivals, (pes - 1) * kEach);
+}
+
+/// As wanderers(), but each PE handles what has gathered, then tells the host how many have died.
+NativeProgram gatherers(std::uint32_t per_pe, std::uint32_t life, std::uint32_t cycles, std::uint32_t enough) {
+  return [=](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, 256);
+    niu.gather(cycles, enough);
+    for (std::uint32_t i = 0; i < per_pe; ++i) {
+      const auto slot = static_cast<std::uint16_t>(i % kOwnSlots);
+      record(niu, slot) = {niu.pe(), i, life, 0, {}};
+      send_one(niu, protocol::hash_combine(niu.pe(), i) % niu.pes(), slot);
+    }
+    for (;;) {
+      std::uint32_t died = 0;
+      for (const auto* arrival = &niu.receive(); arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
+        const auto slots = arrival->slots;
+        const std::uint32_t count = arrival->count;
+        for (std::uint32_t i = 0; i < count; ++i) {
+          TestRecord& got = record(niu, slots[i]);
+          clock.spend(protocol::hash_combine(got.number, got.life) % 300);
+          if (--got.life == 0) {
+            niu.release(slots[i]);
+            ++died;
+          } else {
+            const std::uint32_t key = protocol::hash_combine(got.source * 1000 + got.number, got.life);
+            send_one(niu, key % niu.pes(), slots[i]);
+          }
+        }
+      }
+      if (died != 0) niu.send(static_cast<protocol::MessageKind>(kDone), died);
+    }
+  };
+}
+
+class GatherRepeats : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(GatherRepeats, SameRunWhateverTheThreadsDo) {
+  MachineSetup setup = small_machine(3, 3);
+  setup.description.torus.send_queue_packets = 2;
+  std::string first;
+  for (unsigned attempt = 0; attempt < 5; ++attempt) {
+    NativeOptions options;
+    options.before_hint = [attempt](unsigned pe) {
+      if (attempt == 0) return;
+      thread_local std::minstd_rand random(attempt * 1000 + pe + 1);
+      const auto roll = random() % 64;
+      if (roll == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 300));
+      if (roll < 8) std::this_thread::yield();
+    };
+    CountingHost host(9 * 60);
+    const Outcome outcome = run(setup, host, gatherers(60, 12, GetParam(), 20), options);
+    std::string all = outcome.figures;
+    for (const Heard& heard : outcome.heard) {
+      all += std::to_string(heard.time) + ":" + std::to_string(heard.source) + " ";
+    }
+    if (attempt == 0) first = all;
+    ASSERT_EQ(all, first) << "attempt " << attempt;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ticks, GatherRepeats, testing::Values(0U, 100U, 5'000U));
+
+}  // namespace
+
+}  // namespace torolux::test
