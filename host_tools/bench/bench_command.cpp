@@ -22,6 +22,7 @@ struct BenchOptions {
   std::string pes = "4x4";
   unsigned max_shots = 200;
   unsigned size = 64;
+  unsigned repetitions = 3;
   unsigned threads = 0;
 };
 
@@ -46,7 +47,8 @@ void print_speed(const char* label, const EngineSpeed& speed) {
 void print(const EngineBenchResult& result) {
   print_speed("in the machine", result.machine);
   print_speed("QEMU alone", result.bare);
-  std::cout << left("ratio", 22) << right(significant(result.ratio(), 3), 10) << "\n"
+  std::cout << left("ratio", 22) << right(significant(result.ratio(), 3), 10) << " by wall time, "
+            << significant(result.cpu_ratio(), 3) << " by host CPU time of the PEs\n"
             << left("emulator's own share", 22) << right(percent(result.emulator_share()), 10) << " of "
             << significant(result.scheduler_seconds + result.machine.cpu_seconds, 4) << " s of host CPU\n";
   if (!result.whole) {
@@ -61,6 +63,7 @@ int run_bench_engine(const BenchOptions& options) {
   EngineBenchJob job{scene, scene.camera.value_or(Camera{}), {}, {}, firmware_image()};
   job.quality.width = job.quality.height = options.size;
   job.quality.max_shots = options.max_shots;
+  job.repetitions = options.repetitions;
   const auto pes = parse_pes(options.pes);
   job.machine.columns = pes[0];
   job.machine.rows = pes[1];
@@ -95,6 +98,10 @@ void add_bench_command(CLI::App& app, CommandAction& action) {
       ->capture_default_str();
   engine->add_option("--max-shots", options->max_shots, "Patches shot in all; 0: no limit")
       ->type_name("N")
+      ->capture_default_str();
+  engine->add_option("--repetitions", options->repetitions, "Measurements of each, by turns; the fastest counts")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 1000U))
       ->capture_default_str();
   engine->add_option("--machine", options->machine, "Parameters of the machine [built in]")->type_name("FILE.toml");
   engine->add_option("--threads", options->threads, "Threads of this computer that work for the machine [all cores]")

@@ -32,6 +32,8 @@ struct EngineBenchResult {
 
   /// Speed in the machine / speed of QEMU alone, both by wall time on the same cores.
   double ratio() const { return machine.instructions_per_second() / bare.instructions_per_second(); }
+  /// The same, both by the host CPU time of the PEs' processes.
+  double cpu_ratio() const { return machine.instructions_per_cpu_second() / bare.instructions_per_cpu_second(); }
   /// Of all host CPU time in the render.
   double emulator_share() const { return scheduler_seconds / (scheduler_seconds + machine.cpu_seconds); }
 };
@@ -43,10 +45,11 @@ struct EngineBenchJob {
   Quality quality;
   MachineChoice machine;
   std::filesystem::path pe_image;
+  unsigned repetitions = 1;  ///< of the two measurements, by turns: other programs disturb the one or the other
 };
 
-/// Renders twice: once to measure, once to record what the NIU gave each PE. Then starts all PEs again and replays
-/// that to them. Throws as render does; step is told what comes next, progress as by render.
+/// Renders once to record what the NIU gave each PE; then, by turns, renders and starts all PEs again to replay that to
+/// them. Of each the fastest counts. Throws as render does; step is told what comes next, progress as by render.
 EngineBenchResult bench_engine(const EngineBenchJob& job, const std::function<void(const char*)>& step,
                                const std::function<bool(const RenderProgress&)>& progress);
 

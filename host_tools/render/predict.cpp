@@ -29,9 +29,9 @@ constexpr double kUtilisation = 0.8;
 
 /// Instructions per second of this computer's cores and what a packet costs them, measured on one of 2020 with QEMU.
 constexpr double kInstructionsPerSecond = 400e6;
-constexpr double kSecondsPerPacket = 30e-6;
+constexpr double kSecondsPerPacket = 5e-6;
 /// Records in a packet on its way between PEs, on average.
-constexpr double kRecordsPerPacket = 5;
+constexpr double kRecordsPerPacket = 9;
 
 double path_cycles(const PathWork& work, double starts) {
   return starts * kCyclesToStart + work.arrivals * kCyclesPerArrival + work.visits * kCyclesPerVisit +
