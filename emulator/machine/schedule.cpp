@@ -58,7 +58,9 @@ bool Emulation::next_event(Event& event) {
     // Everything before this has happened, and no PE adds to it.
     const Cycles known = std::min(time, least);
     if (times_.releases.least() <= known && known != kNever) {
-      nius_[times_.releases.least_index()].release(known, times_);
+      NiuNetworkSide& niu = nius_[times_.releases.least_index()];
+      // What did not fit into its ring may fit now, and be what it waits for.
+      if (!niu.refresh(events_, pool_, times_)) niu.release(known, times_);
       continue;
     }
     if (least > time) {
