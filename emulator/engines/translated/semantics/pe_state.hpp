@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// One PE of the translated engine: registers, clock and a view of local memory. Translated code and emulator share it.
+// This folder's headers are also compiled into translated code, so they include nothing but the standard library.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace torolux::translated {
+
+inline constexpr unsigned kPmpEntries = 16;
+/// Address of local memory's first byte.
+inline constexpr std::uint32_t kMemoryBase = 0x8000'0000U;
+
+/// Called at every phase marker: immediate of the HINT, the PE's clock [cycles], its instructions so far.
+using MarkerCall = void (*)(void* context, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
+
+struct TranslatedPe {
+  std::uint32_t x[32];  ///< x[0] stays 0
+  std::uint32_t f[32];  ///< bits of binary32
+  std::uint32_t pc;
+  std::int32_t hint_immediate;  ///< of the HINT at which the PE stands
+
+  std::uint64_t cycles;        ///< clock: set it after a HINT that waited
+  std::uint64_t instructions;  ///< executed so far, phase markers not counted
+  std::uint64_t cycle_limit;   ///< `run` stops soon after the clock has reached this
+
+  std::byte* memory;           ///< local memory
+  std::uint32_t memory_bytes;  ///< of local memory
+  std::uint32_t load_limit;    ///< loads of up to 4 bytes at less than this, from kMemoryBase, need no closer look
+  std::uint32_t store_limit;   ///< likewise stores, from the translation's store base
+
+  // Between `run` and translated code.
+  bool may_fetch;       ///< all code may be executed
+  std::uint32_t slice;  ///< translated code returns at a jump once it has counted so many cycles
+  std::uint64_t count;  ///< packed Cost that it has counted
+
+  MarkerCall marker;  ///< none: `run` stops at phase markers as at any HINT
+  void* marker_context;
+
+  // Control and status registers.
+  std::uint32_t fflags, frm;
+  std::uint32_t mstatus, mtvec, mscratch, mepc, mcause, mtval, mie, mip;
+  std::uint32_t pmpaddr[kPmpEntries];
+  std::uint8_t pmpcfg[kPmpEntries];
+
+  // lr.w: address and what stood there; sc.w succeeds if it stands there again.
+  std::uint32_t reserved_address;  ///< kNoReservation: none
+  std::uint32_t reserved_value;
+};
+static_assert(sizeof(TranslatedPe) <= 4096);
+
+inline constexpr std::uint32_t kNoReservation = 0xFFFF'FFFFU;
+
+/// Why translated code returned to `TranslatedImage::run`. pc says where to go on.
+enum class Exit : std::uint32_t {
+  jump,   ///< to a place outside the region
+  hint,   ///< a HINT, already counted; pc is behind it
+  look,   ///< the instruction at pc is for the interpreter; its block's cost from there on has been counted already
+  slice,  ///< pe.slice cycles have been counted
+};
+
+/// Cycles and instructions of a stretch of code, counted in one 64-bit number while translated code runs.
+struct Cost {
+  std::uint32_t cycles;
+  std::uint32_t instructions;
+};
+constexpr std::uint64_t pack(Cost cost) {
+  return (static_cast<std::uint64_t>(cost.instructions) << 32U) | cost.cycles;
+}
+/// The largest slice: what one block may add to it still fits.
+inline constexpr std::uint32_t kMostSlice = 0x4000'0000U;
+
+using RegionFunction = std::uint32_t (*)(TranslatedPe* pe);
+
+}  // namespace torolux::translated

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// An image as code of this computer, shared by all PEs that run it. Enters: image and latency table; leaves: a PE's
+// state, advanced to its next HINT. Everything here is const once made: any number of threads may run their PEs.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "emulator/engines/image.hpp"
+#include "emulator/engines/translated/code_map.hpp"
+#include "emulator/engines/translated/interpreter.hpp"
+#include "emulator/engines/translated/semantics/pe_state.hpp"
+#include "emulator/machine/description.hpp"
+
+namespace torolux::translated {
+
+struct TranslationOptions {
+  std::filesystem::path cache_folder;  ///< empty: the user's; see Cache
+  bool interpret = false;              ///< translate nothing: slow, needs no compiler
+};
+
+class TranslatedImage {
+ public:
+  /// Takes the code from the cache, or translates and compiles it (seconds). Throws MachineFailure where no compiler
+  /// is found or it fails.
+  TranslatedImage(const Image& image, const LatencyTable& latency, const TranslationOptions& options = {});
+  ~TranslatedImage();
+  TranslatedImage(const TranslatedImage&) = delete;
+  TranslatedImage& operator=(const TranslatedImage&) = delete;
+
+  /// Whether the cache had it.
+  bool from_cache() const { return from_cache_; }
+
+  /// Puts a PE to the beginning of `_start`, without marker call and cycle limit. local_memory: the image is loaded
+  /// and the NIU window filled in; it outlives the PE. mapped_bytes: as mapped_bytes_for, what QEMU would be given.
+  void start(TranslatedPe& pe, std::span<std::byte> local_memory, std::size_t mapped_bytes) const;
+
+  enum class Stop : std::uint8_t {
+    hint,         ///< executed and counted, pc behind it; hint_immediate says which. Set pe.cycles if it waits
+    cycle_limit,  ///< pe.cycles >= pe.cycle_limit
+    stuck,        ///< it will never execute anything again: wfi, or a trap while mtvec points to nothing.
+                  ///< mcause, mepc and mtval tell of the last trap
+  };
+  /// Goes on from where the PE stands. Call it again after each HINT.
+  Stop run(TranslatedPe& pe) const;
+
+ private:
+  struct Library;
+  struct Way {
+    std::uint16_t region;  ///< kNone: not an entry
+    Cost rest;             ///< of its block from this instruction on
+  };
+  static constexpr std::uint16_t kNone = 0xFFFF;
+
+  void load(const Image& image, const TranslationOptions& options);
+  bool may_run_translated(const TranslatedPe& pe) const;
+  void refresh(TranslatedPe& pe) const;
+  Interpreter::Step interpret(TranslatedPe& pe) const;
+  void give_back_rest(TranslatedPe& pe) const;
+  const Way* way_at(std::uint32_t address) const;
+
+  CodeMap code_;
+  Interpreter interpreter_;
+  std::vector<Way> ways_;
+  std::vector<RegionFunction> regions_;
+  std::unique_ptr<Library> library_;
+  bool from_cache_ = false;
+  bool has_float_ = false;
+  bool interpret_ = false;
+};
+
+}  // namespace torolux::translated
