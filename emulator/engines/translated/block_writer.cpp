@@ -236,6 +236,60 @@ bool BlockWriter::write_arithmetic(const Instruction& i) {
   }
 }
 
+/// Operations that raise flags, where somebody may look at them.
+bool BlockWriter::write_flagged(const Instruction& i) {
+  const auto set_f = [&](const std::string& call) {
+    line(assign_f(i.rd, true) + "flagged_" + call + ";");
+    return true;
+  };
+  const auto set_x = [&](const std::string& call) {
+    line((i.rd == 0 ? std::string() : assign_x(i.rd)) + "flagged_" + call + ";");
+    return true;
+  };
+  const auto two = [&] { return "(pe, " + f(i.rs1) + ", " + f(i.rs2); };
+  const auto multiply_add = [&](const char* product_sign, const char* sum_sign) {
+    return set_f("fused(pe, " + (product_sign + f(i.rs1)) + ", " + f(i.rs2) + ", " + sum_sign + f(i.rs3) + ")");
+  };
+  switch (i.op) {
+    case Op::fadd:
+      return set_f("add" + two() + ")");
+    case Op::fsub:
+      return set_f("sub" + two() + ")");
+    case Op::fmul:
+      return set_f("mul" + two() + ")");
+    case Op::fdiv:
+      return set_f("div" + two() + ")");
+    case Op::fsqrt:
+      return set_f("sqrt(pe, " + f(i.rs1) + ")");
+    case Op::fmadd:
+      return multiply_add("", "");
+    case Op::fmsub:
+      return multiply_add("", "-");
+    case Op::fnmsub:
+      return multiply_add("-", "");
+    case Op::fnmadd:
+      return multiply_add("-", "-");
+    case Op::fmin:
+    case Op::fmax:
+      return set_f("extreme" + two() + (i.op == Op::fmax ? ", true)" : ", false)"));
+    case Op::fcvt_s_w:
+      return set_f("from_signed(pe, " + x(i.rs1) + ")");
+    case Op::fcvt_s_wu:
+      return set_f("from_unsigned(pe, " + x(i.rs1) + ")");
+    case Op::fcvt_w_s:
+      return set_x("to_signed(pe, " + f(i.rs1) + ")");
+    case Op::fcvt_wu_s:
+      return set_x("to_unsigned(pe, " + f(i.rs1) + ")");
+    case Op::feq:
+      return set_x("equal" + two() + ")");
+    case Op::flt:
+    case Op::fle:
+      return set_x("less" + two() + (i.op == Op::fle ? ", true)" : ", false)"));
+    default:
+      return false;
+  }
+}
+
 /// Operations that move or compare, or whose results are never NaN by computation.
 bool BlockWriter::write_bits(const Instruction& i) {
   const auto set_f = [&](const std::string& value) {
@@ -295,7 +349,9 @@ void BlockWriter::write(const Instruction& i, std::uint32_t pc, Cost cost_behind
     write_marker(i, pc, cost_behind);
     return;
   }
-  static_cast<void>(write_integer(i, pc) || write_memory(i, pc) || write_arithmetic(i) || write_bits(i));
+  static_cast<void>(write_integer(i, pc) || write_memory(i, pc) || (observed_ && write_flagged(i)) ||
+                    write_arithmetic(i) || write_bits(i));
+  if (observed_ && writes_f(i.op)) line("pe->mstatus |= 0x6000u;");
 }
 
 std::string BlockWriter::condition(const Instruction& i) {

@@ -20,7 +20,9 @@ struct RegisterUse {
 
 class BlockWriter {
  public:
-  BlockWriter(const CodeMap& code, std::string& out, RegisterUse& use) : code_(code), out_(out), use_(use) {}
+  /// observed: the program can see fflags and mstatus.FS.
+  BlockWriter(const CodeMap& code, bool observed, std::string& out, RegisterUse& use)
+      : code_(code), observed_(observed), out_(out), use_(use) {}
 
   /// cost_behind: of the rest of the block, for phase markers.
   void write(const Instruction& i, std::uint32_t pc, Cost cost_behind);
@@ -38,6 +40,7 @@ class BlockWriter {
   bool write_integer(const Instruction& i, std::uint32_t pc);
   bool write_memory(const Instruction& i, std::uint32_t pc);
   bool write_arithmetic(const Instruction& i);
+  bool write_flagged(const Instruction& i);
   bool write_bits(const Instruction& i);
   void write_marker(const Instruction& i, std::uint32_t pc, Cost cost_behind);
   void write_load(const Instruction& i, std::uint32_t pc);
@@ -50,6 +53,7 @@ class BlockWriter {
   std::string address(const Instruction& i, std::uint32_t base);
 
   const CodeMap& code_;
+  bool observed_;
   std::string& out_;
   RegisterUse& use_;
   std::bitset<32> unsettled_;

@@ -12,6 +12,11 @@ bool ends_block(const Instruction& i, const Cost& cost) {
   return is_branch(i.op) || i.op == Op::jal || i.op == Op::jalr || (i.op == Op::hint && cost.instructions != 0);
 }
 
+bool reads_float_state(const Instruction& i) {
+  constexpr std::uint32_t kFflags = 0x001, kFcsr = 0x003, kMstatus = 0x300;
+  return is_csr(i.op) && i.rd != 0 && (i.immediate == kFflags || i.immediate == kFcsr || i.immediate == kMstatus);
+}
+
 bool rounds_to_integer(Op op) {
   return op == Op::fcvt_w_s || op == Op::fcvt_wu_s;
 }
@@ -44,6 +49,9 @@ Blocks::Blocks(const Image& image, const CodeMap& code) : code_(code), traits_((
     follow(from);
   }
   for (std::uint32_t address = code.begin(); address < code.end(); address += 2) {
+    // In code that seems out of reach, too: it may be interpreted.
+    const PlacedInstruction* placed = code.at(address);
+    observed_ |= placed != nullptr && reads_float_state(placed->instruction);
     const Traits& traits = at(address);
     if (traits.reached && traits.leader) blocks_.emplace(address, make_block(address));
     if (traits.reached && traits.function) functions_.push_back(address);

@@ -38,6 +38,8 @@ class Blocks {
   Blocks(const Image& image, const CodeMap& code);
 
   const std::map<std::uint32_t, Block>& all() const { return blocks_; }
+  /// Whether the program reads fflags or mstatus anywhere: nobody else sees which flags its arithmetic raises.
+  bool observed() const { return observed_; }
   /// Lets the block at this address be entered from outside, if there is one that is not empty.
   void make_entry(std::uint32_t address);
   /// Ascending addresses at which functions begin, as far as symbols and calls tell.
@@ -63,6 +65,7 @@ class Blocks {
   std::vector<std::uint32_t> waiting_;
   std::map<std::uint32_t, Block> blocks_;
   std::vector<std::uint32_t> functions_;
+  bool observed_ = false;
 };
 
 }  // namespace torolux::translated

@@ -17,7 +17,7 @@ std::string label(std::uint32_t address) {
 class RegionWriter {
  public:
   RegionWriter(const CodeMap& code, const Blocks& blocks, const Region& region)
-      : code_(code), blocks_(blocks), region_(region), writer_(code, body_, use_) {}
+      : code_(code), blocks_(blocks), region_(region), writer_(code, blocks.observed(), body_, use_) {}
 
   std::string text(std::size_t number);
 
@@ -138,7 +138,8 @@ std::string RegionWriter::registers(const char* x_text, const char* f_text, cons
 
 std::string RegionWriter::text(std::size_t number) {
   for (const std::uint32_t address : region_) write_block(blocks_.all().at(address));
-  std::string text = "#include \"emulator/engines/translated/semantics/translated_code.hpp\"\n";
+  const char* header = blocks_.observed() ? "flagged" : "translated_code";
+  std::string text = std::string("#include \"emulator/engines/translated/semantics/") + header + ".hpp\"\n";
   text += "using namespace torolux::translated;\n";
   text += "extern \"C\" __attribute__((visibility(\"default\"))) std::uint32_t " + region_name(number) +
           "(TranslatedPe* pe) {\n" + places();
@@ -147,6 +148,7 @@ std::string RegionWriter::text(std::size_t number) {
   text += "  const std::uint32_t load_limit = pe->load_limit, store_limit = pe->store_limit, slice = pe->slice;\n";
   text += "  std::uint64_t count = 0;\n  std::uint32_t at = pe->pc;\n  Exit why = Exit::jump;\n";
   text += registers("std::uint32_t x$ = pe->x[$];", "float f$ = from_bits(pe->f[$]);", use_.x, use_.f);
+  if (blocks_.observed()) text += "  clear_host_flags();\n";
   text += "dispatch:\n  {\n    const std::uint32_t o = at - " + hexadecimal(region_.front()) + ";\n";
   text += "    if (TOROLUX_RARELY(o >= " + hexadecimal(region_.back() + 2 - region_.front()) + ")) goto leave;\n";
   text += "    if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) goto out_of_time;\n";
@@ -155,6 +157,7 @@ std::string RegionWriter::text(std::size_t number) {
   text += "hint:\n  why = Exit::hint;\n  goto leave;\nlook:\n  why = Exit::look;\n  goto leave;\n";
   text += "out_of_time:\n  why = Exit::slice;\nleave:\n  pe->pc = at;\n  pe->count = count;\n";
   text += registers("pe->x[$] = x$;", "pe->f[$] = to_bits(f$);", use_.x_written, use_.f_written);
+  if (blocks_.observed()) text += "  pe->fflags |= host_flags();\n  clear_host_flags();\n";
   return text + "  return static_cast<std::uint32_t>(why);\n}\n";
 }
 
