@@ -77,12 +77,34 @@ void finish_and_compare(Code& code, const std::string& name) {
   EXPECT_GT(outcome.instructions, kTuples * 10);
 }
 
-/// Without rounding mode: one loop.
-void check_plain(const std::string& name, Word instruction, Kind kind) {
-  Code code = begin_program();
-  add_loop(code, instruction, kind);
-  finish_and_compare(code, name);
-}
+/// Instructions without rounding mode, several loops to a program.
+class Plain {
+ public:
+  Plain() = default;
+  Plain(const Plain&) = delete;
+  Plain& operator=(const Plain&) = delete;
+  ~Plain() { finish(); }
+
+  void check(const std::string& name, Word instruction, Kind kind) {
+    constexpr unsigned kMostLoops = 8;  // as many results as there is memory for
+    if (loops_ == kMostLoops) finish();
+    add_loop(code_, instruction, kind);
+    names_ += name + " ";
+    ++loops_;
+  }
+
+ private:
+  void finish() {
+    if (loops_ != 0) finish_and_compare(code_, names_);
+    code_ = begin_program();
+    names_.clear();
+    loops_ = 0;
+  }
+
+  Code code_ = begin_program();
+  std::string names_;
+  unsigned loops_ = 0;
+};
 
 /// With each static mode in one program, and dynamically with each mode in frm in another.
 void check_rounding(const std::string& name, Word instruction, Kind kind) {
@@ -103,26 +125,28 @@ Word float_op(Word funct7, Word funct3, Reg rs2 = kB) {
 }
 
 TEST(TranslatedInstructions, IntegerOfTwoRegisters) {
+  Plain plain;
   const char* base[] = {"add", "sll", "slt", "sltu", "xor", "srl", "or", "and"};
   const char* multiply[] = {"mul", "mulh", "mulhsu", "mulhu", "div", "divu", "rem", "remu"};
   for (Word f3 = 0; f3 < 8; ++f3) {
-    check_plain(base[f3], r_type(0x33, f3, 0x00, kRd, kA, kB), Kind::x_to_x);
-    check_plain(multiply[f3], r_type(0x33, f3, 0x01, kRd, kA, kB), Kind::x_to_x);
+    plain.check(base[f3], r_type(0x33, f3, 0x00, kRd, kA, kB), Kind::x_to_x);
+    plain.check(multiply[f3], r_type(0x33, f3, 0x01, kRd, kA, kB), Kind::x_to_x);
   }
-  check_plain("sub", r_type(0x33, 0, 0x20, kRd, kA, kB), Kind::x_to_x);
-  check_plain("sra", r_type(0x33, 5, 0x20, kRd, kA, kB), Kind::x_to_x);
+  plain.check("sub", r_type(0x33, 0, 0x20, kRd, kA, kB), Kind::x_to_x);
+  plain.check("sra", r_type(0x33, 5, 0x20, kRd, kA, kB), Kind::x_to_x);
 }
 
 TEST(TranslatedInstructions, IntegerWithImmediate) {
+  Plain plain;
   for (const std::int32_t immediate : {-2048, -1, 0, 1, 31, 2047}) {
     for (const Word f3 : {0U, 2U, 3U, 4U, 6U, 7U}) {
-      check_plain("op-imm " + std::to_string(f3), i_type(0x13, f3, kRd, kA, immediate), Kind::x_to_x);
+      plain.check("op-imm " + std::to_string(f3), i_type(0x13, f3, kRd, kA, immediate), Kind::x_to_x);
     }
   }
   for (const std::int32_t shift : {0, 1, 31}) {
-    check_plain("slli", i_type(0x13, 1, kRd, kA, shift), Kind::x_to_x);
-    check_plain("srli", i_type(0x13, 5, kRd, kA, shift), Kind::x_to_x);
-    check_plain("srai", i_type(0x13, 5, kRd, kA, shift | 0x400), Kind::x_to_x);
+    plain.check("slli", i_type(0x13, 1, kRd, kA, shift), Kind::x_to_x);
+    plain.check("srli", i_type(0x13, 5, kRd, kA, shift), Kind::x_to_x);
+    plain.check("srai", i_type(0x13, 5, kRd, kA, shift | 0x400), Kind::x_to_x);
   }
 }
 
@@ -149,15 +173,16 @@ TEST(TranslatedInstructions, FloatConversions) {
 }
 
 TEST(TranslatedInstructions, FloatThatDoesNotRound) {
+  Plain plain;
   for (Word f3 = 0; f3 < 3; ++f3) {
-    check_plain("fsgnj " + std::to_string(f3), float_op(0x10, f3), Kind::f_to_f);
-    check_plain("compare " + std::to_string(f3), float_op(0x50, f3), Kind::f_to_x);
+    plain.check("fsgnj " + std::to_string(f3), float_op(0x10, f3), Kind::f_to_f);
+    plain.check("compare " + std::to_string(f3), float_op(0x50, f3), Kind::f_to_x);
   }
-  check_plain("fmin.s", float_op(0x14, 0), Kind::f_to_f);
-  check_plain("fmax.s", float_op(0x14, 1), Kind::f_to_f);
-  check_plain("fmv.x.w", float_op(0x70, 0, 0), Kind::f_to_x);
-  check_plain("fclass.s", float_op(0x70, 1, 0), Kind::f_to_x);
-  check_plain("fmv.w.x", float_op(0x78, 0, 0), Kind::x_to_f);
+  plain.check("fmin.s", float_op(0x14, 0), Kind::f_to_f);
+  plain.check("fmax.s", float_op(0x14, 1), Kind::f_to_f);
+  plain.check("fmv.x.w", float_op(0x70, 0, 0), Kind::f_to_x);
+  plain.check("fclass.s", float_op(0x70, 1, 0), Kind::f_to_x);
+  plain.check("fmv.w.x", float_op(0x78, 0, 0), Kind::x_to_f);
 }
 
 }  // namespace

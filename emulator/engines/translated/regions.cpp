@@ -11,7 +11,7 @@ namespace torolux::translated {
 namespace {
 
 /// Instructions of a region. The compiler's time grows faster than this, the cost of leaving a region is some 30 ns.
-constexpr std::uint32_t kMostInstructions = 4000;
+constexpr std::uint32_t kMostInstructions = 40000;
 
 /// Functions, joined to groups (disjoint sets).
 class Groups {
@@ -50,22 +50,50 @@ class FunctionsOf {
   const std::vector<std::uint32_t>& begins_;
 };
 
+/// How many loops an address lies in, by the jumps backwards over it inside its function.
+class Loops {
+ public:
+  Loops(const Blocks& blocks, const FunctionsOf& function_of) {
+    for (const auto& [address, block] : blocks.all()) {
+      const bool jumps = block.ending == Ending::branch || block.ending == Ending::jump;
+      if (!jumps || block.target > block.last || function_of(block.target) != function_of(address)) continue;
+      std::uint32_t& end = end_of_loop_[block.target];
+      end = std::max(end, block.last);
+    }
+  }
+  unsigned depth(std::uint32_t address) const {
+    constexpr std::uint32_t kLongest = 8192;  // bytes of a loop: those that begin earlier are not looked at
+    unsigned depth = 0;
+    const auto behind = end_of_loop_.upper_bound(address);
+    for (auto loop = end_of_loop_.lower_bound(address - std::min(address, kLongest)); loop != behind; ++loop) {
+      if (loop->second >= address) ++depth;
+    }
+    return depth;
+  }
+
+ private:
+  std::map<std::uint32_t, std::uint32_t> end_of_loop_;  // by its beginning
+};
+
 struct Edge {
-  std::uint32_t weight;  ///< jumps and calls between the two
+  std::uint64_t weight;  ///< jumps and calls between the two, those in loops counted as if run more often
   std::size_t a, b;      ///< functions, a < b
 };
 
 /// Strongest first; ties by address, so that the same image always gives the same regions.
 std::vector<Edge> edges_of(const Blocks& blocks, const FunctionsOf& function_of) {
-  std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> weights;
+  constexpr unsigned kDeepest = 4;
+  constexpr unsigned kBitsPerLoop = 3;  // a loop is taken to run eight times
+  const Loops loops(blocks, function_of);
+  std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> weights;
   const auto add = [&](std::uint32_t from, std::uint32_t to) {
     const std::size_t a = function_of(from);
     const std::size_t b = function_of(to);
-    if (a != b) ++weights[std::minmax(a, b)];
+    if (a != b) weights[std::minmax(a, b)] += std::uint64_t{1} << (kBitsPerLoop * std::min(kDeepest, loops.depth(from)));
   };
   for (const auto& [address, block] : blocks.all()) {
-    if (block.ending == Ending::branch || block.ending == Ending::jump) add(address, block.target);
-    if (block.ending != Ending::jump && block.ending != Ending::indirect) add(address, block.end);
+    if (block.ending == Ending::branch || block.ending == Ending::jump) add(block.last, block.target);
+    if (block.ending != Ending::jump && block.ending != Ending::indirect) add(block.last, block.end);
   }
   std::vector<Edge> edges;
   for (const auto& [pair, weight] : weights) edges.push_back({weight, pair.first, pair.second});
