@@ -11,7 +11,7 @@ namespace {
 TEST(TranslatedProgram, HelloIsTheSame) {
   const Outcome outcome = run_on_all(load_image(example_image("hello")), "hello.elf");
   EXPECT_TRUE(outcome.halted);
-  EXPECT_GT(outcome.instructions, 100U) << outcome.clock << " " << outcome.word(0x80000000+ 0) << outcome.failure;
+  EXPECT_GT(outcome.instructions, 100U) << outcome.clock << " " << outcome.word(0x80000000 + 0) << outcome.failure;
 }
 
 }  // namespace

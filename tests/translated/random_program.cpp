@@ -217,7 +217,8 @@ Code Drawer::draw(std::uint64_t instructions) {
   code << csrrwi(0, csr::kFrm, 0) << addi(kBase, kBase, 0);
   code << lui(kAddress, kRegisters) << addi(kAddress, kAddress, static_cast<std::int32_t>(kRegisters & 0xFFFU));
   for (Reg r = 0; r < 32; ++r) {
-    code << sw(r, kAddress, static_cast<std::int32_t>(4 * r)) << fsw(r, kAddress, static_cast<std::int32_t>(128 + 4 * r));
+    code << sw(r, kAddress, static_cast<std::int32_t>(4 * r))
+         << fsw(r, kAddress, static_cast<std::int32_t>(128 + 4 * r));
   }
   if (sees_flags_) code << csrrs(5, csr::kFcsr, 0) << sw(5, kAddress, 256);
   code << hint(protocol::Hint::halt);

@@ -12,10 +12,12 @@ constexpr std::uint32_t kMpp = 3U << 11U;
 constexpr std::uint32_t kFs = 3U << 13U;
 constexpr std::uint32_t kVs = 3U << 9U;
 constexpr std::uint32_t kSd = 1U << 31U;
+constexpr std::uint32_t kGva = 1U << 6U, kMpv = 1U << 7U;  // of mstatush
 /// What QEMU lets a program write: SIE, MIE, SPIE, MPIE, SPP, VS, MPP, FS, MPRV, SUM, MXR, TVM, TW, TSR.
 constexpr std::uint32_t kWritableStatus = 0x007E'7FAAU;
-constexpr std::uint32_t kInterrupts = 0x0000'0EEEU;      // mie
-constexpr std::uint32_t kSoftInterrupts = 0x0000'0666U;  // mip, mideleg: those that a program may raise
+constexpr std::uint32_t kInterrupts = 0x0000'2EEEU;      // mie
+constexpr std::uint32_t kSoftInterrupts = 0x0000'2666U;  // mip, mideleg: those that a program may raise
+constexpr std::uint32_t kTimerPending = 0x0000'0080U;    // QEMU's timer is due from the start
 constexpr std::uint32_t kMisa = 0x4000'1125U;            // RV32, A C F I M
 
 namespace number {
@@ -77,6 +79,8 @@ Plain plain(std::uint32_t which) {
   switch (which) {
     case number::kMstatus:
       return {&TranslatedPe::mstatus, kWritableStatus};
+    case number::kMstatush:
+      return {&TranslatedPe::mstatush, kMpv | kGva};
     case number::kMie:
       return {&TranslatedPe::mie, kInterrupts};
     case number::kMscratch:
@@ -104,7 +108,8 @@ void reset(TranslatedPe& pe) {
   pe.hint_immediate = 0;
   pe.cycles = pe.instructions = 0;
   pe.fflags = pe.frm = 0;
-  pe.mstatus = pe.mtvec = pe.mscratch = pe.mepc = pe.mcause = pe.mtval = pe.mie = pe.mip = 0;
+  pe.mstatus = pe.mstatush = pe.mtvec = pe.mscratch = pe.mepc = pe.mcause = pe.mtval = pe.mie = 0;
+  pe.mip = kTimerPending;
   for (unsigned i = 0; i < kPmpEntries; ++i) {
     pe.pmpaddr[i] = 0;
     pe.pmpcfg[i] = 0;
@@ -137,6 +142,7 @@ bool return_from_trap(TranslatedPe& pe) {
   if ((pe.mstatus & kMpp) != kMpp) return false;
   const std::uint32_t enabled = (pe.mstatus & kMpie) != 0 ? kMie : 0;
   pe.mstatus = (pe.mstatus & ~(kMie | kMpp)) | enabled | kMpie;
+  pe.mstatush &= ~kMpv;
   pe.pc = pe.mepc;
   pe.reserved_address = kNoReservation;
   return true;
@@ -164,7 +170,6 @@ std::optional<std::uint32_t> read_csr(const TranslatedPe& pe, std::uint32_t whic
   if (is_pmpaddr(which)) return pe.pmpaddr[which - number::kPmpaddr0];
   if (which == number::kMstatus) return status(pe);
   if (which == number::kMisaNumber) return kMisa;
-  if (which == number::kMstatush) return 0;
   if (which >= number::kMvendorid && which <= number::kMhartid) return 0;
   const Plain found = plain(which);
   return found.place != nullptr ? std::optional(pe.*found.place) : std::nullopt;

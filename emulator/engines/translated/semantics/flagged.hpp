@@ -90,11 +90,10 @@ inline float flagged_sqrt(TranslatedPe*, float a) {
   return canonical(result);
 }
 #else
-#define TOROLUX_FLAGGED(name)                                                             \
-  inline float flagged_##name(TranslatedPe* pe, float a, float b) {                       \
-    return exactly(pe, [=](std::uint32_t& flags) {                                        \
-      return soft::name(to_bits(a), to_bits(b), Rounding::nearest_even, flags);           \
-    });                                                                                   \
+#define TOROLUX_FLAGGED(name)                                                                                         \
+  inline float flagged_##name(TranslatedPe* pe, float a, float b) {                                                   \
+    return exactly(                                                                                                   \
+        pe, [=](std::uint32_t& flags) { return soft::name(to_bits(a), to_bits(b), Rounding::nearest_even, flags); }); \
   }
 TOROLUX_FLAGGED(add)
 TOROLUX_FLAGGED(sub)
@@ -103,8 +102,7 @@ TOROLUX_FLAGGED(div)
 #undef TOROLUX_FLAGGED
 
 inline float flagged_sqrt(TranslatedPe* pe, float a) {
-  return exactly(pe,
-                 [=](std::uint32_t& flags) { return soft::sqrt(to_bits(a), Rounding::nearest_even, flags); });
+  return exactly(pe, [=](std::uint32_t& flags) { return soft::sqrt(to_bits(a), Rounding::nearest_even, flags); });
 }
 #endif
 
@@ -118,7 +116,8 @@ inline float flagged_from_unsigned(TranslatedPe* pe, std::uint32_t a) {
   return exactly(pe, [=](std::uint32_t& flags) { return soft::from_unsigned(a, Rounding::nearest_even, flags); });
 }
 inline std::uint32_t flagged_to_signed(TranslatedPe* pe, float a) {
-  return exactly_integer(pe, [=](std::uint32_t& flags) { return soft::to_signed(to_bits(a), Rounding::to_zero, flags); });
+  return exactly_integer(pe,
+                         [=](std::uint32_t& flags) { return soft::to_signed(to_bits(a), Rounding::to_zero, flags); });
 }
 inline std::uint32_t flagged_to_unsigned(TranslatedPe* pe, float a) {
   return exactly_integer(pe,

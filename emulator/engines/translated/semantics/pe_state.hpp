@@ -40,7 +40,7 @@ struct TranslatedPe {
 
   // Control and status registers.
   std::uint32_t fflags, frm;
-  std::uint32_t mstatus, mtvec, mscratch, mepc, mcause, mtval, mie, mip;
+  std::uint32_t mstatus, mstatush, mtvec, mscratch, mepc, mcause, mtval, mie, mip;
   std::uint32_t pmpaddr[kPmpEntries];
   std::uint8_t pmpcfg[kPmpEntries];
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Traps, control and status registers, memory protection, jumps to odd places: what a program sees of them is QEMU's.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/translated/runs.hpp"
+
+namespace torolux::test {
+namespace {
+
+constexpr Reg kRa = 1, kT0 = 5, kT1 = 6, kT2 = 7, kLog = 20, kValue = 21, kAddress = 22;
+
+/// A program with a trap handler that logs mcause, mepc, mtval and mstatus, and goes on behind the instruction, or
+/// where ra says if it cannot be fetched.
+Code begin_with_handler() {
+  Code code;
+  code.li(kLog, kData);
+  const std::int32_t handler = code.here() + 16;
+  code.li(kT0, 0x8000'0000U + static_cast<Word>(handler)) << csrrw(0, csr::kMtvec, kT0);
+  const std::size_t skip = code.words().size();
+  code << 0;
+  const Word logged[] = {csr::kMcause, csr::kMepc, csr::kMtval, csr::kMstatus};
+  std::int32_t offset = 0;
+  for (const Word number : logged) {
+    code << csrrs(kT1, number, 0) << sw(kT1, kLog, offset);
+    offset += 4;
+  }
+  code << addi(kLog, kLog, 16);
+  code << csrrs(kT1, csr::kMepc, 0) << csrrs(kT2, csr::kMcause, 0) << addi(kT1, kT1, 4) << addi(kT2, kT2, -1);
+  code << bne(kT2, 0, 8) << addi(kT1, kRa, 0);
+  code << csrrw(0, csr::kMepc, kT1) << 0x3020'0073U;  // mret
+  code[skip] = j_type(0, code.here() - static_cast<std::int32_t>(4 * skip));
+  return code;
+}
+
+/// As firmware/boot does: nothing before local memory, code, data, nothing behind. Entries 0 to 3 are used.
+void lock_memory(Code& code) {
+  constexpr Word kPmpaddr0 = 0x3B0, kPmpcfg0 = 0x3A0;
+  const Word borders[] = {0x8000'0000U >> 2U, (kData - protocol::kPageBytes) >> 2U, kDataEnd >> 2U, 0xFFFF'FFFFU};
+  for (Word i = 0; i < 4; ++i) code.li(kT0, borders[i]) << csrrw(0, kPmpaddr0 + i, kT0);
+  code.li(kT0, 0x888B'8D88U) << csrrw(0, kPmpcfg0, kT0);
+}
+
+void turn_float_on(Code& code) {
+  code.li(kT0, 0x2000) << csrrs(0, csr::kMstatus, kT0);
+}
+
+void finish(Code& code, const std::string& name, Counts counts) {
+  code << sw(kLog, kLog, 0) << hint(protocol::Hint::halt);
+  const Outcome outcome = run_on_all(image_of(code), name, {}, counts);
+  EXPECT_TRUE(outcome.halted);
+}
+
+TEST(TranslatedControl, WhatIsNoInstructionTraps) {
+  Code code = begin_with_handler();
+  turn_float_on(code);
+  const Word words[] = {0xFFFF'FFFFU,
+                        0x02C5'F553U /* fadd.d */,
+                        0x7C00'1073U /* csrw 0x7c0, x0 */,
+                        0xF110'1073U /* csrw mvendorid, x0 */,
+                        0x1020'0073U /* sret */,
+                        0x0000'0073U /* ecall */,
+                        0x0010'0073U /* ebreak */,
+                        0x0000'000BU,
+                        0x0200'5033U + (1U << 26U),
+                        0x00B5'5553U /* fadd.s with mode 5 */,
+                        0x00B5'6553U /* mode 6 */};
+  for (const Word word : words) code << word;
+  code << csrrwi(0, csr::kFrm, 5) << 0x00B5'7553U /* fadd.s, dynamic */ << csrrwi(0, csr::kFrm, 0);
+  code.li(kT0, 0x6000) << i_type(0x73, 3, 0, kT0, csr::kMstatus);  // float off
+  code << 0x00B5'7553U << flw(1, kLog, 0) << fsw(1, kLog, 0) << csrrs(kT0, csr::kFrm, 0);
+  turn_float_on(code);
+  code << 0x00B5'7553U;
+  finish(code, "no instruction", Counts::ignored);
+}
+
+TEST(TranslatedControl, AccessOutsideLocalMemoryTraps) {
+  Code code = begin_with_handler();
+  lock_memory(code);
+  const Word addresses[] = {0,           0x1000'0000U, 0x7FFF'FFFFU, 0x7FFF'FFFCU, 0x8000'0000U, 0x8000'0100U,
+                            kDataEnd,    kDataEnd - 1, kDataEnd - 2, kDataEnd - 4, 0xFFFF'FFFEU, 0x8400'0000U,
+                            0x8002'0000U};
+  code.li(kValue, 0x1234'5678U);
+  // QEMU's mtval for an access across the end of memory depends on whether it has met the last page before.
+  code.li(kAddress, kDataEnd - 64);
+  code << lw(kT0, kAddress, 0) << sw(kT0, kAddress, 0);
+  for (const Word address : addresses) {
+    code.li(kAddress, address);
+    code << lw(kValue, kAddress, 0) << i_type(0x03, 0, kValue, kAddress, 0) << i_type(0x03, 5, kValue, kAddress, 0);
+    code << sw(kValue, kAddress, 0) << s_type(0x23, 0, kAddress, kValue, 0) << s_type(0x23, 1, kAddress, kValue, 0);
+  }
+  finish(code, "access", Counts::ignored);
+}
+
+TEST(TranslatedControl, AtomicsTrapWhereTheyCannotWork) {
+  Code code = begin_with_handler();
+  lock_memory(code);
+  const Word addresses[] = {0x1000'0000U, 0x8000'0000U, kDataEnd - 8, kDataEnd - 7, kDataEnd - 6, kDataEnd};
+  const Word functions[] = {0x02, 0x03, 0x01, 0x00, 0x18};
+  for (const Word address : addresses) {
+    code.li(kAddress, address);
+    for (const Word function : functions) {
+      code << r_type(0x2F, 2, function << 2U, kValue, kAddress, function == 2 ? 0 : kLog) << sw(kValue, kLog, 0);
+      code << addi(kLog, kLog, 16);
+    }
+  }
+  finish(code, "atomics", Counts::ignored);
+}
+
+TEST(TranslatedControl, JumpsOutsideCodeTrap) {
+  Code code = begin_with_handler();
+  lock_memory(code);
+  for (const Word address : {0x100U, 0x7FFF'FFFEU, kData, kDataEnd, 0xFFFF'FFF0U}) {
+    code.li(kAddress, address);
+    code << jalr(kRa, kAddress, 0) << addi(kValue, kValue, 1);
+  }
+  finish(code, "jumps", Counts::ignored);
+}
+
+TEST(TranslatedControl, JumpsReachEveryInstructionOfABlock) {
+  Code code;
+  code.li(kLog, kData).li(kAddress, 0);
+  const std::size_t place = code.words().size() - 2;
+  constexpr std::int32_t kLength = 10;
+  // A table of jumps into one straight block, at each of its instructions; it returns by ra.
+  for (std::int32_t i = 0; i < kLength; ++i) code << jalr(kRa, kAddress, 4 * i) << sw(kValue, kLog, 4 * i);
+  // The upper half of this word is `c.addi kValue, 5`.
+  code << jalr(kRa, kAddress, 4 * kLength + 2) << sw(kValue, kLog, 4 * kLength);
+  code << hint(protocol::Hint::halt);
+  const Word block = 0x8000'0000U + static_cast<Word>(code.here());
+  for (std::int32_t i = 0; i < kLength; ++i) code << addi(kValue, kValue, 1 << i);
+  code << (0x0001U | kValue << 7U | 5U << 2U) * 0x1'0000U + lui(kT0, 0) << jalr(0, kRa, 0);
+  Code address;
+  address.li(kAddress, block);
+  code[place] = address[0];
+  code[place + 1] = address[1];
+  const Outcome outcome = run_on_all(image_of(code), "into a block");
+  EXPECT_EQ(outcome.word(kData), 1023U);
+  EXPECT_EQ(outcome.word(kData + 4 * (kLength - 1)) - outcome.word(kData + 4 * (kLength - 2)), 512U);
+}
+
+TEST(TranslatedControl, RegistersKeepWhatTheyCan) {
+  Code code = begin_with_handler();
+  turn_float_on(code);
+  const Word numbers[] = {0x001, 0x002, 0x003, 0x300, 0x301, 0x304, 0x310, 0x340, 0x341, 0x342,
+                          0x343, 0x344, 0x3A0, 0x3A1, 0x3A3, 0x3B0, 0x3B7, 0x3BF, 0xF14, 0xF11};
+  const Word values[] = {0xFFFF'FFFFU, 0x5555'5555U, 0};
+  for (const Word number : numbers) {
+    // Nothing that would deny access or lend rights.
+    const Word mask = number == 0x300 ? 0xFFFD'E7FFU : number >= 0x3A0 && number < 0x3B0 ? 0x6060'6060U : 0xFFFF'FFFFU;
+    for (const Word value : values) {
+      code.li(kValue, value & mask);
+      code << csrrw(kT0, number, kValue) << sw(kT0, kLog, 0);
+      code << csrrs(kT0, number, kValue) << sw(kT0, kLog, 4) << i_type(0x73, 3, kT0, kValue, static_cast<int>(number));
+      code << sw(kT0, kLog, 8) << csrrs(kT0, number, 0) << sw(kT0, kLog, 12) << addi(kLog, kLog, 16);
+    }
+    if (number == 0x300) turn_float_on(code);
+  }
+  finish(code, "registers", Counts::ignored);
+}
+
+TEST(TranslatedControl, StartsWithTheRegistersOfTheBootRom) {
+  Code code;
+  for (Reg r = 1; r < 32; ++r) {
+    if (r == kLog) code.li(kLog, kData);
+    if (r > kLog) code << sw(r, kLog, static_cast<std::int32_t>(4 * r));
+  }
+  for (Reg r = 1; r < kLog; ++r) code << sw(r, kLog, static_cast<std::int32_t>(4 * r));
+  code << hint(protocol::Hint::halt);
+  const Outcome outcome = run_on_all(image_of(code), "start");
+  EXPECT_EQ(outcome.word(kData + 4 * kT0), 0x8000'0000U);
+}
+
+}  // namespace
+}  // namespace torolux::test
