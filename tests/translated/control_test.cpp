@@ -64,7 +64,10 @@ TEST(TranslatedControl, WhatIsNoInstructionTraps) {
                         0x0000'0073U /* ecall */,
                         0x0010'0073U /* ebreak */,
                         0x0000'000BU,
-                        0x0200'5033U + (1U << 26U),
+                        0x40B5'7533U /* andn */,
+                        0x20B5'2533U /* sh1add */,
+                        0x0AB5'1533U /* clmul */,
+                        0x48B5'1533U /* bclr */,
                         0x00B5'5553U /* fadd.s with mode 5 */,
                         0x00B5'6553U /* mode 6 */};
   for (const Word word : words) code << word;
