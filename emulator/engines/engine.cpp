@@ -7,6 +7,7 @@
 #include <string>
 
 #include "emulator/engines/qemu/qemu_engine.hpp"
+#include "emulator/engines/translated/translated_engine.hpp"
 #include "emulator/errors.hpp"
 
 namespace torolux {
@@ -15,7 +16,8 @@ namespace {
 using Registry = std::map<std::string, EngineFactory, std::less<>>;
 
 Registry& registry() {
-  static Registry engines = {{"qemu", [](const EngineSetup& setup) { return make_qemu_engine(setup); }}};
+  static Registry engines = {{"qemu", [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
+                             {"translated", [](const EngineSetup& setup) { return make_translated_engine(setup); }}};
   return engines;
 }
 

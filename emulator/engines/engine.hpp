@@ -12,6 +12,7 @@
 #include "emulator/engines/image.hpp"
 #include "emulator/engines/shared_memory.hpp"
 #include "emulator/machine/description.hpp"
+#include "emulator/niu/waker.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux {
@@ -46,11 +47,21 @@ class Engine {
   virtual void stop() = 0;
   /// Host CPU time that the PEs have used so far [s]; 0 where the engine cannot tell it from the emulator's own.
   virtual double cpu_seconds() const { return 0; }
+
+  // ---- For engines whose PEs run in this process; only the scheduler's thread calls these ----
+
+  /// Who is told that this PE may go on; none: it sleeps on its channel.
+  virtual ProcessorWaker* waker(unsigned /*pe*/) { return nullptr; }
+  /// The scheduler has nothing to do until this PE's bound is later than `wanted`: runs that PE, or another, for some
+  /// milliseconds at most. False: nothing to run here; sleep. Throws as check() does.
+  virtual bool help(unsigned /*pe*/, std::uint64_t /*wanted*/) { return false; }
+  /// Time spent in `help` so far [s].
+  virtual double help_seconds() const { return 0; }
 };
 
 using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>;
 
-/// Engines by name. `qemu` is always there; others register before main's work (tests add `native`).
+/// Engines by name. `qemu` and `translated` are always there; others register before main's work (tests add `native`).
 void register_engine(std::string_view name, EngineFactory factory);
 /// Throws UsageError with the known names.
 const EngineFactory& engine_named(std::string_view name);

@@ -11,23 +11,25 @@ namespace torolux {
 
 namespace {
 
-std::vector<NiuNetworkSide> make_nius(const std::vector<NiuChannel*>& channels, const MachineDescription& machine) {
+std::vector<NiuNetworkSide> make_nius(const std::vector<NiuChannel*>& channels, const MachineDescription& machine,
+                                      Engine& engine) {
   std::vector<NiuNetworkSide> nius;
   const auto pes = static_cast<unsigned>(channels.size());
-  for (unsigned pe = 0; pe < pes; ++pe) nius.emplace_back(*channels[pe], pe, pes, machine);
+  for (unsigned pe = 0; pe < pes; ++pe) nius.emplace_back(*channels[pe], pe, pes, machine, engine.waker(pe));
   return nius;
 }
 
 }  // namespace
 
 Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image,
-                     HostProgram& program)
+                     Engine& engine, HostProgram& program)
     : pes_(static_cast<std::uint32_t>(channels.size())),
       image_(image),
+      engine_(engine),
       program_(program),
       events_(2 * std::size_t{pes_} + 3),
       times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},
-      nius_(make_nius(channels, setup.description)),
+      nius_(make_nius(channels, setup.description, engine)),
       parts_(pes_),
       torus_(TorusShape(setup.columns, setup.rows), setup.description.torus, setup.description.injected_delay_cycles,
              events_, pes_, pool_, *this),

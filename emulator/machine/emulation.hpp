@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/bus/bus.hpp"
+#include "emulator/engines/engine.hpp"
 #include "emulator/engines/image.hpp"
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
@@ -18,11 +19,11 @@
 
 namespace torolux {
 
-/// Single-threaded. PEs run elsewhere and meet it in their channels only.
+/// Single-threaded. PEs run elsewhere, or when it asks their engine to; they meet it in their channels only.
 class Emulation final : private TorusClient, private BusClient {
  public:
   /// channels: zeroed, one per PE. image: for messages about faults. All references outlive this.
-  Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image,
+  Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image, Engine& engine,
             HostProgram& program);
 
   /// Runs until the program has finished and the machine is empty. attend: called at least some ten times a second,
@@ -77,6 +78,7 @@ class Emulation final : private TorusClient, private BusClient {
   // Sources of events, in the order in which ties are broken: PEs, routers, bus, host, FBC.
   std::uint32_t pes_;
   const Image& image_;
+  Engine& engine_;
   HostProgram& program_;
   EventQueue events_;
   BlockPool pool_;

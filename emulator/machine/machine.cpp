@@ -102,9 +102,10 @@ struct Machine::Parts {
     emulation->fill_in(figures);
     figures.trace_hash = emulation->trace_hash();
   }
-  /// The emulator's own CPU time is the calling thread's; all other is the engine's.
+  /// The emulator's own CPU time is the calling thread's, but for PEs that it ran; all other is the engine's.
   void measure(MachineFigures& out) const {
-    out.scheduler_seconds = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler;
+    out.scheduler_seconds =
+        std::max(0.0, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler - engine->help_seconds());
     out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
                          children_seconds() - begin_children;
   }
@@ -134,7 +135,7 @@ Machine::~Machine() = default;
 void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress) {
   Parts& p = *parts_;
   if (p.emulation) throw MachineFailure("a machine runs once");
-  p.emulation.emplace(p.setup, p.channels, p.image, program);
+  p.emulation.emplace(p.setup, p.channels, p.image, *p.engine, program);
   p.begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   p.begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
   p.begin_children = children_seconds();

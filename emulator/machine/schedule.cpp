@@ -41,6 +41,7 @@ void Emulation::attend_now_and_then() {
 
 /// Waits for a PE that runs: until its bound is later than `wanted`, or it waits itself, or a while has passed.
 void Emulation::await(unsigned pe, Cycles wanted) {
+  if (engine_.help(pe, wanted)) return attend_now_and_then();
   NiuNetworkSide& niu = nius_[pe];
   for (int i = 0; i < kLooks; ++i) {
     if (niu.refresh(events_, pool_, times_)) return;

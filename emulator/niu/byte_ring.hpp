@@ -33,7 +33,7 @@ class ByteRing {
 
   /// Whether an entry with so much payload fits, wherever it comes to lie.
   bool has_room(std::size_t payload) const {
-    const std::size_t used = written_.load(std::memory_order_relaxed) - read_.load(std::memory_order_acquire);
+    const std::size_t used = written_.load(std::memory_order_relaxed) - read_.load(std::memory_order_seq_cst);
     return bytes() - used >= 2 * entry_bytes(payload);
   }
   /// Only after has_room(payload.size()).

@@ -174,7 +174,7 @@ struct NiuChannel {
   alignas(64) std::atomic<std::uint64_t> wanted;
   std::atomic<std::uint32_t> network_signal;
 
-  // The processor sleeps on processor_signal after it has set `asleep`.
+  // The processor sleeps on processor_signal, or until its waker is called, after it has set `asleep`.
   alignas(64) std::atomic<std::uint32_t> asleep;
   std::atomic<std::uint32_t> processor_signal;
   std::atomic<std::uint32_t> stopping;

@@ -16,8 +16,9 @@ namespace {
 constexpr std::chrono::microseconds kLongestSleep{20'000};
 }
 
-NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine)
-    : channel_(&channel), pe_(pe), control_buffers_(machine.bus.control_buffers) {
+NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine,
+                               ProcessorWaker* waker)
+    : channel_(&channel), waker_(waker), pe_(pe), control_buffers_(machine.bus.control_buffers) {
   channel.torus_queue = machine.torus.send_queue_packets;
   channel.bus_queue = machine.bus.send_queue_messages;
   channel.pes = pes;
@@ -145,13 +146,17 @@ void NiuNetworkSide::sleep_until_bound(Cycles wanted) {
 
 void NiuNetworkSide::tell_to_stop() {
   channel_->stopping.store(1, std::memory_order_seq_cst);
-  channel_->processor_signal.fetch_add(1, std::memory_order_seq_cst);
-  futex_wake(channel_->processor_signal);
+  signal_processor();
 }
 
 void NiuNetworkSide::wake_processor() {
   if (channel_->asleep.load(std::memory_order_seq_cst) == 0) return;
   channel_->asleep.store(0, std::memory_order_relaxed);
+  signal_processor();
+}
+
+void NiuNetworkSide::signal_processor() {
+  if (waker_ != nullptr) return waker_->wake(pe_);
   channel_->processor_signal.fetch_add(1, std::memory_order_seq_cst);
   futex_wake(channel_->processor_signal);
 }

@@ -9,6 +9,7 @@
 
 #include "emulator/machine/description.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/niu/waker.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/block.hpp"
@@ -30,8 +31,9 @@ struct PeTimes {
 
 class NiuNetworkSide {
  public:
-  /// channel: zeroed. Event source of the PE = pe.
-  NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine);
+  /// channel: zeroed. Event source of the PE = pe. waker: none where the processor sleeps on its channel.
+  NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine,
+                 ProcessorWaker* waker);
 
   // ---- Bounds and waiting; only the scheduler calls these ----
 
@@ -81,6 +83,7 @@ class NiuNetworkSide {
   void push_arrival(const Block& block, Cycles time);
   void left(Departures& departures, Cycles now, PeTimes& times);
   void wake_processor();
+  void signal_processor();
   bool set_times(PeTimes& times) const;
   Gathering next_wake() const;
   bool polls() const;
@@ -91,6 +94,7 @@ class NiuNetworkSide {
   };
 
   NiuChannel* channel_;
+  ProcessorWaker* waker_;
   unsigned pe_;
   /// An arrival that the processor has not taken.
   struct Gathered {

@@ -32,12 +32,14 @@ constexpr std::size_t kLargestCommands = kMostMessageBytes + 4 * sizeof(Command)
 /// One HINT, from its arguments to its result.
 class HintRun {
  public:
-  HintRun(NiuChannel& channel, std::span<std::byte> memory, std::uint32_t window_offset, std::uint64_t clock)
+  HintRun(NiuChannel& channel, std::span<std::byte> memory, std::uint32_t window_offset, std::uint64_t clock,
+          NiuProcessorSide::Waiting waiting)
       : channel_(channel),
         state_(channel.processor),
         memory_(memory),
         window_(*reinterpret_cast<NiuWindow*>(memory.data() + window_offset)),
-        clock_(clock) {}
+        clock_(clock),
+        waiting_(waiting) {}
 
   /// False: not yet, or never (`stop`).
   bool execute(Hint hint);
@@ -89,6 +91,7 @@ class HintRun {
   std::span<std::byte> memory_;
   NiuWindow& window_;
   std::uint64_t clock_;
+  NiuProcessorSide::Waiting waiting_;
   bool later_ = false;
   bool stop_ = false;
 };
@@ -108,23 +111,26 @@ void publish_bound(NiuChannel& channel, std::uint64_t bound, std::uint64_t wait)
   wake_network(channel);
 }
 
-/// Says what the processor waits for, and sleeps a while unless `ready` holds. True: ready.
+/// Says what the processor waits for, and sleeps a while (if it may) unless `ready` holds. True: ready.
 template <class Ready>
 bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
   if (ready()) return true;
   channel_.clock.store(clock_, std::memory_order_relaxed);
   publish_bound(channel_, clock_ + kCommandCycles, pack_wait(kind, count));
-  const auto deadline = std::chrono::steady_clock::now() + kLongestSleep;
+  const bool sleeps = waiting_ == NiuProcessorSide::Waiting::sleeps;
+  const auto deadline =
+      sleeps ? std::chrono::steady_clock::now() + kLongestSleep : std::chrono::steady_clock::time_point();
   for (;;) {
     const std::uint32_t signal = channel_.processor_signal.load(std::memory_order_seq_cst);
     channel_.asleep.store(1, std::memory_order_seq_cst);
     const bool is_ready = ready();
     const bool stopping = channel_.stopping.load(std::memory_order_seq_cst) != 0;
-    if (!is_ready && !stopping && std::chrono::steady_clock::now() < deadline) {
+    if (sleeps && !is_ready && !stopping && std::chrono::steady_clock::now() < deadline) {
       futex_wait(channel_.processor_signal, signal, kLongestSleep);
       continue;
     }
-    channel_.asleep.store(0, std::memory_order_relaxed);
+    // One that returns is asleep until it is woken, and calls again.
+    if (sleeps || is_ready) channel_.asleep.store(0, std::memory_order_relaxed);
     if (stopping) end();
     if (!is_ready) later_ = true;
     return is_ready && !stopping;
@@ -379,8 +385,9 @@ NiuChannel* niu_channel_at(void* memory) {
   return static_cast<NiuChannel*>(memory);
 }
 
-NiuProcessorSide::NiuProcessorSide(NiuChannel& channel, std::span<std::byte> local_memory, std::uint32_t window_offset)
-    : channel_(channel), local_memory_(local_memory), window_offset_(window_offset) {}
+NiuProcessorSide::NiuProcessorSide(NiuChannel& channel, std::span<std::byte> local_memory, std::uint32_t window_offset,
+                                   Waiting waiting)
+    : channel_(channel), local_memory_(local_memory), window_offset_(window_offset), waiting_(waiting) {}
 
 NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uint64_t clock,
                                                 std::uint64_t instructions) {
@@ -399,7 +406,8 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
   }
 
   auto& window = *reinterpret_cast<NiuWindow*>(local_memory_.data() + window_offset_);
-  HintRun run(channel_, local_memory_, window_offset_, clock);
+  if (waiting_ == Waiting::returns) channel_.asleep.store(0, std::memory_order_relaxed);
+  HintRun run(channel_, local_memory_, window_offset_, clock, waiting_);
   const bool happened = !marker && run.execute(static_cast<Hint>(immediate));
   if (!happened && !marker && !run.must_stop()) {
     window.retry = 1;

@@ -20,12 +20,19 @@ std::uint64_t niu_channel_layout();
 
 class NiuProcessorSide {
  public:
+  /// What a HINT does whose answer is not known yet.
+  enum class Waiting : std::uint8_t {
+    sleeps,   ///< on the channel, at most some 50 ms; then it answers `retry`
+    returns,  ///< answers `retry` at once; the ProcessorWaker tells when to call `hint` again
+  };
+
   /// window_offset: of `__niu_window` in local memory.
-  NiuProcessorSide(NiuChannel& channel, std::span<std::byte> local_memory, std::uint32_t window_offset);
+  NiuProcessorSide(NiuChannel& channel, std::span<std::byte> local_memory, std::uint32_t window_offset,
+                   Waiting waiting = Waiting::sleeps);
 
   enum class Outcome : std::uint8_t {
     done,   ///< the HINT has happened; the PE's clock is now `clock`
-    retry,  ///< not yet (waited a moment): window.retry is set, execute the HINT again at the same clock
+    retry,  ///< not yet: window.retry is set, execute the HINT again at the same clock
     stop,   ///< the machine ends, or this PE has halted: execute nothing more
   };
   struct Result {
@@ -34,13 +41,13 @@ class NiuProcessorSide {
   };
 
   /// clock: the PE's at the HINT, its own cost included. instructions: executed so far, likewise exact.
-  /// Blocks for at most some 50 ms.
   Result hint(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
 
  private:
   NiuChannel& channel_;
   std::span<std::byte> local_memory_;
   std::uint32_t window_offset_;
+  Waiting waiting_;
 };
 
 }  // namespace torolux

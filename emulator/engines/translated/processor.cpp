@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// One PE: registers here, everything else in the memory that it shares with the emulator.
+#include "emulator/engines/translated/processor.hpp"
+
+#include <algorithm>
+
+#include "emulator/machine/faults.hpp"
+#include "emulator/niu/channel.hpp"
+#include "firmware/protocol/messages.hpp"
+#include "firmware/protocol/niu_window.hpp"
+
+namespace torolux::translated {
+namespace {
+
+/// A PE that meets no HINT runs so many cycles, about a millisecond, before others have their turn.
+constexpr std::uint64_t kSliceCycles = 1U << 20U;
+
+std::span<std::byte> local_memory(const EngineSetup& setup, unsigned number) {
+  const PeMemory& memory = setup.pes[number];
+  return memory.local.bytes().first(memory.local_memory_bytes);
+}
+
+}  // namespace
+
+Processor::Processor(const TranslatedImage& code, const EngineSetup& setup, unsigned number)
+    : code_(code),
+      setup_(setup),
+      number_(number),
+      channel_(*niu_channel_at(setup.pes[number].channel.bytes().data())),
+      niu_(channel_, local_memory(setup, number), setup.image.niu_window - protocol::kLocalMemoryBase,
+           NiuProcessorSide::Waiting::returns) {
+  code_.start(pe_, local_memory(setup, number), mapped_bytes_for(setup.pes[number].local_memory_bytes));
+  pe_.marker = &Processor::marker;
+  pe_.marker_context = this;
+}
+
+void Processor::marker(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
+  // A marker that is wrong stops the NIU: the next HINT says so.
+  static_cast<Processor*>(processor)->niu_.hint(immediate, clock, instructions);
+}
+
+Processor::Answer Processor::take_hint() {
+  const NiuProcessorSide::Result result = niu_.hint(pe_.hint_immediate, pe_.cycles, pe_.instructions);
+  switch (result.outcome) {
+    case NiuProcessorSide::Outcome::retry:
+      return Answer::waits;
+    case NiuProcessorSide::Outcome::stop:
+      return Answer::finished;
+    case NiuProcessorSide::Outcome::done:
+      break;
+  }
+  at_hint_ = false;
+  pe_.cycles = result.clock;
+  return Answer::done;
+}
+
+/// Whether it has run for longer without a HINT than the machine allows.
+bool Processor::loops() const {
+  return pe_.cycles - channel_.processor.last_hint > setup_.machine.processor.most_cycles_between_hints;
+}
+
+Processor::Stop Processor::run(std::uint64_t wanted) {
+  std::uint64_t slice_end = pe_.cycles + kSliceCycles;
+  for (;;) {
+    if (at_hint_) {
+      const std::uint64_t begin = pe_.cycles;
+      const Answer answer = take_hint();
+      if (answer == Answer::waits) return Stop::waits;
+      if (answer == Answer::finished) return Stop::finished;
+      slice_end += pe_.cycles - begin;  // waiting is no work
+      if (channel_.bound.load(std::memory_order_relaxed) > wanted) return Stop::past;
+    }
+    if (pe_.cycles >= slice_end) return Stop::slice;
+    pe_.cycle_limit = slice_end;
+    switch (code_.run(pe_)) {
+      case TranslatedImage::Stop::hint:
+        at_hint_ = true;
+        break;
+      case TranslatedImage::Stop::cycle_limit:
+        return loops() ? Stop::failed : Stop::slice;
+      case TranslatedImage::Stop::stuck:
+        stuck_ = true;
+        return Stop::failed;
+    }
+  }
+}
+
+std::string Processor::failure() const {
+  const std::string who = "PE " + std::to_string(number_) + ": ";
+  if (!stuck_) {
+    return who + "no HINT for " + std::to_string(pe_.cycles - channel_.processor.last_hint) +
+           " cycles: an endless loop? (processor.most_cycles_between_hints = " +
+           std::to_string(setup_.machine.processor.most_cycles_between_hints) + ")";
+  }
+  if (pe_.mcause == 0) {
+    return who + "executes no instructions any more: it waits for an interrupt at pc " + setup_.image.describe(pe_.pc) +
+           ", and there are none";
+  }
+  protocol::Fault trap{static_cast<std::uint32_t>(protocol::FaultCode::trap), {pe_.mcause, pe_.mepc, pe_.mtval}};
+  return describe_fault(number_, trap, setup_.image) +
+         "; it executes no instructions any more: mtvec leads to no handler";
+}
+
+}  // namespace torolux::translated

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// One PE of the translated engine: runs its code from HINT to HINT and takes each to its NIU. Enters: the shared
+// translation, local memory and channel; leaves: what stopped it. One thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "emulator/engines/engine.hpp"
+#include "emulator/engines/translated/translated_image.hpp"
+#include "emulator/niu/processor_side.hpp"
+
+namespace torolux::translated {
+
+class Processor {
+ public:
+  /// All outlive this. number: of the PE.
+  Processor(const TranslatedImage& code, const EngineSetup& setup, unsigned number);
+  Processor(const Processor&) = delete;
+  Processor& operator=(const Processor&) = delete;
+
+  enum class Stop : std::uint8_t {
+    waits,     ///< for the network: go on when the waker has been called
+    past,      ///< no command will come at `wanted` or before
+    slice,     ///< it has run long enough; others have their turn
+    finished,  ///< it has halted, or the machine has stopped
+    failed,    ///< it can never go on: see failure()
+  };
+  /// Runs until one of these. wanted: [cycles]
+  Stop run(std::uint64_t wanted);
+  /// Why it failed, for people.
+  std::string failure() const;
+
+ private:
+  enum class Answer : std::uint8_t { done, waits, finished };
+  Answer take_hint();
+  bool loops() const;
+  static void marker(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
+
+  const TranslatedImage& code_;
+  const EngineSetup& setup_;
+  unsigned number_;
+  NiuChannel& channel_;
+  NiuProcessorSide niu_;
+  bool at_hint_ = false;  // that has not happened yet
+  bool stuck_ = false;
+  TranslatedPe pe_{};
+};
+
+}  // namespace torolux::translated

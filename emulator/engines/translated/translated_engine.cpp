@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Threads take PEs that may run; the scheduler's thread lends a hand instead of sleeping.
+#include "emulator/engines/translated/translated_engine.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "emulator/engines/translated/processor.hpp"
+#include "emulator/engines/translated/run_queue.hpp"
+#include "emulator/errors.hpp"
+#include "emulator/niu/channel.hpp"
+
+namespace torolux {
+namespace {
+
+using translated::Processor;
+using translated::RunQueue;
+using translated::TranslatedImage;
+using Clock = std::chrono::steady_clock;
+
+class TranslatedEngine final : public Engine, private ProcessorWaker {
+ public:
+  TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
+      : setup_(setup),
+        code_(setup.image, setup.machine.processor.latency, options),
+        queue_(setup.pes.size(), setup.threads - 1) {}
+  TranslatedEngine(const TranslatedEngine&) = delete;
+  TranslatedEngine& operator=(const TranslatedEngine&) = delete;
+  ~TranslatedEngine() override { end(); }
+
+  std::string_view name() const override { return "translated"; }
+
+  void start() override {
+    for (unsigned pe = 0; pe < setup_.pes.size(); ++pe) processors_.emplace_back(code_, setup_, pe);
+    for (unsigned i = 1; i < setup_.threads; ++i) threads_.emplace_back([this] { work(); });
+  }
+
+  void check() override {
+    if (!failed_.load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(mutex_);
+    throw MachineFailure(failure_);
+  }
+
+  void stop() override { end(); }
+
+  ProcessorWaker* waker(unsigned /*pe*/) override { return this; }
+  bool help(unsigned pe, std::uint64_t wanted) override;
+  double help_seconds() const override { return std::chrono::duration<double>(helped_).count(); }
+
+ private:
+  void wake(unsigned pe) override { queue_.wake(pe); }
+  void work();
+  void run(unsigned pe, std::uint64_t wanted);
+  void fail(unsigned pe);
+  void end();
+
+  EngineSetup setup_;
+  TranslatedImage code_;
+  RunQueue queue_;
+  std::deque<Processor> processors_;
+  std::vector<std::thread> threads_;
+  std::atomic<bool> ending_ = false;
+  std::atomic<bool> failed_ = false;
+  std::mutex mutex_;
+  std::string failure_;  // of the first PE that failed; guarded by mutex_
+  Clock::duration helped_{};
+};
+
+/// Runs a PE that is the calling thread's until it is not any more.
+void TranslatedEngine::run(unsigned pe, std::uint64_t wanted) {
+  for (;;) {
+    switch (processors_[pe].run(wanted)) {
+      case Processor::Stop::waits:
+        if (queue_.park(pe)) return;
+        break;  // woken: the HINT is tried again
+      case Processor::Stop::past:
+      case Processor::Stop::slice:
+        return queue_.put_back(pe);
+      case Processor::Stop::finished:
+        return queue_.finish(pe);
+      case Processor::Stop::failed:
+        queue_.finish(pe);
+        return fail(pe);
+    }
+  }
+}
+
+void TranslatedEngine::work() {
+  while (!ending_.load(std::memory_order_relaxed)) {
+    if (const auto pe = queue_.take(true)) run(*pe, kNever);
+  }
+}
+
+bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
+  if (!queue_.claim(pe)) {
+    const auto other = queue_.take(false);
+    if (!other) return false;
+    pe = *other;
+    wanted = 0;  // back at its next HINT: the one that is waited for may be there already
+  }
+  // With nobody else to run the PEs it may as well go on.
+  if (threads_.empty()) wanted = kNever;
+  const Clock::time_point begin = Clock::now();
+  run(pe, wanted);
+  helped_ += Clock::now() - begin;
+  check();
+  return true;
+}
+
+void TranslatedEngine::fail(unsigned pe) {
+  const std::lock_guard lock(mutex_);
+  if (failure_.empty()) failure_ = processors_[pe].failure();
+  failed_.store(true, std::memory_order_release);
+}
+
+void TranslatedEngine::end() {
+  ending_ = true;
+  queue_.close();
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_translated_engine(const EngineSetup& setup,
+                                               const translated::TranslationOptions& options) {
+  return std::make_unique<TranslatedEngine>(setup, options);
+}
+
+}  // namespace torolux
