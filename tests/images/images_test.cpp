@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Start-up code, linker script, NIU driver and the example images, run on QEMU in the whole machine.
+// Start-up code, linker script, NIU driver and the example images, run on each engine in the whole machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,29 +21,33 @@ struct Outcome {
   MachineFigures figures;
 };
 
-Outcome run(const std::string& image_name, unsigned columns, unsigned rows) {
+Outcome run(const char* engine, const std::string& image_name, unsigned columns, unsigned rows) {
   const Image image = load_image(std::filesystem::path(TOROLUX_FIRMWARE_DIR) / (image_name + ".elf"));
   MachineSetup setup;
   setup.columns = columns;
   setup.rows = rows;
   setup.local_memory_bytes = protocol::kSmallestLocalMemory;
+  setup.engine = engine;
   Outcome result;
   result.figures = run_image(setup, image, [&](const PeText& text) { result.texts.push_back(text); }, {});
   return result;
 }
 
 /// Runs `faults` with as many rows as the fault's number; returns the message with which the machine fails.
-std::string failure_of_fault(unsigned fault) {
+std::string failure_of_fault(const char* engine, unsigned fault) {
   try {
-    run("faults", 1, fault);
+    run(engine, "faults", 1, fault);
   } catch (const MachineFailure& failure) {
     return failure.what();
   }
   return "no failure";
 }
 
-TEST(ExampleImages, HelloSendsOneLineFromEachPe) {
-  const Outcome result = run("hello", 3, 2);
+class ExampleImages : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Engines, ExampleImages, testing::Values("qemu", "translated"));
+
+TEST_P(ExampleImages, HelloSendsOneLineFromEachPe) {
+  const Outcome result = run(GetParam(), "hello", 3, 2);
   std::vector<std::string> lines;
   for (const PeText& text : result.texts) {
     EXPECT_EQ(text.text, "Hello from PE " + std::to_string(text.pe) + " of 6");
@@ -52,8 +56,8 @@ TEST(ExampleImages, HelloSendsOneLineFromEachPe) {
   EXPECT_EQ(lines.size(), 6U);
 }
 
-TEST(ExampleImages, TokenPassesEachPeOnce) {
-  const Outcome result = run("token", 3, 2);
+TEST_P(ExampleImages, TokenPassesEachPeOnce) {
+  const Outcome result = run(GetParam(), "token", 3, 2);
   ASSERT_EQ(result.texts.size(), 1U);
   EXPECT_EQ(result.texts[0].pe, 0);
   EXPECT_THAT(result.texts[0].text, HasSubstr("passed 6 PEs"));
@@ -63,37 +67,41 @@ TEST(ExampleImages, TokenPassesEachPeOnce) {
   }
 }
 
-TEST(ExampleImages, TokenTakesTheSameCyclesEachTime) {
-  const Outcome once = run("token", 2, 2);
-  const Outcome again = run("token", 2, 2);
+TEST_P(ExampleImages, TokenTakesTheSameCyclesEachTime) {
+  const Outcome once = run(GetParam(), "token", 2, 2);
+  const Outcome again = run(GetParam(), "token", 2, 2);
   EXPECT_EQ(once.texts.at(0).text, again.texts.at(0).text);
   EXPECT_EQ(once.figures.now, again.figures.now);
 }
 
 // What the fault is, and what the message must hold. mtval where it is a fixed address.
-TEST(Faults, StoreAfterLocalMemoryTraps) {
-  EXPECT_THAT(failure_of_fault(1), AllOf(HasSubstr("PE 0"), HasSubstr("store"), HasSubstr("0x80040000")));
+class Faults : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Engines, Faults, testing::Values("qemu", "translated"));
+
+TEST_P(Faults, StoreAfterLocalMemoryTraps) {
+  EXPECT_THAT(failure_of_fault(GetParam(), 1), AllOf(HasSubstr("PE 0"), HasSubstr("store"), HasSubstr("0x80040000")));
 }
-TEST(Faults, LoadFromADeviceTraps) {
-  EXPECT_THAT(failure_of_fault(2), AllOf(HasSubstr("PE "), HasSubstr("load"), HasSubstr("0x10000000")));
+TEST_P(Faults, LoadFromADeviceTraps) {
+  EXPECT_THAT(failure_of_fault(GetParam(), 2), AllOf(HasSubstr("PE "), HasSubstr("load"), HasSubstr("0x10000000")));
 }
-TEST(Faults, StoreIntoCodeTraps) {
-  EXPECT_THAT(failure_of_fault(3), AllOf(HasSubstr("PE "), HasSubstr("store"), HasSubstr("0x80000000")));
+TEST_P(Faults, StoreIntoCodeTraps) {
+  EXPECT_THAT(failure_of_fault(GetParam(), 3), AllOf(HasSubstr("PE "), HasSubstr("store"), HasSubstr("0x80000000")));
 }
-TEST(Faults, StackOverflowTrapsInItsFunction) {
-  EXPECT_THAT(failure_of_fault(4), AllOf(HasSubstr("PE "), HasSubstr("store"), HasSubstr("fill_stack")));
+TEST_P(Faults, StackOverflowTrapsInItsFunction) {
+  EXPECT_THAT(failure_of_fault(GetParam(), 4), AllOf(HasSubstr("PE "), HasSubstr("store"), HasSubstr("fill_stack")));
 }
-TEST(Faults, ExecutingTheStoresTraps) {
-  EXPECT_THAT(failure_of_fault(5), AllOf(HasSubstr("PE "), HasSubstr("trap"), HasSubstr("0x8003fffc")));
+TEST_P(Faults, ExecutingTheStoresTraps) {
+  EXPECT_THAT(failure_of_fault(GetParam(), 5), AllOf(HasSubstr("PE "), HasSubstr("trap"), HasSubstr("0x8003fffc")));
 }
-TEST(Faults, UnknownInstructionTraps) {
-  EXPECT_THAT(failure_of_fault(6), AllOf(HasSubstr("PE "), HasSubstr("trap"), HasSubstr("illegal instruction")));
+TEST_P(Faults, UnknownInstructionTraps) {
+  EXPECT_THAT(failure_of_fault(GetParam(), 6),
+              AllOf(HasSubstr("PE "), HasSubstr("trap"), HasSubstr("illegal instruction")));
 }
-TEST(Faults, AProgramsOwnFailureEndsTheRun) {
-  EXPECT_THAT(failure_of_fault(7), AllOf(HasSubstr("PE "), HasSubstr("5"), HasSubstr("6")));
+TEST_P(Faults, AProgramsOwnFailureEndsTheRun) {
+  EXPECT_THAT(failure_of_fault(GetParam(), 7), AllOf(HasSubstr("PE "), HasSubstr("5"), HasSubstr("6")));
 }
-TEST(Faults, MisalignedAccessAndTheLastWordWork) {
-  EXPECT_EQ(failure_of_fault(8), "no failure");
+TEST_P(Faults, MisalignedAccessAndTheLastWordWork) {
+  EXPECT_EQ(failure_of_fault(GetParam(), 8), "no failure");
 }
 
 }  // namespace

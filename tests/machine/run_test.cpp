@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `torolux run` on QEMU as a user sees it: the same result whatever the computer does meanwhile, messages and exit
-// codes for what goes wrong, and nothing left behind.
+// `torolux run` on each engine as a user sees it: the same result whatever the computer does meanwhile, messages and
+// exit codes for what goes wrong, and nothing left behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -73,6 +73,7 @@ std::string result_of(const std::string& image_name, const std::string& pes, std
   EXPECT_EQ(run.exit_code, 0) << run.errors;
   std::ifstream stream(stats.text());
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(stream);
+  json.erase("engine");
   json.erase("wall_seconds");
   json.erase("host");
   return run.output + json.dump();
@@ -97,15 +98,23 @@ TEST(Run, QuietLeavesOnlyWhatThePesSay) {
 class Token : public testing::TestWithParam<const char*> {};
 
 TEST_P(Token, TakesTheSameCyclesWhateverTheComputerDoes) {
-  const std::string first = result_of("token", GetParam());
+  const std::string first = result_of("token", GetParam(), {"--engine", "qemu"});
   EXPECT_THAT(first, HasSubstr("The token has passed "));
-  EXPECT_EQ(result_of("token", GetParam()), first) << "repeated";
-  EXPECT_EQ(result_of("token", GetParam(), {"--threads", "1"}), first) << "on one core";
+  EXPECT_EQ(result_of("token", GetParam(), {"--engine", "qemu", "--threads", "1"}), first) << "QEMU on one core";
+  const auto expect_same = [&](const char* how) {
+    for (const char* threads : {"1", "2", "3"}) {
+      EXPECT_EQ(result_of("token", GetParam(), {"--engine", "translated", "--threads", threads}), first)
+          << threads << " threads, " << how;
+    }
+  };
+  expect_same("once");
+  expect_same("repeated");
   const Load load;
-  EXPECT_EQ(result_of("token", GetParam()), first) << "on a busy computer";
+  EXPECT_EQ(result_of("token", GetParam(), {"--engine", "qemu"}), first) << "QEMU on a busy computer";
+  expect_same("on a busy computer");
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, Token, testing::Values("4x4", "3x5"));
+INSTANTIATE_TEST_SUITE_P(Sizes, Token, testing::Values("4x4", "3x5", "9x8"));
 
 TEST(Run, TheMachineFileChangesTheCycles) {
   const TemporaryName machine("machine.toml");
@@ -115,39 +124,46 @@ TEST(Run, TheMachineFileChangesTheCycles) {
 
 // ---- What goes wrong: in `faults`, the number of rows says what. ----
 
-TEST(Run, ATrapNamesPeCauseAndPlace) {
-  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x6"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.errors, testing::ContainsRegex(
+class Fault : public testing::TestWithParam<const char*> {
+ protected:
+  static Finished run(const std::string& pes, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"run", image("faults"), "--engine", GetParam(), "--pes", pes};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Finished finished = run_torolux(arguments);
+    EXPECT_EQ(finished.exit_code, 3);
+    return finished;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Engines, Fault, testing::Values("qemu", "translated"));
+
+TEST_P(Fault, ATrapNamesPeCauseAndPlace) {
+  const Finished end = run("1x6");
+  EXPECT_THAT(end.errors, testing::ContainsRegex(
                               "PE [0-5]: trap: illegal instruction at pc 0x800[0-9a-f]+ \\([A-Za-z_].*\\), mtval 0x"));
 }
 
-TEST(Run, ThePeHasNoDoublePrecision) {
-  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x9"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.errors, HasSubstr("illegal instruction"));
-  EXPECT_THAT(run.errors, HasSubstr("mtval 0x02c5f553"));
+TEST_P(Fault, ThePeHasNoDoublePrecision) {
+  const Finished end = run("1x9");
+  EXPECT_THAT(end.errors, HasSubstr("illegal instruction"));
+  EXPECT_THAT(end.errors, HasSubstr("mtval 0x02c5f553"));
 }
 
-TEST(Run, AnEndlessLoopEndsTheRun) {
+TEST_P(Fault, AnEndlessLoopEndsTheRun) {
   const TemporaryName machine("machine.toml");
   std::ofstream(machine.text()) << "[processor]\nmost_cycles_between_hints = 1_000_000\n";
-  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x10", "--machine", machine.text()});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.errors, testing::ContainsRegex("PE [0-9]: no HINT for [0-9]+ cycles: an endless loop\\?"));
+  const Finished end = run("1x10", {"--machine", machine.text()});
+  EXPECT_THAT(end.errors, testing::ContainsRegex("PE [0-9]: no HINT for [0-9]+ cycles: an endless loop\\?"));
 }
 
-TEST(Run, PesThatWaitForEverAreNamed) {
-  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x11"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.errors, HasSubstr("11 PEs still wait to receive: PE 0, 1, 2"));
+TEST_P(Fault, PesThatWaitForEverAreNamed) {
+  const Finished end = run("1x11");
+  EXPECT_THAT(end.errors, HasSubstr("11 PEs still wait to receive: PE 0, 1, 2"));
 }
 
-TEST(Run, AnUnknownHintIsAFault) {
-  const Finished run = run_torolux({"run", image("faults"), "--pes", "1x12"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.errors, HasSubstr("HINT unknown to the NIU"));
-  EXPECT_THAT(run.errors, HasSubstr("2000"));
+TEST_P(Fault, AnUnknownHintIsAFault) {
+  const Finished end = run("1x12");
+  EXPECT_THAT(end.errors, HasSubstr("HINT unknown to the NIU"));
+  EXPECT_THAT(end.errors, HasSubstr("2000"));
 }
 
 TEST(Run, BadInputAndBadUsageHaveTheirExitCodes) {
@@ -169,17 +185,41 @@ class EndlessRun : public testing::Test {
  protected:
   EndlessRun() : machine_("endless.toml") {
     std::ofstream(machine_.text()) << "[processor]\nmost_cycles_between_hints = 1_000_000_000_000_000\n";
-    run_.emplace(std::vector<std::string>{"run", image("faults"), "--pes", "1x10", "--machine", machine_.text()});
+  }
+  void start(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"run", image("faults"), "--pes", "1x10", "--machine", machine_.text()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run_.emplace(arguments);
+  }
+
+  TemporaryName machine_;
+  std::optional<ToroluxProcess> run_;
+};
+
+class EndlessRunOnThreads : public EndlessRun, public testing::WithParamInterface<const char*> {};
+
+TEST_P(EndlessRunOnThreads, CtrlCEndsTheTranslatedEngine) {
+  start({"--engine", "translated", "--threads", GetParam()});
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  run_->signal(SIGINT);
+  const Finished end = run_->wait();
+  EXPECT_EQ(end.exit_code, 130);
+  EXPECT_THAT(end.errors, HasSubstr("interrupted"));
+}
+INSTANTIATE_TEST_SUITE_P(Threads, EndlessRunOnThreads, testing::Values("1", "2"));
+
+class EndlessRunOnQemu : public EndlessRun {
+ protected:
+  EndlessRunOnQemu() {
+    start({"--engine", "qemu"});
     qemus_ = run_->children(10);
   }
   void SetUp() override { ASSERT_EQ(qemus_.size(), 10U); }
 
-  TemporaryName machine_;
-  std::optional<ToroluxProcess> run_;
   std::vector<pid_t> qemus_;
 };
 
-TEST_F(EndlessRun, AKilledQemuIsNamedWithinTwoSeconds) {
+TEST_F(EndlessRunOnQemu, AKilledQemuIsNamedWithinTwoSeconds) {
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(kill(qemus_[7], SIGKILL), 0);
   const Finished end = run_->wait();
@@ -189,7 +229,7 @@ TEST_F(EndlessRun, AKilledQemuIsNamedWithinTwoSeconds) {
   EXPECT_TRUE(all_gone(qemus_));
 }
 
-TEST_F(EndlessRun, CtrlCLeavesNothingBehind) {
+TEST_F(EndlessRunOnQemu, CtrlCLeavesNothingBehind) {
   run_->signal(SIGINT);
   const Finished end = run_->wait();
   EXPECT_EQ(end.exit_code, 130);
@@ -197,7 +237,7 @@ TEST_F(EndlessRun, CtrlCLeavesNothingBehind) {
   EXPECT_TRUE(all_gone(qemus_));
 }
 
-TEST_F(EndlessRun, AKilledEmulatorTakesItsQemusAlong) {
+TEST_F(EndlessRunOnQemu, AKilledEmulatorTakesItsQemusAlong) {
   run_->signal(SIGKILL);
   EXPECT_EQ(run_->wait().exit_code, 128 + SIGKILL);
   EXPECT_TRUE(all_gone(qemus_));

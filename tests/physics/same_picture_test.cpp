@@ -65,12 +65,25 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Torus,
                            return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
                          });
 
-/// The reference engine: pe.elf itself on QEMU nodes makes the bytes that its handlers make natively.
-TEST(Engine, QemuMakesTheSamePicture) {
+RenderResult render_on(const char* engine, unsigned threads) {
   RenderCase cornell = small_cornell("cornell_spheres");
-  cornell.machine.engine = "qemu";
+  cornell.machine.engine = engine;
+  cornell.machine.threads = threads;
   cornell.machine.columns = cornell.machine.rows = 4;
-  expect_same_picture(cornell);
+  return run_case(cornell);
+}
+
+/// The reference engine: pe.elf itself on QEMU nodes makes the bytes that its handlers make natively. The translated
+/// engine takes the same cycles besides, on as many threads as it likes.
+TEST(Engine, TranslatedIsQemuToTheLastFigure) {
+  const RenderResult qemu = render_on("qemu", 0);
+  expect_all_home(qemu);
+  EXPECT_EQ(bytes_of(qemu.picture), reference_picture());
+  for (const unsigned threads : {1U, 2U, 3U, 1U, 3U}) {
+    const RenderResult translated = render_on("translated", threads);
+    EXPECT_EQ(bytes_of(translated.picture), reference_picture()) << threads << " threads";
+    EXPECT_EQ(exact_figures(translated.figures), exact_figures(qemu.figures)) << threads << " threads";
+  }
 }
 
 class Allocation : public testing::TestWithParam<const char*> {};

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "emulator/engines/translated/translated_engine.hpp"
 #include "emulator/errors.hpp"
 #include "tests/unit/engines/elf_builder.hpp"
 #include "tests/unit/engines/engine_support.hpp"
@@ -20,7 +21,7 @@ EngineFactory factory_for(Way way) {
   return [way](const EngineSetup& setup) {
     translated::TranslationOptions options;
     options.interpret = way == Way::interpreted;
-    return make_test_engine(setup, options);
+    return make_translated_engine(setup, options);
   };
 }
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "emulator/engines/engine.hpp"
-#include "emulator/engines/translated/translated_image.hpp"
 #include "tests/translated/assembler.hpp"
 
 namespace torolux::test {
@@ -48,8 +47,5 @@ enum class Counts : std::uint8_t { compared, ignored };
 /// message. Returns QEMU's.
 Outcome run_on_all(const Image& image, const std::string& label, const Fill& fill = {},
                    Counts counts = Counts::compared);
-
-/// An engine for the tests: a thread for each PE.
-std::unique_ptr<Engine> make_test_engine(const EngineSetup& setup, const translated::TranslationOptions& options);
 
 }  // namespace torolux::test

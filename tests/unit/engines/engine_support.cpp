@@ -52,6 +52,7 @@ std::optional<TakenCommand> BarePes::next_command(std::size_t pe) {
       return taken;
     }
     engine_->check();
+    if (engine_->help(static_cast<unsigned>(pe), kNever)) continue;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return std::nullopt;
