@@ -66,7 +66,7 @@ TEST(RunQueue, LosesNoWakeUpAndRunsEachPeOnOneThread) {
     threads.emplace_back([&, i] {
       std::minstd_rand random(i + 1);
       while (!ending) {
-        if (const auto pe = pes.queue.take(true)) pes.run(*pe, random);
+        if (const auto pe = pes.queue.wait_and_take()) pes.run(*pe, random);
       }
     });
   }
@@ -92,20 +92,20 @@ TEST(RunQueue, FinishedPesAreNotGivenOut) {
   queue.finish(0);
   queue.wake(0);
   EXPECT_FALSE(queue.claim(0));
-  EXPECT_EQ(queue.take(false), 1U);
+  EXPECT_EQ(queue.take(), 1U);
   EXPECT_TRUE(queue.park(1));
-  EXPECT_EQ(queue.take(false), std::nullopt) << "it waits";
+  EXPECT_EQ(queue.take(), std::nullopt) << "it waits";
   queue.wake(1);
-  EXPECT_EQ(queue.take(false), 1U);
+  EXPECT_EQ(queue.take(), 1U);
 }
 
 TEST(RunQueue, TheLongestReadyComesFirst) {
   RunQueue queue(3, 1);
-  EXPECT_EQ(queue.take(false), 0U);
+  EXPECT_EQ(queue.take(), 0U);
   queue.put_back(0);
-  EXPECT_EQ(queue.take(false), 1U);
-  EXPECT_EQ(queue.take(false), 2U);
-  EXPECT_EQ(queue.take(false), 0U);
+  EXPECT_EQ(queue.take(), 1U);
+  EXPECT_EQ(queue.take(), 2U);
+  EXPECT_EQ(queue.take(), 0U);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ bool Processor::loops() const {
   return pe_.cycles - channel_.processor.last_hint > setup_.machine.processor.most_cycles_between_hints;
 }
 
-Processor::Stop Processor::run(std::uint64_t wanted) {
+Processor::Stop Processor::run(const Goal* goal) {
   std::uint64_t slice_end = pe_.cycles + kSliceCycles;
   for (;;) {
     if (at_hint_) {
@@ -68,7 +68,7 @@ Processor::Stop Processor::run(std::uint64_t wanted) {
       if (answer == Answer::waits) return Stop::waits;
       if (answer == Answer::finished) return Stop::finished;
       slice_end += pe_.cycles - begin;  // waiting is no work
-      if (channel_.bound.load(std::memory_order_relaxed) > wanted) return Stop::past;
+      if (goal != nullptr && goal->reached()) return Stop::enough;
     }
     if (pe_.cycles >= slice_end) return Stop::slice;
     pe_.cycle_limit = slice_end;

@@ -12,6 +12,14 @@
 
 namespace torolux::translated {
 
+/// Until when the scheduler's thread runs a PE instead of waiting.
+class Goal {
+ public:
+  virtual ~Goal() = default;
+  /// Asked after each HINT.
+  virtual bool reached() const = 0;
+};
+
 class Processor {
  public:
   /// All outlive this. number: of the PE.
@@ -21,13 +29,15 @@ class Processor {
 
   enum class Stop : std::uint8_t {
     waits,     ///< for the network: go on when the waker has been called
-    past,      ///< no command will come at `wanted` or before
+    enough,    ///< what the scheduler waits for has come
     slice,     ///< it has run long enough; others have their turn
     finished,  ///< it has halted, or the machine has stopped
     failed,    ///< it can never go on: see failure()
   };
-  /// Runs until one of these. wanted: [cycles]
-  Stop run(std::uint64_t wanted);
+  /// Runs until one of these; goal: none.
+  Stop run(const Goal* goal);
+  /// To be looked at by others: its bound, and what it waits for.
+  const NiuChannel& channel() const { return channel_; }
   /// Why it failed, for people.
   std::string failure() const;
 

@@ -7,35 +7,48 @@
 namespace torolux::translated {
 namespace {
 
-/// Looks at the queue before a thread sleeps: some ten microseconds, a few times what an event takes.
-constexpr int kLooks = 300;
-/// So that a thread sees the end of the machine.
+/// Looks for a ready PE before a taker sleeps: some 100 microseconds, a few times what it takes to wake up again.
+constexpr int kLooks = 2500;
+/// So that a taker sees the end of the machine.
 constexpr std::chrono::milliseconds kLongestSleep{50};
 
 }  // namespace
 
 RunQueue::RunQueue(std::size_t pes, unsigned takers) : entries_(pes), takers_(takers) {
-  for (unsigned pe = 0; pe < pes; ++pe) push(pe);
+  for (unsigned pe = 0; pe < pes; ++pe) make_ready(pe);
 }
 
-void RunQueue::push(unsigned pe) {
+/// Its state has become `ready`.
+void RunQueue::make_ready(unsigned pe) {
   if (takers_ == 0) return;
-  const std::lock_guard lock(mutex_);
-  if (entries_[pe].queued) return;
-  entries_[pe].queued = true;
-  queue_.push_back(pe);
-  length_.store(queue_.size(), std::memory_order_relaxed);
-  if (sleepers_ != 0) ready_.notify_one();
+  {
+    const std::lock_guard lock(mutex_);
+    if (!entries_[pe].queued) queue_.push_back(pe);
+    entries_[pe].queued = true;
+  }
+  ready_pes_.fetch_add(1);
+  wake_taker();
+}
+
+/// Sleeping takers have said so before they look once more: either they see the PE, or they are seen.
+void RunQueue::wake_taker() {
+  if (sleepers_.load() == 0 || !may_take()) return;
+  mutex_.lock();  // one that has looked sleeps by now
+  mutex_.unlock();
+  ready_.notify_one();
 }
 
 std::optional<unsigned> RunQueue::pop() {
+  const std::lock_guard lock(mutex_);
   while (!queue_.empty()) {
     const unsigned pe = queue_.front();
     queue_.pop_front();
-    length_.store(queue_.size(), std::memory_order_relaxed);
     entries_[pe].queued = false;
     State expected = State::ready;
-    if (entries_[pe].state.compare_exchange_strong(expected, State::running)) return pe;
+    if (entries_[pe].state.compare_exchange_strong(expected, State::running)) {
+      ready_pes_.fetch_sub(1);
+      return pe;
+    }
   }
   return std::nullopt;
 }
@@ -45,7 +58,7 @@ void RunQueue::wake(unsigned pe) {
   State seen = state.load();
   for (;;) {
     if (seen == State::parked) {
-      if (state.compare_exchange_weak(seen, State::ready)) return push(pe);
+      if (state.compare_exchange_weak(seen, State::ready)) return make_ready(pe);
     } else if (seen == State::running) {
       if (state.compare_exchange_weak(seen, State::woken)) return;
     } else {
@@ -58,21 +71,36 @@ bool RunQueue::claim(unsigned pe) {
   std::atomic<State>& state = entries_[pe].state;
   State seen = state.load();
   while (seen == State::ready || seen == State::parked) {
-    if (state.compare_exchange_weak(seen, State::running)) return true;
+    const bool was_ready = seen == State::ready;
+    if (!state.compare_exchange_weak(seen, State::running)) continue;
+    if (was_ready && takers_ != 0) ready_pes_.fetch_sub(1);
+    return true;
   }
   return false;
 }
 
-std::optional<unsigned> RunQueue::take(bool sleeps) {
-  for (int i = 0; sleeps && i < kLooks && length_.load(std::memory_order_relaxed) == 0; ++i) __builtin_ia32_pause();
-  if (!sleeps && length_.load(std::memory_order_relaxed) == 0) return std::nullopt;
-  std::unique_lock lock(mutex_);
-  if (const auto pe = pop()) return pe;
-  if (!sleeps || closed_) return std::nullopt;
-  ++sleepers_;
-  ready_.wait_for(lock, kLongestSleep);
-  --sleepers_;
-  return pop();
+std::optional<unsigned> RunQueue::take() {
+  return ready_pes_.load(std::memory_order_relaxed) > 0 ? pop() : std::nullopt;
+}
+
+std::optional<unsigned> RunQueue::wait_and_take() {
+  idle_.fetch_add(1);
+  for (int i = 0; i < kLooks && !may_take(); ++i) __builtin_ia32_pause();
+  if (!may_take()) {
+    std::unique_lock lock(mutex_);
+    sleepers_.fetch_add(1);
+    if (!may_take() && !closed_) ready_.wait_for(lock, kLongestSleep);
+    sleepers_.fetch_sub(1);
+  }
+  const auto pe = may_take() ? pop() : std::nullopt;
+  idle_.fetch_sub(1);
+  return pe;
+}
+
+void RunQueue::scheduler_runs_pe(bool runs) {
+  if (takers_ == 0) return;
+  kept_.store(runs ? 0 : 1);
+  if (runs) wake_taker();
 }
 
 bool RunQueue::park(unsigned pe) {
@@ -84,7 +112,7 @@ bool RunQueue::park(unsigned pe) {
 
 void RunQueue::put_back(unsigned pe) {
   entries_[pe].state.store(State::ready);
-  push(pe);
+  make_ready(pe);
 }
 
 void RunQueue::finish(unsigned pe) {

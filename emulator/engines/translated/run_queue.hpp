@@ -24,8 +24,14 @@ class RunQueue {
   void wake(unsigned pe);
   /// Makes it the caller's, to run it. False: it is running, or finished. Also one that waits: it may look again.
   bool claim(unsigned pe);
-  /// The PE that has been ready for longest, or nothing. Sleeps a while where there is none and `sleeps`.
-  std::optional<unsigned> take(bool sleeps);
+  /// The PE that has been ready for longest, or nothing. For the scheduler's thread.
+  std::optional<unsigned> take();
+  /// The same for a taker: waits a while for one, and leaves one to a scheduler that is not running a PE.
+  std::optional<unsigned> wait_and_take();
+  /// The scheduler's thread begins or ends to run a PE.
+  void scheduler_runs_pe(bool runs);
+  /// Whether a taker has nothing to do.
+  bool has_idle_takers() const { return idle_.load(std::memory_order_relaxed) != 0; }
 
   /// The caller's PE waits. False: it has been woken meanwhile, and is still the caller's.
   bool park(unsigned pe);
@@ -43,16 +49,19 @@ class RunQueue {
     std::atomic<State> state = State::ready;
     bool queued = false;  // guarded by mutex_
   };
-  void push(unsigned pe);
+  bool may_take() const { return ready_pes_.load() > kept_.load(); }
+  void make_ready(unsigned pe);
+  void wake_taker();
   std::optional<unsigned> pop();
 
   std::vector<Entry> entries_;
   unsigned takers_;
   std::mutex mutex_;
   std::condition_variable ready_;
-  std::deque<unsigned> queue_;           // may name PEs that are not ready any more
-  std::atomic<std::size_t> length_ = 0;  // of queue_
-  unsigned sleepers_ = 0;
+  std::deque<unsigned> queue_;  // may name PEs that are not ready any more
+  std::atomic<int> ready_pes_ = 0;
+  std::atomic<int> kept_ = 1;  // ready PEs that takers leave alone
+  std::atomic<unsigned> idle_ = 0, sleepers_ = 0;
   bool closed_ = false;
 };
 

@@ -17,10 +17,31 @@
 namespace torolux {
 namespace {
 
+using translated::Goal;
 using translated::Processor;
 using translated::RunQueue;
 using translated::TranslatedImage;
 using Clock = std::chrono::steady_clock;
+
+/// Looks for news or another PE before the scheduler's thread sleeps: some 20 microseconds.
+constexpr int kLooks = 500;
+
+/// While takers have nothing to do, the scheduler's thread is wanted: by the news of a PE.
+class News final : public Goal {
+ public:
+  News(const NiuChannel& channel, std::uint64_t wanted, const RunQueue& queue)
+      : channel_(channel), wanted_(wanted), queue_(queue) {}
+  bool there() const {
+    return channel_.bound.load(std::memory_order_relaxed) > wanted_ ||
+           wait_kind(channel_.wait.load(std::memory_order_relaxed)) != WaitKind::running;
+  }
+  bool reached() const override { return queue_.has_idle_takers() && there(); }
+
+ private:
+  const NiuChannel& channel_;
+  std::uint64_t wanted_;
+  const RunQueue& queue_;
+};
 
 class TranslatedEngine final : public Engine, private ProcessorWaker {
  public:
@@ -54,7 +75,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
  private:
   void wake(unsigned pe) override { queue_.wake(pe); }
   void work();
-  void run(unsigned pe, std::uint64_t wanted);
+  void run(unsigned pe, const Goal* goal);
   void fail(unsigned pe);
   void end();
 
@@ -71,13 +92,13 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
 };
 
 /// Runs a PE that is the calling thread's until it is not any more.
-void TranslatedEngine::run(unsigned pe, std::uint64_t wanted) {
+void TranslatedEngine::run(unsigned pe, const Goal* goal) {
   for (;;) {
-    switch (processors_[pe].run(wanted)) {
+    switch (processors_[pe].run(goal)) {
       case Processor::Stop::waits:
         if (queue_.park(pe)) return;
         break;  // woken: the HINT is tried again
-      case Processor::Stop::past:
+      case Processor::Stop::enough:
       case Processor::Stop::slice:
         return queue_.put_back(pe);
       case Processor::Stop::finished:
@@ -91,21 +112,26 @@ void TranslatedEngine::run(unsigned pe, std::uint64_t wanted) {
 
 void TranslatedEngine::work() {
   while (!ending_.load(std::memory_order_relaxed)) {
-    if (const auto pe = queue_.take(true)) run(*pe, kNever);
+    if (const auto pe = queue_.wait_and_take()) run(*pe, nullptr);
   }
 }
 
 bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
+  const News news(processors_[pe].channel(), wanted, queue_);
   if (!queue_.claim(pe)) {
-    const auto other = queue_.take(false);
+    std::optional<unsigned> other = queue_.take();
+    for (int i = 0; i < kLooks && !other; ++i) {
+      if (news.there()) return true;
+      __builtin_ia32_pause();
+      other = queue_.take();
+    }
     if (!other) return false;
     pe = *other;
-    wanted = 0;  // back at its next HINT: the one that is waited for may be there already
   }
-  // With nobody else to run the PEs it may as well go on.
-  if (threads_.empty()) wanted = kNever;
   const Clock::time_point begin = Clock::now();
-  run(pe, wanted);
+  queue_.scheduler_runs_pe(true);
+  run(pe, threads_.empty() ? nullptr : &news);
+  queue_.scheduler_runs_pe(false);
   helped_ += Clock::now() - begin;
   check();
   return true;
