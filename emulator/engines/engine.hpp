@@ -61,6 +61,9 @@ class Engine {
 
 using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>;
 
+/// Where the user names none.
+inline constexpr const char* kDefaultEngine = "translated";
+
 /// Engines by name. `qemu` and `translated` are always there; others register before main's work (tests add `native`).
 void register_engine(std::string_view name, EngineFactory factory);
 /// Throws UsageError with the known names.

@@ -39,7 +39,7 @@ struct MachineChoice {
   std::optional<std::array<std::uint32_t, 3>> subspaces;  ///< absent: auto
   std::string allocation = "skewed";
   bool skip_empty_subspaces = true;  ///< camera rays begin in the first subspace on their way with anything in it
-  std::string engine = "qemu";
+  std::string engine = kDefaultEngine;
   unsigned threads = 0;
 };
 
@@ -90,7 +90,7 @@ struct Prediction {
   double rays = 0;          ///< camera rays
   double packets = 0;       ///< on the torus
   double instructions = 0;  ///< of all PEs
-  double wall_seconds = 0;  ///< on the engine `qemu`, on a computer like the one where its speed was measured
+  double wall_seconds = 0;  ///< on a computer like the one where the engines' speed was measured
 
   double cycles() const { return load_cycles + radiosity_cycles + ray_tracing_cycles; }
 };

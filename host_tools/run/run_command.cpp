@@ -22,7 +22,7 @@ struct RunOptions {
   std::string image;
   std::string pes = "4x4";
   std::string pe_memory = "1M";
-  std::string engine = "qemu";
+  std::string engine = kDefaultEngine;
   std::optional<std::string> machine, stats;
   unsigned threads = 0;
   bool quiet = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `torolux info` predicts, against renders on QEMU: virtual time within a factor of two, on machines of several
+// What `torolux info` predicts, against renders: virtual time within a factor of two, on machines of several
 // shapes.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ TEST_P(Prediction, IsWithinAFactorOfTwo) {
   render_case.quality.patch_length = 200;
   render_case.quality.element_length = 100;
   render_case.machine.description = {};
-  render_case.machine.engine = "qemu";
+  render_case.machine.engine = kDefaultEngine;
   render_case.machine.columns = GetParam().columns;
   render_case.machine.rows = GetParam().rows;
   render_case.machine.subspaces = {GetParam().cells, GetParam().cells, GetParam().cells};

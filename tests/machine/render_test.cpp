@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `torolux render` on QEMU as a user sees it: all files and figures of a small picture, the same bytes every time and
+// `torolux render` as a user sees it: all files and figures of a small picture, the same bytes every time and
 // from saved radiosities, and nothing left behind where it is ended or an engine dies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "emulator/engines/engine.hpp"
 #include "tests/machine/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -44,6 +46,7 @@ std::string contents(const std::filesystem::path& file) {
 /// Statistics without what depends on the computer.
 nlohmann::json statistics(const std::filesystem::path& file) {
   nlohmann::json json = nlohmann::json::parse(contents(file));
+  json.erase("engine");
   json.erase("wall_seconds");
   json.erase("host");
   return json;
@@ -85,9 +88,12 @@ TEST(Render, IsTheSameEveryTime) {
     EXPECT_EQ(finished.output + finished.errors, "") << "--quiet";
   };
   run("first", {});
-  run("second", {"--threads", "1"});
-  EXPECT_EQ(contents(folder.path() / "first.png"), contents(folder.path() / "second.png"));
-  EXPECT_EQ(statistics(folder.path() / "first.json"), statistics(folder.path() / "second.json"));
+  const std::vector<Arguments> others = {{"--threads", "1"}, {"--threads", "3"}, {"--engine", "qemu"}};
+  for (const Arguments& other : others) {
+    run("other", other);
+    EXPECT_EQ(contents(folder.path() / "first.png"), contents(folder.path() / "other.png")) << other[1];
+    EXPECT_EQ(statistics(folder.path() / "first.json"), statistics(folder.path() / "other.json")) << other[1];
+  }
 }
 
 TEST(Render, SavedRadiositiesGiveTheSameViewWithoutShots) {
@@ -117,28 +123,42 @@ TEST(Render, SavedRadiositiesGiveTheSameViewWithoutShots) {
 /// A render that goes on for minutes.
 class LongRender : public testing::Test {
  protected:
-  LongRender()
-      : run_(small_render({"--hemicube", "64", "--shot-points", "4", "--max-shots", "0", "--output",
+  explicit LongRender(const char* engine = kDefaultEngine)
+      : run_(small_render({"--hemicube", "256", "--shot-points", "16", "--max-shots", "0", "--output",
                            folder_.path() / "a.png", "--stats", folder_.path() / "a.json", "--save-radiosity",
-                           folder_.path() / "a.rad"})),
-        qemus_(run_.children(4)) {}
-  void SetUp() override { ASSERT_EQ(qemus_.size(), 4U); }
+                           folder_.path() / "a.rad", "--engine", engine})) {}
+
+  void interrupt() {
+    run_.signal(SIGINT);
+    const Finished end = run_.wait();
+    EXPECT_EQ(end.exit_code, 130);
+    EXPECT_EQ(end.errors.substr(end.errors.find("torolux: interrupted")), "torolux: interrupted\n");
+    EXPECT_EQ(folder_.files(), 0U);
+  }
 
   TemporaryFolder folder_;
   ToroluxProcess run_;
+};
+
+class LongRenderOnQemu : public LongRender {
+ protected:
+  LongRenderOnQemu() : LongRender("qemu"), qemus_(run_.children(4)) {}
+  void SetUp() override { ASSERT_EQ(qemus_.size(), 4U); }
+
   std::vector<pid_t> qemus_;
 };
 
 TEST_F(LongRender, CtrlCLeavesNothingBehind) {
-  run_.signal(SIGINT);
-  const Finished end = run_.wait();
-  EXPECT_EQ(end.exit_code, 130);
-  EXPECT_EQ(end.errors.substr(end.errors.find("torolux: interrupted")), "torolux: interrupted\n");
-  EXPECT_TRUE(all_gone(qemus_));
-  EXPECT_EQ(folder_.files(), 0U);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  interrupt();
 }
 
-TEST_F(LongRender, AKilledQemuIsNamedAndLeavesNoFiles) {
+TEST_F(LongRenderOnQemu, CtrlCLeavesNothingBehind) {
+  interrupt();
+  EXPECT_TRUE(all_gone(qemus_));
+}
+
+TEST_F(LongRenderOnQemu, AKilledQemuIsNamedAndLeavesNoFiles) {
   ASSERT_EQ(::kill(qemus_[2], SIGKILL), 0);
   const Finished end = run_.wait();
   EXPECT_EQ(end.exit_code, 3);

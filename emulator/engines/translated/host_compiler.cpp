@@ -126,7 +126,7 @@ HostCompiler::HostCompiler() {
     }
   }
   if (program_.empty()) {
-    throw MachineFailure("no C++ compiler on PATH (g++ or clang++): the translated engine needs one, qemu does not");
+    throw MachineFailure("no C++ compiler on PATH (g++ or clang++): the translated engine needs one; --engine qemu does without");
   }
   std::string name = (std::filesystem::temp_directory_path() / "torolux-compiler-XXXXXX").string();
   const int descriptor = mkstemp(name.data());

@@ -14,6 +14,7 @@ inline RunDescription made_up_run() {
   run.quality.element_length = 0.5;
   run.machine.columns = 2;
   run.machine.rows = 1;
+  run.machine.engine = "qemu";
   run.machine.threads = 7;
   run.pictures = {"room.png", "out/room.exr"};
   return run;
