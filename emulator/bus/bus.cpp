@@ -2,15 +2,9 @@
 // The system bus: arbitration in turn, and the time of a transfer.
 #include "emulator/bus/bus.hpp"
 
-#include <bit>
-
 #include "firmware/protocol/niu_window.hpp"
 
 namespace torolux {
-
-namespace {
-constexpr std::uint32_t kNobodyReady = 0xFFFF'FFFFU;
-}
 
 Bus::Bus(unsigned pes, const MachineDescription::Bus& parameters, EventQueue& events, std::uint32_t source,
          BlockPool& pool, BusClient& client)
@@ -20,34 +14,18 @@ Bus::Bus(unsigned pes, const MachineDescription::Bus& parameters, EventQueue& ev
       source_(source),
       pool_(pool),
       client_(client),
-      ready_((1 + 2 * pes + 63) / 64),
+      ready_(1 + std::size_t{2} * pes),
       requesters_(1 + 2 * pes) {}
 
 void Bus::set_ready(BusRequester requester, bool ready) {
-  const std::uint64_t bit = std::uint64_t{1} << (requester.number() % 64);
-  std::uint64_t& word = ready_[requester.number() / 64];
-  word = ready ? word | bit : word & ~bit;
-}
-
-/// The first that is ready from next_ on, around the end.
-std::uint32_t Bus::next_ready() const {
-  const std::size_t words = ready_.size();
-  const std::size_t first = next_ / 64;
-  for (std::size_t i = 0; i <= words; ++i) {
-    const std::size_t word = (first + i) % words;
-    std::uint64_t bits = ready_[word];
-    const std::uint64_t below = (std::uint64_t{1} << (next_ % 64)) - 1;
-    if (i == 0) bits &= ~below;
-    if (i == words) bits &= below;
-    if (bits != 0) return static_cast<std::uint32_t>(word * 64) + static_cast<std::uint32_t>(std::countr_zero(bits));
-  }
-  return kNobodyReady;
+  ready_.set(requester.number(), ready);
 }
 
 void Bus::try_grant(Cycles now) {
   if (busy_) return;
-  const std::uint32_t number = next_ready();
-  if (number == kNobodyReady) return;
+  const std::size_t found = ready_.next(next_);
+  if (found == ReadySet::kNobody) return;
+  const auto number = static_cast<std::uint32_t>(found);
   next_ = (number + 1) % requesters_;
   busy_ = true;
   const BlockIndex block = client_.take(BusRequester(number), now);

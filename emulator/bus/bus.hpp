@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "emulator/machine/description.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/ready_set.hpp"
 #include "emulator/torus/block.hpp"
 
 namespace torolux {
@@ -53,14 +53,12 @@ class Bus {
   std::uint64_t transfers() const { return transfers_; }
 
  private:
-  std::uint32_t next_ready() const;
-
   std::uint32_t bytes_per_cycle_, arbitration_cycles_;
   EventQueue& events_;
   std::uint32_t source_;
   BlockPool& pool_;
   BusClient& client_;
-  std::vector<std::uint64_t> ready_;  // a bit for each requester
+  ReadySet ready_;  // requesters
   std::uint32_t requesters_;
   std::uint32_t next_ = 0;  // round robin
   bool busy_ = false;

@@ -13,11 +13,14 @@
 namespace torolux {
 namespace {
 
+constexpr std::string_view kTranslated = "translated";
+
 using Registry = std::map<std::string, EngineFactory, std::less<>>;
 
 Registry& registry() {
-  static Registry engines = {{"qemu", [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
-                             {"translated", [](const EngineSetup& setup) { return make_translated_engine(setup); }}};
+  static Registry engines = {
+      {"qemu", [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
+      {std::string(kTranslated), [](const EngineSetup& setup) { return make_translated_engine(setup); }}};
   return engines;
 }
 
@@ -34,6 +37,11 @@ std::size_t mapped_bytes_for(std::uint32_t local_memory_bytes) {
 
 void register_engine(std::string_view name, EngineFactory factory) {
   registry().insert_or_assign(std::string(name), std::move(factory));
+}
+
+bool engine_runs_here(std::string_view name) {
+  engine_named(name);
+  return name == kTranslated;
 }
 
 const EngineFactory& engine_named(std::string_view name) {

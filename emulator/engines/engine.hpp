@@ -66,6 +66,8 @@ inline constexpr const char* kDefaultEngine = "translated";
 
 /// Engines by name. `qemu` and `translated` are always there; others register before main's work (tests add `native`).
 void register_engine(std::string_view name, EngineFactory factory);
+/// Whether its PEs need no memory that other processes can map. Throws as engine_named.
+bool engine_runs_here(std::string_view name);
 /// Throws UsageError with the known names.
 const EngineFactory& engine_named(std::string_view name);
 std::vector<std::string_view> engine_names();

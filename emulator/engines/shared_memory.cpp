@@ -40,18 +40,20 @@ int make_descriptor(const std::string& name) {
 
 }  // namespace
 
-SharedMemory::SharedMemory(const std::string& name, std::size_t bytes) : size_(bytes) {
-  descriptor_ = make_descriptor(name);
-  if (descriptor_ < 0) {
-    fail(name, bytes);
+SharedMemory::SharedMemory(const std::string& name, std::size_t bytes, Use use) : size_(bytes) {
+  int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+  if (use == Use::shared) {
+    flags = MAP_SHARED;
+    descriptor_ = make_descriptor(name);
+    if (descriptor_ < 0) fail(name, bytes);
   }
   void* mapped = MAP_FAILED;
-  if (ftruncate(descriptor_, static_cast<off_t>(bytes)) == 0) {
-    mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
+  if (use == Use::here || ftruncate(descriptor_, static_cast<off_t>(bytes)) == 0) {
+    mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, flags, descriptor_, 0);
   }
   if (mapped == MAP_FAILED) {
     const int reason = errno;
-    close(descriptor_);
+    if (descriptor_ >= 0) close(descriptor_);
     errno = reason;
     fail(name, bytes);
   }

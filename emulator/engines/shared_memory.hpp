@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Anonymous memory that processes can share by file descriptor; gone when the last of them ends, however it ends.
+// Anonymous memory that processes can share by file descriptor; gone when the last of them ends, however it ends. Where
+// no other process wants it, it needs no descriptor.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -10,15 +12,17 @@ namespace torolux {
 
 class SharedMemory {
  public:
+  enum class Use : std::uint8_t { shared, here /* by this process alone: there may be any number of them */ };
+
   SharedMemory() = default;
   /// Zeroed. name: for /proc only. Throws MachineFailure.
-  SharedMemory(const std::string& name, std::size_t bytes);
+  SharedMemory(const std::string& name, std::size_t bytes, Use use = Use::shared);
   SharedMemory(SharedMemory&& other) noexcept;
   SharedMemory& operator=(SharedMemory&& other) noexcept;
   ~SharedMemory();
 
   std::span<std::byte> bytes() const { return {data_, size_}; }
-  int descriptor() const { return descriptor_; }  ///< close-on-exec
+  int descriptor() const { return descriptor_; }  ///< close-on-exec; -1: Use::here
 
  private:
   std::byte* data_ = nullptr;

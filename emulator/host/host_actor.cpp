@@ -18,7 +18,8 @@ HostActor::HostActor(const MachineDescription::Host& parameters, HostProgram& pr
       events_(events),
       source_(source),
       pool_(pool),
-      lines_(nius.size()) {}
+      lines_(nius.size()),
+      ready_(nius.size()) {}
 
 void HostActor::send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) {
   if (pe >= lines_.size() || contents.size() > protocol::kMostMessageBytes) {
@@ -103,16 +104,12 @@ bool HostActor::fits(unsigned pe, const BlockQueue& queue) const {
 }
 
 void HostActor::room_changed(unsigned pe) {
-  Line& line = lines_[pe];
-  const bool ready = fits(pe, line.program) || fits(pe, line.resend);
-  if (ready == line.ready) return;
-  line.ready = ready;
-  ready_count_ = ready ? ready_count_ + 1 : ready_count_ - 1;
+  const Line& line = lines_[pe];
+  ready_.set(pe, fits(pe, line.program) || fits(pe, line.resend));
 }
 
 BlockIndex HostActor::take() {
-  unsigned pe = next_pe_;
-  while (!lines_[pe].ready) pe = (pe + 1) % static_cast<unsigned>(lines_.size());
+  const auto pe = static_cast<unsigned>(ready_.next(next_pe_));
   next_pe_ = (pe + 1) % static_cast<unsigned>(lines_.size());
   Line& line = lines_[pe];
   const bool resend = fits(pe, line.resend);

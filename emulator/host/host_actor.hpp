@@ -12,6 +12,7 @@
 #include "emulator/machine/description.hpp"
 #include "emulator/niu/network_side.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/ready_set.hpp"
 #include "emulator/torus/block.hpp"
 
 namespace torolux {
@@ -40,7 +41,7 @@ class HostActor final : public HostPort {
   /// Slots or control buffers of a PE have become free, or taken.
   void room_changed(unsigned pe);
   /// Whether something is ready for which there is room.
-  bool ready() const { return ready_count_ != 0; }
+  bool ready() const { return !ready_.empty(); }
   /// What goes over the bus next, its room reserved.
   BlockIndex take();
 
@@ -55,7 +56,6 @@ class HostActor final : public HostPort {
     BlockQueue resend;     // diverted records on their way back: apart, so that neither waits for the other
     std::size_t made = 0;  // of the program's: not yet taken by the bus
     std::uint64_t diverted = 0;
-    bool ready = false;
   };
 
   void queue_for(PeNumber pe, BlockIndex block);
@@ -69,12 +69,12 @@ class HostActor final : public HostPort {
   std::uint32_t source_;
   BlockPool& pool_;
   std::vector<Line> lines_;
+  ReadySet ready_;  // PEs for which there is something, and room
   std::deque<BlockIndex> inbox_;
   Cycles clock_ = 0;
   bool stepping_ = false;  // a host_step is scheduled
   std::uint32_t numbers_ = 0;
   unsigned next_pe_ = 0;  // round robin
-  std::size_t ready_count_ = 0;
 };
 
 }  // namespace torolux

@@ -35,6 +35,8 @@ class Emulation final : private TorusClient, private BusClient {
   void fill_in(MachineFigures& figures);
   const FrameBuffer& frame_buffer() const { return controller_.frame_buffer(); }
   Cycles now() const { return now_; }
+  /// Time that the calling thread has slept for PEs [s of wall time].
+  double slept_seconds() const { return slept_; }
   /// A number that depends on every event so far: equal runs have equal ones.
   std::uint64_t trace_hash() const { return trace_hash_; }
 
@@ -92,6 +94,7 @@ class Emulation final : private TorusClient, private BusClient {
   std::function<void(Cycles)> attend_;
   std::uint32_t until_attend_ = 0;
   double last_attended_ = 0;
+  double slept_ = 0;
   Cycles now_ = 0;
   std::uint64_t trace_hash_ = 0;
   std::vector<std::uint32_t> waiting_for_controller_;  // PEs whose next message is for the FBC

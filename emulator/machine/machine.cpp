@@ -65,8 +65,9 @@ void check(const MachineSetup& setup) {
 
 PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image) {
   const std::string name = "torolux-pe" + std::to_string(pe);
-  PeMemory memory{SharedMemory(name + "-niu", niu_channel_bytes()),
-                  SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes)), setup.local_memory_bytes};
+  const auto use = engine_runs_here(setup.engine) ? SharedMemory::Use::here : SharedMemory::Use::shared;
+  PeMemory memory{SharedMemory(name + "-niu", niu_channel_bytes(), use),
+                  SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes), use), setup.local_memory_bytes};
   const auto local = memory.local.bytes().first(setup.local_memory_bytes);
   image.load_into(local);
   const std::uint32_t offset = image.niu_window - protocol::kLocalMemoryBase;
@@ -96,16 +97,18 @@ struct Machine::Parts {
   MachineFigures figures;  // of the end of the run
   FrameBuffer frame_buffer;
   bool running = false;
-  double begin_scheduler = 0, begin_process = 0, begin_children = 0;
+  double begin_wall = 0, begin_scheduler = 0, begin_process = 0, begin_children = 0;
 
   void fill_in_figures() {
     emulation->fill_in(figures);
     figures.trace_hash = emulation->trace_hash();
   }
-  /// The emulator's own CPU time is the calling thread's, but for PEs that it ran; all other is the engine's.
+  /// The emulator's own CPU time is the calling thread's, but for PEs that it ran; all other is the engine's. A clock
+  /// of CPU time is too slow to be read each time: of what the thread had, PEs had the same share as of wall time.
   void measure(MachineFigures& out) const {
-    out.scheduler_seconds =
-        std::max(0.0, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler - engine->help_seconds());
+    const double awake = clock_seconds(CLOCK_MONOTONIC) - begin_wall - emulation->slept_seconds();
+    const double own_share = awake > 0 ? std::max(0.0, 1 - engine->help_seconds() / awake) : 1;
+    out.scheduler_seconds = own_share * (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler);
     out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
                          children_seconds() - begin_children;
   }
@@ -136,6 +139,7 @@ void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progr
   Parts& p = *parts_;
   if (p.emulation) throw MachineFailure("a machine runs once");
   p.emulation.emplace(p.setup, p.channels, p.image, *p.engine, program);
+  p.begin_wall = clock_seconds(CLOCK_MONOTONIC);
   p.begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   p.begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
   p.begin_children = children_seconds();

@@ -47,7 +47,9 @@ void Emulation::await(unsigned pe, Cycles wanted) {
     if (niu.refresh(events_, pool_, times_)) return;
     __builtin_ia32_pause();
   }
+  const double begin = wall_seconds();
   niu.sleep_until_bound(wanted);
+  slept_ += wall_seconds() - begin;
   attend_now_and_then();
 }
 

@@ -11,6 +11,7 @@
 #include "emulator/niu/channel.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/ready_set.hpp"
 
 namespace torolux::test {
 
@@ -49,6 +50,28 @@ TEST(BoundTree, GivesTheLeastAndTheLowestOfEquals) {
       ASSERT_EQ(tree.least(), *least);
       if (*least == kNever) continue;
       ASSERT_EQ(tree.least_index(), static_cast<std::size_t>(least - model.begin()));
+    }
+  }
+}
+
+TEST(ReadySet, GivesTurnsInACircle) {
+  std::minstd_rand random(5);
+  for (const std::size_t count : {1U, 63U, 64U, 65U, 4096U, 9000U}) {
+    ReadySet set(count);
+    std::vector<bool> model(count);
+    EXPECT_TRUE(set.empty());
+    for (int i = 0; i < 400; ++i) {
+      const std::size_t at = random() % count;
+      model[at] = random() % 3 == 0;
+      set.set(at, model[at]);
+      const std::size_t from = random() % (count + 1);
+      std::size_t expected = ReadySet::kNobody;
+      for (std::size_t k = 0; k < count && expected == ReadySet::kNobody; ++k) {
+        if (model[(from + k) % count]) expected = (from + k) % count;
+      }
+      ASSERT_EQ(set.next(from), expected) << from << " of " << count;
+      ASSERT_EQ(set.empty(), expected == ReadySet::kNobody);
+      ASSERT_EQ(set.has(at), model[at]);
     }
   }
 }
