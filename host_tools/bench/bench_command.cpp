@@ -17,6 +17,8 @@
 namespace torolux {
 namespace {
 
+constexpr std::size_t kLabel = 26;
+
 struct BenchOptions {
   std::optional<std::string> scene, machine;
   std::string pes = "4x4";
@@ -37,22 +39,32 @@ std::filesystem::path default_scene() {
   return scene;
 }
 
-void print_speed(const char* label, const EngineSpeed& speed) {
-  std::cout << left(label, 22) << right(significant(speed.instructions_per_second() * 1e-6, 4), 10)
+void print_speed(const std::string& label, const EngineSpeed& speed) {
+  std::cout << left(label, kLabel) << right(significant(speed.instructions_per_second() * 1e-6, 4), 10)
             << " million instructions/s   (" << grouped(speed.instructions) << " in "
             << significant(speed.wall_seconds, 4) << " s; "
             << significant(speed.instructions_per_cpu_second() * 1e-6, 4) << " million per second of host CPU)\n";
 }
 
-void print(const EngineBenchResult& result) {
-  print_speed("in the machine", result.machine);
-  print_speed("QEMU alone", result.bare);
-  std::cout << left("ratio", 22) << right(significant(result.ratio(), 3), 10) << " by wall time, "
+void print_engine(const std::string& name, const EngineResult& result) {
+  print_speed(name + " in the machine", result.machine);
+  print_speed(name + " alone", result.bare);
+  std::cout << left("  ratio", kLabel) << right(significant(result.ratio(), 3), 10) << " by wall time, "
             << significant(result.cpu_ratio(), 3) << " by host CPU time of the PEs\n"
-            << left("emulator's own share", 22) << right(percent(result.emulator_share()), 10) << " of "
+            << left("  emulator's own share", kLabel) << right(percent(result.emulator_share()), 10) << " of "
             << significant(result.scheduler_seconds + result.machine.cpu_seconds, 4) << " s of host CPU\n";
+}
+
+void print(const EngineBenchResult& result) {
+  print_engine("translated", result.translated);
+  print_engine("qemu", result.qemu);
+  const double alone =
+      result.translated.bare.instructions_per_cpu_second() / result.qemu.bare.instructions_per_cpu_second();
+  const double in_machine = result.qemu.machine.wall_seconds / result.translated.machine.wall_seconds;
+  std::cout << left("translated : qemu", kLabel) << right(significant(alone, 3), 10) << " alone, per host CPU; "
+            << significant(in_machine, 3) << " in the machine, by wall time\n";
   if (!result.whole) {
-    std::cout << "QEMU alone repeated only the beginning of the run: a log was full.\n";
+    std::cout << "Alone they repeated only the beginning of the run: a log was full.\n";
   }
   std::cout << std::flush;
 }
@@ -87,7 +99,8 @@ void add_bench_command(CLI::App& app, CommandAction& action) {
   CLI::App* bench = app.add_subcommand("bench", "Measure this program");
   bench->require_subcommand(1);
   CLI::App* engine = bench->add_subcommand(
-      "engine", "Instructions per second of the PEs in a render, and of the same PEs on QEMU with nothing around them");
+      "engine",
+      "Instructions per second of each engine: the PEs in a render, and the same PEs with nothing around them");
   engine->add_option("SCENE", options->scene, "As for render [the Cornell box]")->type_name("");
   engine->add_option("--pes", options->pes, "PEs of the torus, columns x rows")
       ->type_name("PxQ")
