@@ -10,6 +10,9 @@
 
 namespace torolux::translated {
 
+/// mstatus.FS
+inline constexpr std::uint32_t kFloatStatus = 3U << 13U;
+
 /// Values of mcause.
 enum class Cause : std::uint32_t {
   fetch_access = 1,
@@ -39,7 +42,9 @@ std::optional<std::uint32_t> read_csr(const TranslatedPe& pe, std::uint32_t numb
 /// False: as above, or it is read-only.
 bool write_csr(TranslatedPe& pe, std::uint32_t number, std::uint32_t value);
 /// mstatus.FS is off: floating-point instructions are illegal.
-bool float_is_off(const TranslatedPe& pe);
+inline bool float_is_off(const TranslatedPe& pe) {
+  return (pe.mstatus & kFloatStatus) == 0;
+}
 /// An f register was written: mstatus.FS becomes "dirty".
 void mark_float_dirty(TranslatedPe& pe);
 

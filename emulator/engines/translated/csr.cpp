@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t kMie = 1U << 3U;
 constexpr std::uint32_t kMpie = 1U << 7U;
 constexpr std::uint32_t kMpp = 3U << 11U;
-constexpr std::uint32_t kFs = 3U << 13U;
+constexpr std::uint32_t kFs = kFloatStatus;
 constexpr std::uint32_t kVs = 3U << 9U;
 constexpr std::uint32_t kSd = 1U << 31U;
 constexpr std::uint32_t kGva = 1U << 6U, kMpv = 1U << 7U;  // of mstatush
@@ -146,10 +146,6 @@ bool return_from_trap(TranslatedPe& pe) {
   pe.pc = pe.mepc;
   pe.reserved_address = kNoReservation;
   return true;
-}
-
-bool float_is_off(const TranslatedPe& pe) {
-  return (pe.mstatus & kFs) == 0;
 }
 
 void mark_float_dirty(TranslatedPe& pe) {

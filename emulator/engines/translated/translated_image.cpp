@@ -143,8 +143,10 @@ bool TranslatedImage::may_run_translated(const TranslatedPe& pe) const {
 
 Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
   const PlacedInstruction* placed = code_.at(pe.pc);
+  constexpr std::uint32_t kFcsr = 3;  // fflags, frm and this give no rights
   const bool may_change_rights =
-      placed != nullptr && (is_csr(placed->instruction.op) || placed->instruction.op == Op::mret);
+      placed != nullptr &&
+      ((is_csr(placed->instruction.op) && placed->instruction.immediate > kFcsr) || placed->instruction.op == Op::mret);
   const Interpreter::Step step = interpreter_.step(pe);
   if (may_change_rights) refresh(pe);
   return step;
