@@ -38,9 +38,11 @@ bool NiuNetworkSide::refresh(EventQueue& events, BlockPool& pool, PeTimes& times
   floor_ = std::max(floor_, bound_);
   drain(events, pool);
   refill(pool);
-  for (const std::uint64_t taken = channel_->taken.load(std::memory_order_relaxed); taken_ < taken; ++taken_) {
-    gathered_.pop_front();
-  }
+  // A processor that receives may go on by itself, where the first arrival alone decides; until it has said so, what it
+  // waits for is still the wake-up for that one.
+  const bool receives = wait_kind(wait_) == WaitKind::receive;
+  const std::uint64_t taken = receives ? wait_count(wait_) : channel_->taken.load(std::memory_order_relaxed);
+  for (; taken_ < taken; ++taken_) gathered_.pop_front();
   return set_times(times);
 }
 
@@ -245,12 +247,12 @@ void NiuNetworkSide::refill(BlockPool& pool) {
 void NiuNetworkSide::left(Departures& departures, Cycles now, PeTimes& times) {
   const bool waited = waits_for() != WaitKind::running;
   departures.add(now);
-  if (waits_for() != WaitKind::running) return;
-  if (waited) {
+  if (waited && waits_for() == WaitKind::running) {
     floor_ = std::max(floor_, now + kCommandCycles);  // it goes on no earlier
     set_times(times);
   }
-  wake_processor();
+  const WaitKind waits = wait_kind(channel_->wait.load(std::memory_order_seq_cst));
+  if (waits == WaitKind::torus_place || waits == WaitKind::bus_place) wake_processor();
 }
 
 }  // namespace torolux
