@@ -6,7 +6,10 @@
 #include <random>
 #include <thread>
 
+#include "emulator/engines/shared_memory.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/niu/network_side.hpp"
+#include "emulator/niu/processor_side.hpp"
 #include "tests/unit/emulator/wanderers.hpp"
 
 namespace torolux::test {
@@ -158,6 +161,33 @@ TEST(Gather, MoreThanTheRingHoldsIsStillOneBatch) {
     sleep_for_ever(niu);
   });
   EXPECT_EQ(got.arrivals, (pes - 1) * kEach);
+}
+
+TEST(Gather, AProcessorThatGoesOnByItselfIsNotThoughtToSleep) {
+  // The network side may see that an arrival has been taken before it sees that the processor waits no longer.
+  SharedMemory memory("test-channel", niu_channel_bytes());
+  NiuChannel& channel = *niu_channel_at(memory.bytes().data());
+  NiuNetworkSide network(channel, 0, 1, MachineDescription(), nullptr);
+  EventQueue events(4);
+  BlockPool pool;
+  PeTimes times{BoundTree(1, kCommandCycles), BoundTree(1, kNever)};
+  std::vector<std::byte> local(64U * 1024U);
+  auto& window = *reinterpret_cast<protocol::NiuWindow*>(local.data());
+  NiuProcessorSide processor(channel, local, 0, NiuProcessorSide::Waiting::returns);
+  constexpr auto kReceive = static_cast<std::int32_t>(protocol::Hint::receive);
+  ASSERT_EQ(processor.hint(kReceive, 10, 0).outcome, NiuProcessorSide::Outcome::retry);
+  network.refresh(events, pool, times);
+  const BlockIndex block = pool.take();
+  pool[block].message_kind = kGo;
+  pool[block].set_payload({});
+  network.reserve_control_buffer();
+  network.deliver(block, 50, pool, times);
+  const std::uint64_t waited = channel.wait.load();
+  ASSERT_EQ(processor.hint(kReceive, 10, 0).clock, 50U);
+  channel.wait.store(waited);  // not seen yet
+  network.refresh(events, pool, times);
+  EXPECT_EQ(times.bounds.least(), channel.bound.load());
+  EXPECT_EQ(window.retry, 0U);
 }
 
 /// As wanderers(), but each PE handles what has gathered, then tells the host how many have died.
