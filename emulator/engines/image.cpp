@@ -210,7 +210,7 @@ std::vector<ImageSymbol> read_symbols(const ElfReader& reader, const Elf32_Ehdr&
           name->starts_with(".L")) {
         continue;
       }
-      symbols.push_back({symbol.st_value, symbol.st_size, std::move(*name)});
+      symbols.push_back({symbol.st_value, symbol.st_size, std::move(*name), type == STT_FUNC});
     }
     break;
   }

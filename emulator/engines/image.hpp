@@ -15,6 +15,7 @@ struct ImageSymbol {
   std::uint32_t address;
   std::uint32_t bytes;
   std::string name;
+  bool function = false;  ///< by its type: code, `bytes` of it
 };
 
 struct ImageSegment {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The text for each instruction. Names in it: x1..x31, f0..f31, memory, load_limit, store_limit, at, count, pe, and the
-// labels of region_writer's frame.
+// The text for each instruction. Names in it: x1..x31, f0..f31, memory, stores, load_limit, store_limit, count, pe, and
+// o... for offsets.
 #include "emulator/engines/translated/block_writer.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace torolux::translated {
@@ -92,6 +94,10 @@ std::string_view type_of_load(Op op) {
   }
 }
 
+bool is_store(Op op) {
+  return (op >= Op::sb && op <= Op::sw) || op == Op::fsw;
+}
+
 }  // namespace
 
 std::string hexadecimal(std::uint32_t value) {
@@ -108,81 +114,130 @@ void BlockWriter::line(const std::string& text) {
 }
 
 std::string BlockWriter::x(unsigned n) {
-  if (n == 0) return "0u";
-  use_.x.set(n);
-  return "x" + decimal(n);
+  return n == 0 ? "0u" : "x" + decimal(n);
 }
 
 std::string BlockWriter::assign_x(unsigned n) {
-  use_.x.set(n);
-  use_.x_written.set(n);
   return "x" + decimal(n) + " = ";
 }
 
 std::string BlockWriter::f(unsigned n) {
-  use_.f.set(n);
   return "f" + decimal(n);
 }
 
 std::string BlockWriter::exact_f(unsigned n) {
-  if (unsettled_.test(n)) line(f(n) + " = canonical(" + f(n) + ");");
-  unsettled_.reset(n);
+  if ((unsettled_ & f_register(n)) != 0) line(f(n) + " = canonical(" + f(n) + ");");
+  unsettled_ &= ~f_register(n);
   return f(n);
 }
 
 std::string BlockWriter::assign_f(unsigned n, bool settled) {
-  use_.f_written.set(n);
-  unsettled_.set(n, !settled);
+  unsettled_ = settled ? unsettled_ & ~f_register(n) : unsettled_ | f_register(n);
   return f(n) + " = ";
 }
 
-void BlockWriter::settle() {
-  for (unsigned n = 0; n < 32; ++n) exact_f(n);
-}
-
-/// To the interpreter; what it sees must be exact.
-std::string BlockWriter::look(std::uint32_t pc) const {
-  std::string text = "{ ";
+std::string BlockWriter::save(RegisterSet registers) const {
+  std::string text;
+  for (unsigned n = 1; n < 32; ++n) {
+    if ((registers & x_register(n)) != 0) text += "pe->x[" + decimal(n) + "] = " + x(n) + "; ";
+  }
   for (unsigned n = 0; n < 32; ++n) {
-    if (unsettled_.test(n)) text += "f" + decimal(n) + " = canonical(f" + decimal(n) + "); ";
+    if ((registers & f_register(n)) == 0) continue;
+    const std::string value = (unsettled_ & f_register(n)) != 0 ? "canonical(" + f(n) + ")" : f(n);
+    text += "pe->f[" + decimal(n) + "] = to_bits(" + value + "); ";
   }
-  return text + "at = " + hexadecimal(pc) + "; goto look; }";
+  return text;
 }
 
-std::string BlockWriter::address(const Instruction& i, std::uint32_t base) {
-  return x(i.rs1) + " + " + hexadecimal(i.immediate - base);
+std::string BlockWriter::load(RegisterSet registers) {
+  std::string text;
+  for (unsigned n = 1; n < 32; ++n) {
+    if ((registers & x_register(n)) != 0) text += assign_x(n) + "pe->x[" + decimal(n) + "]; ";
+  }
+  for (unsigned n = 0; n < 32; ++n) {
+    if ((registers & f_register(n)) != 0) text += f(n) + " = from_bits(pe->f[" + decimal(n) + "]); ";
+  }
+  return text;
 }
 
-void BlockWriter::write_load(const Instruction& i, std::uint32_t pc) {
-  const std::string value = "load_at<" + std::string(type_of_load(i.op)) + ">(memory, o)";
-  line("{ const std::uint32_t o = " + address(i, kMemoryBase) + ";");
-  line("  if (TOROLUX_RARELY(o >= load_limit)) " + look(pc));
-  if (i.op == Op::flw) {
-    line("  " + assign_f(i.rd, true) + "load_at<float>(memory, o); }");
-  } else if (i.rd == 0) {
-    line("}");
-  } else {
-    line("  " + assign_x(i.rd) + "static_cast<std::uint32_t>(" + value + "); }");
+std::string BlockWriter::leave(RegisterSet registers, const std::string& at) const {
+  return "{ " + save(registers) + "return {count, " + at + "}; }";
+}
+
+/// To the interpreter.
+std::string BlockWriter::look(std::uint32_t pc, RegisterSet registers) const {
+  return leave(registers, "left_for(Exit::look, " + hexadecimal(pc) + ")");
+}
+
+void BlockWriter::begin(const std::vector<std::uint32_t>& addresses, RegisterSet unsettled) {
+  unsettled_ = unsettled;
+  find_accesses(addresses);
+  for (const Accesses& group : accesses_) line("std::uint32_t o" + hexadecimal(group.first).substr(2, 8) + ";");
+}
+
+void BlockWriter::find_accesses(const std::vector<std::uint32_t>& addresses) {
+  constexpr std::size_t kNone = ~std::size_t{0};
+  accesses_.clear();
+  accesses_of_.clear();
+  std::array<std::array<std::size_t, 32>, 2> open{};  // by what they do and base register
+  open[0].fill(kNone);
+  open[1].fill(kNone);
+  for (const std::uint32_t pc : addresses) {
+    const Instruction& i = code_.at(pc)->instruction;
+    if (i.op >= Op::lb && i.op <= Op::fsw) {
+      const bool stores = is_store(i.op);
+      const auto immediate = static_cast<std::int32_t>(i.immediate);
+      std::size_t& group = open[stores ? 1 : 0][i.rs1];
+      if (group == kNone) {
+        group = accesses_.size();
+        accesses_.push_back({pc, immediate, immediate, i.rs1, stores});
+      }
+      accesses_[group].lowest = std::min(accesses_[group].lowest, immediate);
+      accesses_[group].highest = std::max(accesses_[group].highest, immediate);
+      accesses_of_[pc] = group;
+    }
+    if (writes_x(i.op)) open[0][i.rd] = open[1][i.rd] = kNone;
   }
 }
 
-void BlockWriter::write_store(const Instruction& i, std::uint32_t pc) {
-  const std::string value = i.op == Op::fsw  ? exact_f(i.rs2)
-                            : i.op == Op::sb ? "static_cast<std::uint8_t>(" + x(i.rs2) + ")"
-                            : i.op == Op::sh ? "static_cast<std::uint16_t>(" + x(i.rs2) + ")"
-                                             : x(i.rs2);
-  line("{ const std::uint32_t o = " + address(i, code_.store_base()) + ";");
-  line("  if (TOROLUX_RARELY(o >= store_limit)) " + look(pc));
-  line("  store_at(stores, o, " + value + "); }");
+bool BlockWriter::may_look(std::uint32_t pc) const {
+  const auto found = accesses_of_.find(pc);
+  if (found != accesses_of_.end()) return accesses_[found->second].first == pc;
+  return code_.at(pc)->instruction.op == Op::hint;
 }
 
-bool BlockWriter::write_memory(const Instruction& i, std::uint32_t pc) {
+/// Before the first of several accesses: whether they all are plainly allowed.
+void BlockWriter::write_check(std::uint32_t pc, RegisterSet look_saves) {
+  const std::size_t number = accesses_of_.at(pc);
+  const Accesses& group = accesses_[number];
+  if (group.first != pc) return;
+  const std::string o = "o" + hexadecimal(pc).substr(2, 8);
+  const std::uint32_t base = group.stores ? code_.store_base() : kMemoryBase;
+  const auto span = static_cast<std::uint32_t>(group.highest - group.lowest);
+  line(o + " = " + x(group.base) + " + " + hexadecimal(static_cast<std::uint32_t>(group.lowest) - base) + ";");
+  const std::string last = span == 0 ? o : "std::uint64_t{" + o + "} + " + decimal(span) + "u";
+  line("if (TOROLUX_RARELY(" + last + " >= " + (group.stores ? "store_limit" : "load_limit") + ")) " +
+       look(pc, look_saves));
+}
+
+bool BlockWriter::write_memory(const Instruction& i, std::uint32_t pc, RegisterSet look_saves) {
   if (i.op < Op::lb || i.op > Op::fsw) return false;
-  const bool stores = (i.op >= Op::sb && i.op <= Op::sw) || i.op == Op::fsw;
-  if (stores) {
-    write_store(i, pc);
-  } else {
-    write_load(i, pc);
+  if (i.op == Op::fsw) exact_f(i.rs2);
+  write_check(pc, look_saves);
+  const Accesses& group = accesses_[accesses_of_.at(pc)];
+  const std::string offset = "o" + hexadecimal(group.first).substr(2, 8) + " + " +
+                             decimal(static_cast<std::int32_t>(i.immediate) - group.lowest) + "ull";
+  if (group.stores) {
+    const std::string value = i.op == Op::fsw  ? f(i.rs2)
+                              : i.op == Op::sb ? "static_cast<std::uint8_t>(" + x(i.rs2) + ")"
+                              : i.op == Op::sh ? "static_cast<std::uint16_t>(" + x(i.rs2) + ")"
+                                               : x(i.rs2);
+    line("store_at(stores, " + offset + ", " + value + ");");
+  } else if (i.op == Op::flw) {
+    line(assign_f(i.rd, true) + "load_at<float>(memory, " + offset + ");");
+  } else if (i.rd != 0) {
+    line(assign_x(i.rd) + "static_cast<std::uint32_t>(load_at<" + std::string(type_of_load(i.op)) + ">(memory, " +
+         offset + "));");
   }
   return true;
 }
@@ -338,18 +393,18 @@ bool BlockWriter::write_bits(const Instruction& i) {
   }
 }
 
-void BlockWriter::write_marker(const Instruction& i, std::uint32_t pc, Cost cost_behind) {
+void BlockWriter::write_marker(const Instruction& i, std::uint32_t pc, Cost cost_behind, RegisterSet look_saves) {
   const std::string behind = decimal(static_cast<std::int64_t>(pack(cost_behind))) + "ull";
   line("if (TOROLUX_RARELY(!mark(pe, count - " + behind + ", " + decimal(static_cast<std::int32_t>(i.immediate)) +
-       "))) " + look(pc));
+       "))) " + look(pc, look_saves));
 }
 
-void BlockWriter::write(const Instruction& i, std::uint32_t pc, Cost cost_behind) {
+void BlockWriter::write(const Instruction& i, std::uint32_t pc, Cost cost_behind, RegisterSet look_saves) {
   if (i.op == Op::hint) {
-    write_marker(i, pc, cost_behind);
+    write_marker(i, pc, cost_behind, look_saves);
     return;
   }
-  static_cast<void>(write_integer(i, pc) || write_memory(i, pc) || (observed_ && write_flagged(i)) ||
+  static_cast<void>(write_integer(i, pc) || write_memory(i, pc, look_saves) || (observed_ && write_flagged(i)) ||
                     write_arithmetic(i) || write_bits(i));
   if (observed_ && writes_f(i.op)) line("pe->mstatus |= 0x6000u;");
 }

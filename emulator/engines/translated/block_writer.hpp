@@ -3,60 +3,72 @@
 // the host's arithmetic are made canonical only where somebody could see the difference.
 #pragma once
 
-#include <array>
-#include <bitset>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "emulator/engines/translated/code_map.hpp"
+#include "emulator/engines/translated/liveness.hpp"
 
 namespace torolux::translated {
-
-/// Registers that a region reads or writes.
-struct RegisterUse {
-  std::bitset<32> x, f;  ///< read or written
-  std::bitset<32> x_written, f_written;
-};
 
 class BlockWriter {
  public:
   /// observed: the program can see fflags and mstatus.FS.
-  BlockWriter(const CodeMap& code, bool observed, std::string& out, RegisterUse& use)
-      : code_(code), observed_(observed), out_(out), use_(use) {}
+  BlockWriter(const CodeMap& code, bool observed, std::string& out) : code_(code), observed_(observed), out_(out) {}
 
-  /// cost_behind: of the rest of the block, for phase markers.
-  void write(const Instruction& i, std::uint32_t pc, Cost cost_behind);
+  /// Begins a block in which these f registers may hold a NaN that is not RISC-V's. addresses: of its instructions.
+  void begin(const std::vector<std::uint32_t>& addresses, RegisterSet unsettled);
+  /// cost_behind: of the rest of the block, for phase markers. look: registers to be saved where it cannot go on.
+  void write(const Instruction& i, std::uint32_t pc, Cost cost_behind, RegisterSet look);
+  /// Whether the instruction may send the PE to the interpreter.
+  bool may_look(std::uint32_t pc) const;
   /// Condition of a branch.
   std::string condition(const Instruction& i);
-  /// Makes all results canonical: the block ends.
-  void settle();
+  /// Those that may hold a NaN that is not RISC-V's, as after `begin`.
+  RegisterSet unsettled() const { return unsettled_; }
 
-  /// A read of x register n, and of an f register as arithmetic may see it.
-  std::string x(unsigned n);
+  /// Statements that leave with these registers saved. at: an expression, the address and why.
+  std::string leave(RegisterSet save, const std::string& at) const;
+  /// Statements that save registers.
+  std::string save(RegisterSet registers) const;
+  /// Statements that load registers.
+  static std::string load(RegisterSet registers);
+
+  static std::string x(unsigned n);
+  static std::string assign_x(unsigned n);
   void line(const std::string& text);
-  std::string assign_x(unsigned n);
 
  private:
   bool write_integer(const Instruction& i, std::uint32_t pc);
-  bool write_memory(const Instruction& i, std::uint32_t pc);
+  bool write_memory(const Instruction& i, std::uint32_t pc, RegisterSet look);
   bool write_arithmetic(const Instruction& i);
   bool write_flagged(const Instruction& i);
   bool write_bits(const Instruction& i);
-  void write_marker(const Instruction& i, std::uint32_t pc, Cost cost_behind);
-  void write_load(const Instruction& i, std::uint32_t pc);
-  void write_store(const Instruction& i, std::uint32_t pc);
+  void write_marker(const Instruction& i, std::uint32_t pc, Cost cost_behind, RegisterSet look);
+  void write_check(std::uint32_t pc, RegisterSet look);
+  void find_accesses(const std::vector<std::uint32_t>& addresses);
 
-  std::string f(unsigned n);
+  static std::string f(unsigned n);
   std::string exact_f(unsigned n);  // settles it first
   std::string assign_f(unsigned n, bool settled);
-  std::string look(std::uint32_t pc) const;
-  std::string address(const Instruction& i, std::uint32_t base);
+  std::string look(std::uint32_t pc, RegisterSet save) const;
+
+  /// Loads, or stores, of a block by the same base register: one check suffices for all.
+  struct Accesses {
+    std::uint32_t first;           ///< address of the first instruction: the check stands there
+    std::int32_t lowest, highest;  ///< immediates
+    unsigned base;
+    bool stores;
+  };
 
   const CodeMap& code_;
   bool observed_;
   std::string& out_;
-  RegisterUse& use_;
-  std::bitset<32> unsettled_;
+  RegisterSet unsettled_ = 0;
+  std::vector<Accesses> accesses_;
+  std::map<std::uint32_t, std::size_t> accesses_of_;  // by the address of the instruction
 };
 
 /// 0x80000000u

@@ -2,6 +2,8 @@
 // Follows the flow of control from everything that looks like the address of code.
 #include "emulator/engines/translated/blocks.hpp"
 
+#include <algorithm>
+
 namespace torolux::translated {
 namespace {
 
@@ -41,13 +43,16 @@ bool is_interpreted(const Instruction& i) {
   return rounds_to_integer(i.op) && i.rounding != kTowardsZero;
 }
 
+std::vector<std::uint32_t> addresses_in(const CodeMap& code, const Block& block) {
+  std::vector<std::uint32_t> addresses;
+  for (std::uint32_t pc = block.begin; pc < block.end; pc += code.at(pc)->instruction.bytes) addresses.push_back(pc);
+  return addresses;
+}
+
 Blocks::Blocks(const Image& image, const CodeMap& code) : code_(code), traits_((code.end() - code.begin()) / 2) {
   find_roots(image);
-  while (!waiting_.empty()) {
-    const std::uint32_t from = waiting_.back();
-    waiting_.pop_back();
-    follow(from);
-  }
+  follow_all();
+  fill_functions(image);
   for (std::uint32_t address = code.begin(); address < code.end(); address += 2) {
     // In code that seems out of reach, too: it may be interpreted.
     const PlacedInstruction* placed = code.at(address);
@@ -66,14 +71,26 @@ void Blocks::lead(std::uint32_t address, bool entry) {
   if (!traits.reached) waiting_.push_back(address);
 }
 
+/// An address that stands somewhere, unless constants lie there.
+void Blocks::take(std::uint32_t address) {
+  if (address % 2 != 0 || address >= end_of_functions_ || code_.at(address) == nullptr) return;
+  lead(address, true);
+  at(address).taken = true;
+}
+
 /// Symbols, the start, and every word of the image or constant in code that could be an address of code.
 void Blocks::find_roots(const Image& image) {
+  for (const ImageSymbol& symbol : image.symbols) {
+    if (symbol.function) end_of_functions_ = std::max(end_of_functions_, symbol.address + symbol.bytes);
+  }
+  has_function_symbols_ = end_of_functions_ != 0;
+  if (!has_function_symbols_) end_of_functions_ = code_.end();
   lead(image.entry, true);
   at(image.entry).function = true;
   for (const ImageSymbol& symbol : image.symbols) {
-    if (code_.at(symbol.address) == nullptr) continue;
+    if (code_.at(symbol.address) == nullptr || symbol.address >= end_of_functions_) continue;
     lead(symbol.address, true);
-    at(symbol.address).function = symbol.bytes != 0;
+    at(symbol.address).function |= symbol.bytes != 0;
   }
   for (const ImageSegment& segment : image.segments) {
     for (std::size_t offset = 0; offset + 4 <= segment.contents.size(); offset += 4) {
@@ -81,7 +98,31 @@ void Blocks::find_roots(const Image& image) {
       for (unsigned i = 0; i < 4; ++i) {
         word |= std::to_integer<std::uint32_t>(segment.contents[offset + i]) << (8U * i);
       }
-      if (word % 2 == 0 && code_.at(word) != nullptr) lead(word, true);
+      take(word);
+    }
+  }
+}
+
+void Blocks::follow_all() {
+  while (!waiting_.empty()) {
+    const std::uint32_t from = waiting_.back();
+    waiting_.pop_back();
+    follow(from);
+  }
+}
+
+/// What nothing leads to inside a function is reached by a table of offsets.
+void Blocks::fill_functions(const Image& image) {
+  for (const ImageSymbol& symbol : image.symbols) {
+    if (!symbol.function) continue;
+    for (std::uint32_t pc = symbol.address; pc - symbol.address < symbol.bytes;) {
+      const PlacedInstruction* placed = code_.at(pc);
+      if (placed == nullptr) break;
+      if (!at(pc).reached) {
+        take(pc);
+        follow_all();
+      }
+      pc += placed->instruction.bytes;
     }
   }
 }
@@ -98,7 +139,7 @@ void Blocks::find_constants(std::uint32_t pc, const Instruction& first) {
     const Instruction& i = second->instruction;
     if ((i.op == Op::addi || i.op == Op::jalr) && i.rs1 == first.rd) {
       const std::uint32_t target = high + i.immediate;
-      if (target % 2 == 0) lead(target, true);
+      take(target);
       return;
     }
     address += i.bytes;
@@ -132,13 +173,19 @@ void Blocks::follow(std::uint32_t from) {
   }
 }
 
+std::size_t Blocks::function_of(std::uint32_t address) const {
+  const auto behind = std::upper_bound(functions_.begin(), functions_.end(), address);
+  return behind == functions_.begin() ? 0 : static_cast<std::size_t>(behind - functions_.begin()) - 1;
+}
+
 void Blocks::make_entry(std::uint32_t address) {
   const auto found = blocks_.find(address);
   if (found != blocks_.end()) found->second.entry = found->second.end != found->second.begin;
 }
 
 Block Blocks::make_block(std::uint32_t begin) const {
-  Block block{begin, begin, begin, 0, Ending::next, traits_[(begin - code_.begin()) / 2].entry, {0, 0}};
+  const Traits& traits = traits_[(begin - code_.begin()) / 2];
+  Block block{begin, begin, begin, 0, Ending::next, traits.entry, traits.taken, {0, 0}};
   for (;;) {
     const PlacedInstruction* placed = code_.at(block.end);
     const bool next_begins = block.end != begin && placed != nullptr && traits_[(block.end - code_.begin()) / 2].leader;

@@ -27,11 +27,15 @@ struct Block {
   std::uint32_t target;  ///< of branch and jump
   Ending ending;
   bool entry;  ///< may be reached from outside its function
+  bool taken;  ///< its address stands somewhere: it may be reached by an indirect jump
   Cost cost;   ///< of the whole block
 };
 
 /// Whether the code generator leaves this instruction to the interpreter.
 bool is_interpreted(const Instruction& instruction);
+
+/// Of its instructions, ascending.
+std::vector<std::uint32_t> addresses_in(const CodeMap& code, const Block& block);
 
 class Blocks {
  public:
@@ -44,17 +48,25 @@ class Blocks {
   void make_entry(std::uint32_t address);
   /// Ascending addresses at which functions begin, as far as symbols and calls tell.
   const std::vector<std::uint32_t>& functions() const { return functions_; }
+  /// The one that holds this address, by number; what lies before the first belongs to it.
+  std::size_t function_of(std::uint32_t address) const;
+  /// Whether the image says what is a function: it comes from a compiler.
+  bool has_function_symbols() const { return has_function_symbols_; }
 
  private:
   struct Traits {
-    bool reached : 1 = false;
-    bool leader : 1 = false;
-    bool entry : 1 = false;
-    bool function : 1 = false;
+    bool reached = false;
+    bool leader = false;
+    bool entry = false;
+    bool taken = false;
+    bool function = false;
   };
   Traits& at(std::uint32_t address) { return traits_[(address - code_.begin()) / 2]; }
   void lead(std::uint32_t address, bool entry = false);
+  void take(std::uint32_t address);
   void follow(std::uint32_t from);
+  void follow_all();
+  void fill_functions(const Image& image);
   void follow_flow(const Instruction& i, std::uint32_t pc);
   void find_roots(const Image& image);
   void find_constants(std::uint32_t pc, const Instruction& first);
@@ -65,7 +77,9 @@ class Blocks {
   std::vector<std::uint32_t> waiting_;
   std::map<std::uint32_t, Block> blocks_;
   std::vector<std::uint32_t> functions_;
+  std::uint32_t end_of_functions_ = 0;  // constants may lie behind
   bool observed_ = false;
+  bool has_function_symbols_ = false;
 };
 
 }  // namespace torolux::translated

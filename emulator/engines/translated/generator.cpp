@@ -1,174 +1,254 @@
 // SPDX-License-Identifier: MIT
-// The frame around the blocks of a region: loading and saving registers, jumps between blocks, ways out.
+// The frame around the blocks of a function: loading and saving registers, jumps between blocks, calls, ways out.
 #include "emulator/engines/translated/generator.hpp"
 
-#include <algorithm>
-
 #include "emulator/engines/translated/block_writer.hpp"
+#include "emulator/engines/translated/function_flow.hpp"
 
 namespace torolux::translated {
 namespace {
 
-std::string label(std::uint32_t address) {
-  std::string text = hexadecimal(address);
-  return "b_" + text.substr(2, 8);
+std::string flow_label(std::uint32_t address) {
+  return "b_" + hexadecimal(address).substr(2, 8);
+}
+std::string entry_label(std::uint32_t address) {
+  return "r_" + hexadecimal(address).substr(2, 8);
+}
+std::string called_name(std::size_t number) {
+  return "called_" + std::to_string(number);
+}
+std::string resumed_name(std::size_t number) {
+  return "resumed_" + std::to_string(number);
 }
 
-class RegionWriter {
- public:
-  RegionWriter(const CodeMap& code, const Blocks& blocks, const Region& region)
-      : code_(code), blocks_(blocks), region_(region), writer_(code, blocks.observed(), body_, use_) {}
+using Numbers = std::map<std::uint32_t, std::size_t>;  // of functions, by where they begin
 
-  std::string text(std::size_t number);
+class FunctionWriter {
+ public:
+  FunctionWriter(const CodeMap& code, const Blocks& blocks, const FunctionFlow& flow, const Numbers& numbers,
+                 const GuestFunction& function, bool resumes)
+      : code_(code),
+        blocks_(blocks),
+        flow_(flow),
+        numbers_(numbers),
+        function_(function),
+        resumes_(resumes),
+        writer_(code, blocks.observed(), body_) {}
+
+  std::string text(const std::string& name);
 
  private:
-  bool inside(std::uint32_t address) const { return std::binary_search(region_.begin(), region_.end(), address); }
+  bool is_entry(const Block& block) const {
+    return resumes_ ? block.entry : block.begin == function_.begin || block.taken;
+  }
   void write_block(const Block& block);
-  void write_ending(const Block& block);
-  void write_jump(const Block& block, const Instruction& i);
-  void write_indirect(const Block& block, const Instruction& i);
-  std::string go_to(std::uint32_t from, std::uint32_t address) const;
-  std::string places() const;
-  std::string registers(const char* x_text, const char* f_text, const std::bitset<32>& x,
-                        const std::bitset<32>& f) const;
+  void write_ending(const Block& block, RegisterSet save);
+  void write_call(const Block& block, RegisterSet save);
+  void write_indirect(const Block& block, const Instruction& i, RegisterSet save);
+  std::string go_to(const Block& block, std::uint32_t address, RegisterSet save) const;
+  std::string leave(RegisterSet save, Exit why, std::uint32_t at) const;
+  std::string dispatch() const;
 
   const CodeMap& code_;
   const Blocks& blocks_;
-  const Region& region_;
+  const FunctionFlow& flow_;
+  const Numbers& numbers_;
+  const GuestFunction& function_;
+  bool resumes_;
   std::string body_;
-  RegisterUse use_;
   BlockWriter writer_;
 };
 
+std::string FunctionWriter::leave(RegisterSet save, Exit why, std::uint32_t at) const {
+  return writer_.leave(save,
+                       "left_for(Exit(" + std::to_string(static_cast<unsigned>(why)) + "), " + hexadecimal(at) + ")");
+}
+
 /// A jump backwards also looks at the time.
-std::string RegionWriter::go_to(std::uint32_t from, std::uint32_t address) const {
-  const std::string away = "{ at = " + hexadecimal(address) + "; goto leave; }";
-  if (!inside(address)) return away;
-  const std::string there = "goto " + label(address) + ";";
-  if (address > from) return there;
-  return "{ if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) { at = " + hexadecimal(address) +
-         "; goto out_of_time; } " + there + " }";
+std::string FunctionWriter::go_to(const Block& block, std::uint32_t address, RegisterSet save) const {
+  std::string there = "goto " + flow_label(address) + ";";
+  if (!flow_.inside(address)) {
+    const auto callee = numbers_.find(address);
+    if (callee == numbers_.end()) return leave(save, Exit::jump, address);
+    there = "{ if (TOROLUX_RARELY(depth >= kDeepest)) " + leave(save, Exit::jump, address) + " " + writer_.save(save) +
+            "return " + called_name(callee->second) + "(pe, count, " + hexadecimal(address) + ", depth + 1); }";
+  }
+  if (address > block.begin) return there;
+  return "{ if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) " + leave(save, Exit::slice, address) +
+         " " + there + " }";
 }
 
-void RegionWriter::write_jump(const Block& block, const Instruction& i) {
-  if (i.rd != 0) writer_.line(writer_.assign_x(i.rd) + hexadecimal(block.end) + ";");
-  writer_.line(go_to(block.last, block.target));
+void FunctionWriter::write_call(const Block& block, RegisterSet save) {
+  writer_.line(BlockWriter::assign_x(code_.at(block.last)->instruction.rd) + hexadecimal(block.end) + ";");
+  const auto callee = numbers_.find(block.target);
+  if (callee == numbers_.end()) {
+    writer_.line(leave(save, Exit::jump, block.target));
+    return;
+  }
+  writer_.line("if (TOROLUX_RARELY(depth >= kDeepest)) " + leave(save, Exit::jump, block.target));
+  writer_.line(writer_.save(save));
+  writer_.line("const Left left = " + called_name(callee->second) + "(pe, count, " + hexadecimal(block.target) +
+               ", depth + 1);");
+  writer_.line("count = left.count;");
+  writer_.line("if (TOROLUX_RARELY(left.at != " + hexadecimal(block.end) + ")) return left;");
+  if (flow_.inside(block.end)) {
+    writer_.line(BlockWriter::load(flow_.needed(block.end)));
+    writer_.line("goto " + flow_label(block.end) + ";");
+  } else {
+    writer_.line("return {count, left_for(Exit::jump, " + hexadecimal(block.end) + ")};");
+  }
 }
 
-void RegionWriter::write_indirect(const Block& block, const Instruction& i) {
-  writer_.line("at = (" + writer_.x(i.rs1) + " + " + hexadecimal(i.immediate) + ") & ~1u;");
-  if (i.rd != 0) writer_.line(writer_.assign_x(i.rd) + hexadecimal(block.end) + ";");
+void FunctionWriter::write_indirect(const Block& block, const Instruction& i, RegisterSet save) {
+  writer_.line("at = (" + BlockWriter::x(i.rs1) + " + " + hexadecimal(i.immediate) + ") & ~1u;");
+  if (i.rd != 0) writer_.line(BlockWriter::assign_x(i.rd) + hexadecimal(block.end) + ";");
+  if (is_return(i)) {
+    writer_.line(writer_.leave(save, "at"));
+    return;
+  }
+  writer_.line(writer_.save(save));
+  const Reach reach = reach_of(code_, blocks_, block);
+  if (reach != Reach::anywhere) {
+    const std::string why = reach == Reach::function ? "Exit::stray" : "Exit::indirect";
+    writer_.line("if (static_cast<std::uint32_t>(at) - " + hexadecimal(function_.first) +
+                 " >= " + hexadecimal(function_.bytes) + ") return {count, left_for(" + why +
+                 ", static_cast<std::uint32_t>(at))};");
+  }
   writer_.line("goto dispatch;");
 }
 
-void RegionWriter::write_ending(const Block& block) {
+void FunctionWriter::write_ending(const Block& block, RegisterSet save) {
   const auto last = [&]() -> const Instruction& { return code_.at(block.last)->instruction; };
   switch (block.ending) {
     case Ending::branch: {
       const std::string condition = writer_.condition(last());
-      writer_.line("if (" + condition + ") " + go_to(block.last, block.target));
-      writer_.line(go_to(block.last, block.end));
+      writer_.line("if (" + condition + ") " + go_to(block, block.target, save));
+      writer_.line(go_to(block, block.end, save));
       break;
     }
     case Ending::jump:
-      write_jump(block, last());
+      if (last().rd != 0) {
+        write_call(block, save);
+      } else {
+        writer_.line(go_to(block, block.target, save));
+      }
       break;
     case Ending::indirect:
-      write_indirect(block, last());
+      write_indirect(block, last(), save);
       break;
     case Ending::hint:
       writer_.line("pe->hint_immediate = " + std::to_string(static_cast<std::int32_t>(last().immediate)) + ";");
-      writer_.line("at = " + hexadecimal(block.end) + "; goto hint;");
+      writer_.line(leave(save, Exit::hint, block.end));
       break;
     case Ending::interpreted:
-      writer_.line("at = " + hexadecimal(block.end) + "; goto leave;");
+      writer_.line(leave(save, Exit::jump, block.end));
       break;
     case Ending::next:
-      writer_.line(go_to(block.begin, block.end));
+      writer_.line(go_to(block, block.end, save));
       break;
   }
 }
 
-void RegionWriter::write_block(const Block& block) {
-  body_ += label(block.begin) + ":\n";
+void FunctionWriter::write_block(const Block& block) {
+  if (is_entry(block)) {
+    body_ += entry_label(block.begin) + ":\n";
+    writer_.line(BlockWriter::load(flow_.needed(block.begin)));
+  }
+  body_ += flow_label(block.begin) + ": {\n";
+  const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
+  const std::vector<RegisterSet> saves = flow_.saved(block);
+  writer_.begin(addresses, flow_.unsettled(block.begin));
   if (block.cost.cycles != 0) writer_.line("count += " + std::to_string(pack(block.cost)) + "ull;");
   const bool has_jump = block.ending != Ending::next && block.ending != Ending::interpreted;
   Cost behind = block.cost;
-  for (std::uint32_t pc = block.begin; pc < block.end;) {
-    const PlacedInstruction& placed = *code_.at(pc);
+  for (std::size_t n = 0; n < addresses.size(); ++n) {
+    const PlacedInstruction& placed = *code_.at(addresses[n]);
     behind.cycles -= placed.cost.cycles;
     behind.instructions -= placed.cost.instructions;
-    if (pc == block.last && has_jump) break;
-    writer_.write(placed.instruction, pc, behind);
-    pc += placed.instruction.bytes;
+    if (addresses[n] == block.last && has_jump) break;
+    writer_.write(placed.instruction, addresses[n], behind, saves[n]);
   }
-  writer_.settle();
-  write_ending(block);
+  write_ending(block, saves.back());
+  body_ += "}\n";
 }
 
-std::string RegionWriter::places() const {
-  const std::uint32_t begin = region_.front();
-  const std::uint32_t end = region_.back() + 2;
-  std::string text = "  static const int places[] = {";
-  for (std::uint32_t address = begin; address < end; address += 2) {
-    const auto found = blocks_.all().find(address);
-    const bool is_entry = found != blocks_.all().end() && found->second.entry && inside(address);
-    text += is_entry ? "\n    (int)((char*)&&" + label(address) + " - (char*)&&leave)," : "0,";
+/// Everything is saved; `at` says where to go on.
+std::string FunctionWriter::dispatch() const {
+  std::string text = "dispatch:\n  if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) ";
+  text += "return {count, left_for(Exit::slice, static_cast<std::uint32_t>(at))};\n";
+  text += "  switch (static_cast<std::uint32_t>(at)) {\n";
+  for (const std::uint32_t address : function_.blocks) {
+    if (!is_entry(blocks_.all().at(address))) continue;
+    text += "    case " + hexadecimal(address) + ": goto " + entry_label(address) + ";\n";
   }
-  return text + "};\n";
+  return text + "    default: return {count, left_for(Exit::jump, static_cast<std::uint32_t>(at))};\n  }\n";
 }
 
-std::string RegionWriter::registers(const char* x_text, const char* f_text, const std::bitset<32>& x,
-                                    const std::bitset<32>& f) const {
-  std::string text;
-  const auto add = [&](std::string pattern, unsigned n) {
-    for (std::size_t at = 0; (at = pattern.find('$', at)) != std::string::npos;) {
-      pattern.replace(at, 1, std::to_string(n));
-    }
-    text += "  " + pattern + "\n";
-  };
-  for (unsigned n = 1; n < 32; ++n) {
-    if (x.test(n)) add(x_text, n);
-  }
-  for (unsigned n = 0; n < 32; ++n) {
-    if (f.test(n)) add(f_text, n);
-  }
-  return text;
-}
-
-std::string RegionWriter::text(std::size_t number) {
-  for (const std::uint32_t address : region_) write_block(blocks_.all().at(address));
-  const char* header = blocks_.observed() ? "flagged" : "translated_code";
-  std::string text = std::string("#include \"emulator/engines/translated/semantics/") + header + ".hpp\"\n";
-  text += "using namespace torolux::translated;\n";
-  text += "extern \"C\" __attribute__((visibility(\"default\"))) std::uint32_t " + region_name(number) +
-          "(TranslatedPe* pe) {\n" + places();
-  text += "  std::byte* const memory = pe->memory;\n";
+std::string FunctionWriter::text(const std::string& name) {
+  for (const std::uint32_t address : function_.blocks) write_block(blocks_.all().at(address));
+  std::string text = "extern \"C\" Left " + name +
+                     "(TranslatedPe* pe, std::uint64_t count, std::uint64_t at, std::uint32_t depth) {\n  ";
+  for (unsigned n = 1; n < 32; ++n) text += "std::uint32_t x" + std::to_string(n) + "; ";
+  for (unsigned n = 0; n < 32; ++n) text += "float f" + std::to_string(n) + "; ";
+  text += "\n  std::byte* const memory = pe->memory;\n";
   text += "  std::byte* const stores = memory + " + hexadecimal(code_.store_base() - kMemoryBase) + ";\n";
   text += "  const std::uint32_t load_limit = pe->load_limit, store_limit = pe->store_limit, slice = pe->slice;\n";
-  text += "  std::uint64_t count = 0;\n  std::uint32_t at = pe->pc;\n  Exit why = Exit::jump;\n";
-  text += registers("std::uint32_t x$ = pe->x[$];", "float f$ = from_bits(pe->f[$]);", use_.x, use_.f);
-  if (blocks_.observed()) text += "  clear_host_flags();\n";
-  text += "dispatch:\n  {\n    const std::uint32_t o = at - " + hexadecimal(region_.front()) + ";\n";
-  text += "    if (TOROLUX_RARELY(o >= " + hexadecimal(region_.back() + 2 - region_.front()) + ")) goto leave;\n";
-  text += "    if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) goto out_of_time;\n";
-  text += "    goto *(void*)((char*)&&leave + places[o >> 1u]);\n  }\n";
-  text += body_;
-  text += "hint:\n  why = Exit::hint;\n  goto leave;\nlook:\n  why = Exit::look;\n  goto leave;\n";
-  text += "out_of_time:\n  why = Exit::slice;\nleave:\n  pe->pc = at;\n  pe->count = count;\n";
-  text += registers("pe->x[$] = x$;", "pe->f[$] = to_bits(f$);", use_.x_written, use_.f_written);
-  if (blocks_.observed()) text += "  pe->fflags |= host_flags();\n  clear_host_flags();\n";
-  return text + "  return static_cast<std::uint32_t>(why);\n}\n";
+  if (!resumes_) text += "  goto " + entry_label(function_.begin) + ";\n";
+  return text + dispatch() + body_ + "}\n";
+}
+
+/// What `run` looks for in the shared object. The host's flags are sticky, so it suffices to collect them at the end.
+std::string tables(bool observed, const std::string& called, const std::string& resumed) {
+  const std::string visible = "extern \"C\" __attribute__((visibility(\"default\"))) ";
+  std::string text;
+  for (const auto& [name, entries] : {std::pair(kCalledTable, called), std::pair(kResumedTable, resumed)}) {
+    text += visible + "const HostFunction " + name + "[];\n";
+    text += "const HostFunction " + std::string(name) + "[] = {" + entries + "};\n";
+  }
+  text += visible + "Left " + kEnter + "(TranslatedPe* pe, HostFunction function) {\n";
+  if (observed) text += "  clear_host_flags();\n";
+  text += "  const Left left = function(pe, 0, pe->pc, 0);\n";
+  if (observed) text += "  pe->fflags |= host_flags();\n  clear_host_flags();\n";
+  return text + "  return left;\n}\n";
 }
 
 }  // namespace
 
-std::string region_name(std::size_t number) {
-  return "region_" + std::to_string(number);
-}
-
-std::string generate_region(const CodeMap& code, const Blocks& blocks, const Region& region, std::size_t number) {
-  return RegionWriter(code, blocks, region).text(number);
+std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
+                                 const std::vector<GuestFunction>& functions) {
+  const Liveness liveness(code, blocks);
+  const std::string header = std::string("#include \"emulator/engines/translated/semantics/") +
+                             (blocks.observed() ? "flagged" : "translated_code") +
+                             ".hpp\"\nusing namespace torolux::translated;\n";
+  std::string declarations = header;
+  Numbers numbers;
+  std::string called_table;
+  std::string resumed_table;
+  for (std::size_t n = 0; n < functions.size(); ++n) {
+    for (const std::string& name : {called_name(n), resumed_name(n)}) {
+      declarations += "extern \"C\" __attribute__((visibility(\"hidden\"))) Left " + name +
+                      "(TranslatedPe*, std::uint64_t, std::uint64_t, std::uint32_t);\n";
+    }
+    called_table += called_name(n) + ", ";
+    resumed_table += resumed_name(n) + ", ";
+    if (!functions[n].blocks.empty() && blocks.all().contains(functions[n].begin)) numbers[functions[n].begin] = n;
+  }
+  std::vector<SourceText> units;
+  constexpr std::size_t kMostText = 400'000;  // of a unit: units are compiled side by side
+  std::string unit = declarations;
+  const auto finish = [&] {
+    units.push_back({"unit_" + std::to_string(units.size()) + ".cpp", unit});
+    unit = declarations;
+  };
+  for (std::size_t n = 0; n < functions.size(); ++n) {
+    const FunctionFlow flow(code, blocks, liveness, functions[n]);
+    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], false).text(called_name(n));
+    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], true).text(resumed_name(n));
+    if (unit.size() > kMostText) finish();
+  }
+  unit += tables(blocks.observed(), called_table, resumed_table);
+  finish();
+  return units;
 }
 
 }  // namespace torolux::translated

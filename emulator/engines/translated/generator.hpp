@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Writes translated code: a region's blocks in, the C++ text of one function out.
+// Writes translated code: a function of the program in, the C++ text of functions of the host out.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "emulator/engines/translated/blocks.hpp"
-#include "emulator/engines/translated/regions.hpp"
+#include "emulator/engines/translated/semantics_text.hpp"
 
 namespace torolux::translated {
 
-/// Raised whenever the text for the same image changes: part of the cache's key.
-inline constexpr unsigned kGeneratorVersion = 1;
+/// Names of tables of RegionFunction in the shared object, by number of the function.
+inline constexpr const char* kCalledTable = "called_functions";
+inline constexpr const char* kResumedTable = "resumed_functions";
+/// Name of the EnterFunction.
+inline constexpr const char* kEnter = "enter";
 
-/// Name of a region's function in the shared object.
-std::string region_name(std::size_t number);
+/// A function of the program.
+struct GuestFunction {
+  std::uint32_t begin;                ///< where it is called
+  std::uint32_t first, bytes;         ///< all its code
+  std::vector<std::uint32_t> blocks;  ///< ascending addresses
+};
 
-/// One translation unit with one function, RegionFunction region_name(number).
-std::string generate_region(const CodeMap& code, const Blocks& blocks, const Region& region, std::size_t number);
+/// Every block belongs to one function. Makes entries of blocks that are reached from another.
+std::vector<GuestFunction> make_functions(const CodeMap& code, Blocks& blocks);
+
+/// Translation units with, for each function of the program, two of the host: one is called at its beginning, one goes
+/// on in the middle, at any entry. The first is the fast one: its flow of control is that of the program's source.
+std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
+                                 const std::vector<GuestFunction>& functions);
 
 }  // namespace torolux::translated

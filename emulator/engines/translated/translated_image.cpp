@@ -5,13 +5,14 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "emulator/engines/isa/instruction_class.hpp"
 #include "emulator/engines/translated/blocks.hpp"
 #include "emulator/engines/translated/cache.hpp"
 #include "emulator/engines/translated/generator.hpp"
 #include "emulator/engines/translated/host_compiler.hpp"
-#include "emulator/engines/translated/regions.hpp"
+#include "emulator/engines/translated/liveness.hpp"
 #include "emulator/errors.hpp"
 #include "firmware/protocol/hints.hpp"
 
@@ -26,10 +27,11 @@ struct TranslatedImage::Library {
   Library& operator=(const Library&) = delete;
   ~Library() { dlclose(handle); }
 
-  RegionFunction region(std::size_t number) const {
-    void* found = dlsym(handle, region_name(number).c_str());
-    if (found == nullptr) throw MachineFailure("translated code lacks " + region_name(number));
-    return reinterpret_cast<RegionFunction>(found);
+  template <class Symbol>
+  Symbol symbol(const char* name) const {
+    void* found = dlsym(handle, name);
+    if (found == nullptr) throw MachineFailure(std::string("translated code lacks ") + name);
+    return reinterpret_cast<Symbol>(found);
   }
 
   void* handle;
@@ -73,25 +75,18 @@ TranslatedImage::~TranslatedImage() = default;
 
 void TranslatedImage::load(const Image& image, const TranslationOptions& options) {
   Blocks blocks(image, code_);
-  const std::vector<Region> regions = make_regions(blocks);
-  ways_.resize((code_.end() - code_.begin()) / 2, Way{kNone, {0, 0}});
-  std::vector<SourceText> units;
-  for (std::size_t number = 0; number < regions.size(); ++number) {
-    units.push_back({region_name(number) + ".cpp", generate_region(code_, blocks, regions[number], number)});
-    for (const std::uint32_t address : regions[number]) {
+  const std::vector<GuestFunction> functions = make_functions(code_, blocks);
+  ways_.resize((code_.end() - code_.begin()) / 2);
+  for (std::size_t number = 0; number < functions.size(); ++number) {
+    function_begins_.push_back(functions[number].first);
+    for (const std::uint32_t address : functions[number].blocks) {
       const Block& block = blocks.all().at(address);
-      if (block.entry) ways_[(address - code_.begin()) / 2].region = static_cast<std::uint16_t>(number);
-      Cost rest = block.cost;
-      for (std::uint32_t pc = block.begin; pc < block.end;) {
-        const PlacedInstruction& placed = *code_.at(pc);
-        ways_[(pc - code_.begin()) / 2].rest = rest;
-        rest.cycles -= placed.cost.cycles;
-        rest.instructions -= placed.cost.instructions;
-        has_float_ |= is_float(placed.instruction.op);
-        pc += placed.instruction.bytes;
-      }
+      find_ways(block, number, address == functions[number].begin);
+      if (block.ending == Ending::indirect)
+        ways_[(block.last - code_.begin()) / 2].reach = reach_of(code_, blocks, block);
     }
   }
+  const std::vector<SourceText> units = generate(code_, blocks, functions);
   const std::vector<SourceText> headers = semantics_texts();
   const HostCompiler compiler;
   const Cache cache(options.cache_folder);
@@ -105,7 +100,29 @@ void TranslatedImage::load(const Image& image, const TranslationOptions& options
     cache.store(key, built);
     library_ = std::make_unique<Library>(built.string());
   }
-  for (std::size_t number = 0; number < regions.size(); ++number) regions_.push_back(library_->region(number));
+  enter_ = library_->symbol<EnterFunction>(kEnter);
+  called_ = library_->symbol<const HostFunction*>(kCalledTable);
+  resumed_ = library_->symbol<const HostFunction*>(kResumedTable);
+}
+
+void TranslatedImage::find_ways(const Block& block, std::size_t function, bool begins_function) {
+  const auto way = [&](std::uint32_t pc) -> Way& { return ways_[(pc - code_.begin()) / 2]; };
+  way(block.begin).known = block.taken || begins_function;
+  if (block.entry) {
+    way(block.begin).function = static_cast<std::uint16_t>(function);
+    way(block.begin).begins_function = begins_function;
+  }
+  const bool calls =
+      (block.ending == Ending::jump || block.ending == Ending::indirect) && code_.at(block.last)->instruction.rd != 0;
+  if (calls && code_.at(block.end) != nullptr) way(block.end).behind_call = true;
+  Cost rest = block.cost;
+  for (const std::uint32_t pc : addresses_in(code_, block)) {
+    const PlacedInstruction& placed = *code_.at(pc);
+    way(pc).rest = rest;
+    rest.cycles -= placed.cost.cycles;
+    rest.instructions -= placed.cost.instructions;
+    has_float_ |= is_float(placed.instruction.op);
+  }
 }
 
 const TranslatedImage::Way* TranslatedImage::way_at(std::uint32_t address) const {
@@ -147,9 +164,37 @@ Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
   const bool may_change_rights =
       placed != nullptr &&
       ((is_csr(placed->instruction.op) && placed->instruction.immediate > kFcsr) || placed->instruction.op == Op::mret);
+  const Way* jump = !interpret_ && placed != nullptr && placed->instruction.op == Op::jalr ? way_at(pe.pc) : nullptr;
+  const std::uint32_t from = pe.pc;
   const Interpreter::Step step = interpreter_.step(pe);
   if (may_change_rights) refresh(pe);
+  if (jump != nullptr) check_jump(jump->reach, from, pe.pc);
   return step;
+}
+
+/// Translated code keeps registers only as far as somebody reads them: it has to know where jumps may go.
+void TranslatedImage::check_jump(Reach reach, std::uint32_t from, std::uint32_t to) const {
+  const auto function_of = [&](std::uint32_t address) {
+    return std::upper_bound(function_begins_.begin(), function_begins_.end(), address);
+  };
+  if (code_.at(to) == nullptr) return;  // traps
+  const Way* way = way_at(to);
+  const bool may_stay = reach == Reach::function || reach == Reach::entries;
+  if (reach == Reach::anywhere || (may_stay && function_of(from) == function_of(to))) return;
+  if (reach == Reach::behind_calls && way != nullptr && way->behind_call) return;
+  if (reach == Reach::entries && way != nullptr && way->known) return;
+  std::ostringstream text;
+  text << "the firmware jumps to 0x" << std::hex << to
+       << (reach == Reach::behind_calls ? " by ret, but no call stands before that" : ", which is no function")
+       << ": such a program runs on the engine qemu only";
+  throw MachineFailure(text.str());
+}
+
+void TranslatedImage::check_exit(Exit why, std::uint32_t to) const {
+  constexpr std::uint32_t kElsewhere = 0;  // in no function
+  if (why == Exit::ret) check_jump(Reach::behind_calls, kElsewhere, to);
+  if (why == Exit::indirect) check_jump(Reach::entries, kElsewhere, to);
+  if (why == Exit::stray) check_jump(Reach::function, kElsewhere, to);
 }
 
 /// The block has been counted whole, but it was left at pe.pc.
@@ -159,16 +204,24 @@ void TranslatedImage::give_back_rest(TranslatedPe& pe) const {
   pe.instructions -= rest.instructions;
 }
 
+Exit TranslatedImage::run_translated(TranslatedPe& pe, const Way& way) const {
+  pe.slice = static_cast<std::uint32_t>(std::min<std::uint64_t>(pe.cycle_limit - pe.cycles, kMostSlice));
+  const HostFunction function = (way.begins_function ? called_ : resumed_)[way.function];
+  const Left left = enter_(&pe, function);
+  pe.cycles += static_cast<std::uint32_t>(left.count);
+  pe.instructions += left.count >> 32U;
+  pe.pc = static_cast<std::uint32_t>(left.at);
+  return static_cast<Exit>(left.at >> 32U);
+}
+
 TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
   const bool translated = !interpret_;
   while (pe.cycles < pe.cycle_limit) {
     const Way* way = translated && may_run_translated(pe) ? way_at(pe.pc) : nullptr;
-    if (way != nullptr && way->region != kNone) {
-      pe.slice = static_cast<std::uint32_t>(std::min<std::uint64_t>(pe.cycle_limit - pe.cycles, kMostSlice));
-      const auto why = static_cast<Exit>(regions_[way->region](&pe));
-      pe.cycles += static_cast<std::uint32_t>(pe.count);
-      pe.instructions += pe.count >> 32U;
+    if (way != nullptr && way->function != kNone) {
+      const Exit why = run_translated(pe, *way);
       if (why == Exit::hint) return Stop::hint;
+      check_exit(why, pe.pc);
       if (why != Exit::look) continue;
       give_back_rest(pe);
     }

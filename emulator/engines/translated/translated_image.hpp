@@ -11,6 +11,7 @@
 #include "emulator/engines/image.hpp"
 #include "emulator/engines/translated/code_map.hpp"
 #include "emulator/engines/translated/interpreter.hpp"
+#include "emulator/engines/translated/liveness.hpp"
 #include "emulator/engines/translated/semantics/pe_state.hpp"
 #include "emulator/machine/description.hpp"
 
@@ -48,11 +49,15 @@ class TranslatedImage {
 
  private:
   struct Library;
-  struct Way {
-    std::uint16_t region;  ///< kNone: not an entry
-    Cost rest;             ///< of its block from this instruction on
-  };
   static constexpr std::uint16_t kNone = 0xFFFF;
+  struct Way {
+    std::uint16_t function = kNone;  ///< kNone: not an entry
+    bool begins_function = false;
+    bool behind_call = false;
+    bool known = false;             ///< an indirect jump may be foreseen to go there
+    Reach reach = Reach::anywhere;  ///< of the indirect jump that stands there
+    Cost rest{0, 0};                ///< of its block from this instruction on
+  };
 
   void load(const Image& image, const TranslationOptions& options);
   bool may_run_translated(const TranslatedPe& pe) const;
@@ -60,11 +65,18 @@ class TranslatedImage {
   Interpreter::Step interpret(TranslatedPe& pe) const;
   void give_back_rest(TranslatedPe& pe) const;
   const Way* way_at(std::uint32_t address) const;
+  void find_ways(const Block& block, std::size_t function, bool begins_function);
+  void check_jump(Reach reach, std::uint32_t from, std::uint32_t to) const;
+  void check_exit(Exit why, std::uint32_t to) const;
+  Exit run_translated(TranslatedPe& pe, const Way& way) const;
 
   CodeMap code_;
   Interpreter interpreter_;
   std::vector<Way> ways_;
-  std::vector<RegionFunction> regions_;
+  std::vector<std::uint32_t> function_begins_;
+  EnterFunction enter_ = nullptr;
+  const HostFunction* called_ = nullptr;   // by number of the function
+  const HostFunction* resumed_ = nullptr;  // likewise
   std::unique_ptr<Library> library_;
   bool from_cache_ = false;
   bool has_float_ = false;

@@ -33,7 +33,6 @@ struct TranslatedPe {
   // Between `run` and translated code.
   bool may_fetch;       ///< all code may be executed
   std::uint32_t slice;  ///< translated code returns at a jump once it has counted so many cycles
-  std::uint64_t count;  ///< packed Cost that it has counted
 
   MarkerCall marker;  ///< none: `run` stops at phase markers as at any HINT
   void* marker_context;
@@ -52,12 +51,15 @@ static_assert(sizeof(TranslatedPe) <= 4096);
 
 inline constexpr std::uint32_t kNoReservation = 0xFFFF'FFFFU;
 
-/// Why translated code returned to `TranslatedImage::run`. pc says where to go on.
+/// Why translated code returned. An address says where to go on.
 enum class Exit : std::uint32_t {
-  jump,   ///< to a place outside the region
-  hint,   ///< a HINT, already counted; pc is behind it
-  look,   ///< the instruction at pc is for the interpreter; its block's cost from there on has been counted already
-  slice,  ///< pe.slice cycles have been counted
+  ret,       ///< to where a function returns. 0: who called it compares with the address it expects, alone
+  jump,      ///< to a place outside the function
+  hint,      ///< a HINT, already counted; the address is behind it
+  look,      ///< the instruction there is for the interpreter; its block's cost from there on has been counted already
+  slice,     ///< pe.slice cycles have been counted
+  indirect,  ///< to a place outside the function that must be a known one
+  stray,     ///< out of the function where nobody could foresee it
 };
 
 /// Cycles and instructions of a stretch of code, counted in one 64-bit number while translated code runs.
@@ -71,6 +73,18 @@ constexpr std::uint64_t pack(Cost cost) {
 /// The largest slice: what one block may add to it still fits.
 inline constexpr std::uint32_t kMostSlice = 0x4000'0000U;
 
-using RegionFunction = std::uint32_t (*)(TranslatedPe* pe);
+/// How translated code returns.
+struct Left {
+  std::uint64_t count;  ///< packed Cost that it has counted
+  std::uint64_t at;     ///< lower half: address; upper half: Exit
+};
+
+/// Most calls inside each other; a program that calls deeper goes on from `run`, so the host's stack suffices.
+inline constexpr std::uint32_t kDeepest = 256;
+
+/// A function of the program. count: what is counted already; at: where to begin; depth: of the call.
+using HostFunction = Left (*)(TranslatedPe* pe, std::uint64_t count, std::uint64_t at, std::uint32_t depth);
+/// Calls one at pe->pc, with nothing counted.
+using EnterFunction = Left (*)(TranslatedPe* pe, HostFunction function);
 
 }  // namespace torolux::translated

@@ -15,6 +15,11 @@ namespace torolux::translated {
 
 #define TOROLUX_RARELY(condition) __builtin_expect(static_cast<bool>(condition), 0)
 
+/// Why and where translated code leaves, in one number.
+constexpr std::uint64_t left_for(Exit why, std::uint32_t at) {
+  return static_cast<std::uint64_t>(why) << 32U | at;
+}
+
 inline float from_bits(std::uint32_t bits) {
   float value;
   std::memcpy(&value, &bits, sizeof value);
@@ -36,13 +41,13 @@ inline float canonical(float value) {
 }
 
 template <class T>
-inline T load_at(const std::byte* memory, std::uint32_t offset) {
+inline T load_at(const std::byte* memory, std::uint64_t offset) {
   T value;
   std::memcpy(&value, memory + offset, sizeof value);
   return value;
 }
 template <class T>
-inline void store_at(std::byte* memory, std::uint32_t offset, T value) {
+inline void store_at(std::byte* memory, std::uint64_t offset, T value) {
   std::memcpy(memory + offset, &value, sizeof value);
 }
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Three flows over the blocks of a function, each until nothing changes.
+#include "emulator/engines/translated/function_flow.hpp"
+
+namespace torolux::translated {
+
+FunctionFlow::FunctionFlow(const CodeMap& code, const Blocks& blocks, const Liveness& liveness,
+                           const GuestFunction& function)
+    : code_(code), blocks_(blocks), liveness_(liveness) {
+  for (const std::uint32_t address : function.blocks) at_[address] = {};
+  const auto repeat = [&](auto update) {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& [address, sets] : at_) changed |= (this->*update)(blocks_.all().at(address));
+    }
+  };
+  repeat(&FunctionFlow::update_dirty);
+  repeat(&FunctionFlow::update_needed);
+  if (!blocks.observed()) repeat(&FunctionFlow::update_unsettled);
+}
+
+std::vector<std::uint32_t> FunctionFlow::successors(const Block& block) const {
+  std::vector<std::uint32_t> found;
+  const auto add = [&](std::uint32_t address) {
+    if (inside(address)) found.push_back(address);
+  };
+  if (block.ending == Ending::next || block.ending == Ending::branch) add(block.end);
+  const bool jumps = block.ending == Ending::jump && code_.at(block.last)->instruction.rd == 0;
+  if (jumps || block.ending == Ending::branch) add(block.target);
+  return found;
+}
+
+std::vector<RegisterSet> FunctionFlow::saved(const Block& block) const {
+  const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
+  std::vector<RegisterSet> sets(addresses.size() + 1);
+  RegisterSet live = liveness_.behind(block);
+  sets.back() = live;
+  for (std::size_t n = addresses.size(); n-- > 0;) {
+    live = liveness_.before(code_.at(addresses[n])->instruction, live);
+    sets[n] = live;
+  }
+  RegisterSet dirty = this->dirty(block.begin);
+  for (std::size_t n = 0; n < addresses.size(); ++n) {
+    sets[n] &= dirty;
+    dirty |= writes_of(code_.at(addresses[n])->instruction);
+  }
+  sets.back() &= dirty;
+  return sets;
+}
+
+bool FunctionFlow::update_dirty(const Block& block) {
+  RegisterSet dirty = at_[block.begin].dirty;
+  for (const std::uint32_t pc : addresses_in(code_, block)) dirty |= writes_of(code_.at(pc)->instruction);
+  bool changed = false;
+  for (const std::uint32_t next : successors(block)) {
+    RegisterSet& set = at_[next].dirty;
+    changed |= (dirty & ~set) != 0;
+    set |= dirty;
+  }
+  return changed;
+}
+
+bool FunctionFlow::update_needed(const Block& block) {
+  const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
+  const std::vector<RegisterSet> saves = saved(block);
+  std::string none;
+  BlockWriter plan(code_, false, none);
+  plan.begin(addresses, 0);
+  RegisterSet needed = saves.back();  // leaves, for whatever reason: out of time, say
+  for (const std::uint32_t next : successors(block)) needed |= at_[next].needed;
+  for (std::size_t n = addresses.size(); n-- > 0;) {
+    const Instruction& i = code_.at(addresses[n])->instruction;
+    needed = (needed & ~writes_of(i)) | reads_of(i);
+    if (plan.may_look(addresses[n])) needed |= saves[n];
+  }
+  RegisterSet& set = at_[block.begin].needed;
+  const bool changed = needed != set;
+  set = needed;
+  return changed;
+}
+
+bool FunctionFlow::update_unsettled(const Block& block) {
+  const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
+  std::string text;
+  BlockWriter writer(code_, false, text);
+  writer.begin(addresses, at_[block.begin].unsettled);
+  for (const std::uint32_t pc : addresses) writer.write(code_.at(pc)->instruction, pc, {0, 0}, 0);
+  bool changed = false;
+  for (const std::uint32_t next : successors(block)) {
+    RegisterSet& set = at_[next].unsettled;
+    changed |= (writer.unsettled() & ~set) != 0;
+    set |= writer.unsettled();
+  }
+  return changed;
+}
+
+}  // namespace torolux::translated
