@@ -36,7 +36,13 @@ constexpr std::array kOptions = {"-std=c++20",
                                  "-fno-plt",
                                  "-fvisibility=hidden",
                                  "-g0",
-                                 "-fno-strict-aliasing"};
+                                 "-fno-strict-aliasing",
+                                 "-fno-tree-vectorize",
+                                 "-fno-tree-slp-vectorize"};
+
+/// Only GCC knows these. Registers are saved on many ways out that are never taken: none of that may be made ready on
+/// the ways that are.
+constexpr std::array kOptionsOfGcc = {"-fno-code-hoisting", "-fno-tree-pre"};
 
 std::string contents_of(const std::filesystem::path& file) {
   std::ostringstream text;
@@ -138,12 +144,14 @@ HostCompiler::HostCompiler() {
   std::error_code ignored;
   std::filesystem::remove(name, ignored);
   if (!works) fail(program_ + " --version", identity_);
+  is_gcc_ = identity_.find("Free Software Foundation") != std::string::npos;
   for (const std::string& word : command({})) identity_ += word + "\n";
 }
 
 std::vector<std::string> HostCompiler::command(const std::filesystem::path& folder) const {
   std::vector<std::string> arguments = {program_};
   arguments.insert(arguments.end(), kOptions.begin(), kOptions.end());
+  if (is_gcc_) arguments.insert(arguments.end(), kOptionsOfGcc.begin(), kOptionsOfGcc.end());
   arguments.push_back(machine_option());
   if (!folder.empty()) arguments.push_back("-I" + folder.string());
   return arguments;

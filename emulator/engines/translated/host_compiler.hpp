@@ -29,6 +29,7 @@ class HostCompiler {
 
   std::string program_;
   std::string identity_;
+  bool is_gcc_ = false;
 };
 
 }  // namespace torolux::translated
