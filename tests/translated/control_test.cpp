@@ -144,6 +144,22 @@ TEST(TranslatedControl, JumpsReachEveryInstructionOfABlock) {
   EXPECT_EQ(outcome.word(kData + 4 * (kLength - 1)) - outcome.word(kData + 4 * (kLength - 2)), 512U);
 }
 
+TEST(TranslatedControl, ReturnsWhereNoCallStandsAreRefused) {
+  for (const bool calls : {true, false}) {
+    Code code;
+    code.li(kLog, kData).li(kRa, 0x8000'0000U + 4 * 8);
+    while (code.here() < 4 * 7) code << addi(0, 0, 0);
+    // The place behind it is reached by ret below.
+    code << (calls ? j_type(kRa, 8) : j_type(0, 8)) << hint(protocol::Hint::halt) << jalr(0, kRa, 0);
+    const Image image = image_of(code);
+    EXPECT_TRUE(run_to_halt(image, Way::qemu).halted);
+    EXPECT_TRUE(run_to_halt(image, Way::interpreted).halted);
+    const Outcome outcome = run_to_halt(image, Way::translated);
+    EXPECT_EQ(outcome.halted, calls) << outcome.failure;
+    EXPECT_EQ(outcome.failure.empty(), calls);
+  }
+}
+
 TEST(TranslatedControl, RegistersKeepWhatTheyCan) {
   Code code = begin_with_handler();
   turn_float_on(code);

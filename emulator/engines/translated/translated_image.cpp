@@ -5,7 +5,6 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "emulator/engines/isa/instruction_class.hpp"
 #include "emulator/engines/translated/blocks.hpp"
@@ -137,6 +136,7 @@ void TranslatedImage::start(TranslatedPe& pe, std::span<std::byte> local_memory,
   pe.cycle_limit = ~std::uint64_t{0};
   pe.marker = nullptr;
   pe.marker_context = nullptr;
+  pe.stray = false;
   set_boot_registers(pe, mapped_bytes);
   refresh(pe);
 }
@@ -168,33 +168,35 @@ Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
   const std::uint32_t from = pe.pc;
   const Interpreter::Step step = interpreter_.step(pe);
   if (may_change_rights) refresh(pe);
-  if (jump != nullptr) check_jump(jump->reach, from, pe.pc);
-  return step;
+  if (jump == nullptr || is_foreseen(jump->reach, from, pe.pc)) return step;
+  pe.stray = true;
+  return Interpreter::Step::stuck;
 }
 
 /// Translated code keeps registers only as far as somebody reads them: it has to know where jumps may go.
-void TranslatedImage::check_jump(Reach reach, std::uint32_t from, std::uint32_t to) const {
+bool TranslatedImage::is_foreseen(Reach reach, std::uint32_t from, std::uint32_t to) const {
   const auto function_of = [&](std::uint32_t address) {
     return std::upper_bound(function_begins_.begin(), function_begins_.end(), address);
   };
-  if (code_.at(to) == nullptr) return;  // traps
   const Way* way = way_at(to);
-  const bool may_stay = reach == Reach::function || reach == Reach::entries;
-  if (reach == Reach::anywhere || (may_stay && function_of(from) == function_of(to))) return;
-  if (reach == Reach::behind_calls && way != nullptr && way->behind_call) return;
-  if (reach == Reach::entries && way != nullptr && way->known) return;
-  std::ostringstream text;
-  text << "the firmware jumps to 0x" << std::hex << to
-       << (reach == Reach::behind_calls ? " by ret, but no call stands before that" : ", which is no function")
-       << ": such a program runs on the engine qemu only";
-  throw MachineFailure(text.str());
+  if (code_.at(to) == nullptr || way == nullptr) return true;  // traps
+  const bool stays = function_of(from) == function_of(to);
+  switch (reach) {
+    case Reach::behind_calls:
+      return way->behind_call;
+    case Reach::function:
+      return stays;
+    case Reach::entries:
+      return stays || way->known;
+    default:
+      return true;
+  }
 }
 
-void TranslatedImage::check_exit(Exit why, std::uint32_t to) const {
+bool TranslatedImage::is_foreseen(Exit why, std::uint32_t to) const {
   constexpr std::uint32_t kElsewhere = 0;  // in no function
-  if (why == Exit::ret) check_jump(Reach::behind_calls, kElsewhere, to);
-  if (why == Exit::indirect) check_jump(Reach::entries, kElsewhere, to);
-  if (why == Exit::stray) check_jump(Reach::function, kElsewhere, to);
+  if (why == Exit::ret) return is_foreseen(Reach::behind_calls, kElsewhere, to);
+  return why != Exit::stray && (why != Exit::indirect || is_foreseen(Reach::entries, kElsewhere, to));
 }
 
 /// The block has been counted whole, but it was left at pe.pc.
@@ -221,7 +223,8 @@ TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
     if (way != nullptr && way->function != kNone) {
       const Exit why = run_translated(pe, *way);
       if (why == Exit::hint) return Stop::hint;
-      check_exit(why, pe.pc);
+      pe.stray = !is_foreseen(why, pe.pc);
+      if (pe.stray) return Stop::stuck;
       if (why != Exit::look) continue;
       give_back_rest(pe);
     }

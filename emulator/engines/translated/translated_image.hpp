@@ -41,8 +41,8 @@ class TranslatedImage {
   enum class Stop : std::uint8_t {
     hint,         ///< executed and counted, pc behind it; hint_immediate says which. Set pe.cycles if it waits
     cycle_limit,  ///< pe.cycles >= pe.cycle_limit
-    stuck,        ///< it will never execute anything again: wfi, or a trap while mtvec points to nothing.
-                  ///< mcause, mepc and mtval tell of the last trap
+    stuck,        ///< it will never execute anything again: wfi, or a trap while mtvec points to nothing
+                  ///< (mcause, mepc and mtval tell of the last trap), or pe.stray
   };
   /// Goes on from where the PE stands. Call it again after each HINT.
   Stop run(TranslatedPe& pe) const;
@@ -66,8 +66,8 @@ class TranslatedImage {
   void give_back_rest(TranslatedPe& pe) const;
   const Way* way_at(std::uint32_t address) const;
   void find_ways(const Block& block, std::size_t function, bool begins_function);
-  void check_jump(Reach reach, std::uint32_t from, std::uint32_t to) const;
-  void check_exit(Exit why, std::uint32_t to) const;
+  bool is_foreseen(Reach reach, std::uint32_t from, std::uint32_t to) const;
+  bool is_foreseen(Exit why, std::uint32_t to) const;
   Exit run_translated(TranslatedPe& pe, const Way& way) const;
 
   CodeMap code_;

@@ -31,6 +31,9 @@ struct TranslatedPe {
   std::uint32_t store_limit;   ///< likewise stores, from the translation's store base
 
   // Between `run` and translated code.
+  /// The program jumped to pc, where translated code did not foresee it: by `ret` behind no call, or by another
+  /// indirect jump to what is no function. Registers may lack values there, so only the engine qemu can go on.
+  bool stray;
   bool may_fetch;       ///< all code may be executed
   std::uint32_t slice;  ///< translated code returns at a jump once it has counted so many cycles
 
