@@ -27,9 +27,14 @@ constexpr double kCyclesPerInstruction = 1.7;
 /// Of a PE's time in a round; the rest it waits for light that is on its way. With one PE nothing waits.
 constexpr double kUtilisation = 0.8;
 
-/// Instructions per second of this computer's cores and what a packet costs them, measured on one of 2020 with QEMU.
-constexpr double kInstructionsPerSecond = 400e6;
-constexpr double kSecondsPerPacket = 5e-6;
+/// Instructions per second of this computer's cores and what a packet costs them, measured on one of 2020.
+struct HostSpeed {
+  double instructions_per_second;
+  double seconds_per_packet;
+};
+constexpr HostSpeed kQemuSpeed{400e6, 5e-6};
+constexpr HostSpeed kTranslatedSpeed{2000e6, 0.5e-6};
+
 /// Records in a packet on its way between PEs, on average.
 constexpr double kRecordsPerPacket = 9;
 
@@ -186,9 +191,10 @@ Prediction predict(const Scene& scene, const RenderSetup& setup, const Quality& 
   Rounds(scene, setup, quality, light).run(prediction);
   predict_rays(quality, light.reflected, prediction);
   const unsigned cores = machine.threads != 0 ? machine.threads : std::max(1U, std::thread::hardware_concurrency());
+  const HostSpeed& speed = machine.engine == "qemu" ? kQemuSpeed : kTranslatedSpeed;
   prediction.wall_seconds =
-      prediction.instructions / (kInstructionsPerSecond * std::min(cores, setup.placement.torus.pes())) +
-      prediction.packets * kSecondsPerPacket;
+      prediction.instructions / (speed.instructions_per_second * std::min(cores, setup.placement.torus.pes())) +
+      prediction.packets * speed.seconds_per_packet;
   return prediction;
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <filesystem>
@@ -115,6 +116,13 @@ TEST_P(Token, TakesTheSameCyclesWhateverTheComputerDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Token, testing::Values("4x4", "3x5", "9x8"));
+
+TEST(Run, FourThousandPesStartAndHalt) {
+  const Finished run = run_torolux({"run", image("hello"), "--pes", "64x64", "--engine", "translated"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(std::ranges::count(run.output, '\n'), 4096);
+  EXPECT_THAT(run.errors, HasSubstr("4096 PEs halted"));
+}
 
 TEST(Run, TheMachineFileChangesTheCycles) {
   const TemporaryName machine("machine.toml");

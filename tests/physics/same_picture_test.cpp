@@ -86,6 +86,15 @@ TEST(Engine, TranslatedIsQemuToTheLastFigure) {
   }
 }
 
+/// A thousand PEs in one process.
+TEST(Engine, TranslatedTakesManyPes) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.machine.engine = "translated";
+  cornell.machine.columns = cornell.machine.rows = 32;
+  cornell.machine.subspaces = {32, 8, 32};
+  expect_same_picture(cornell);
+}
+
 class Allocation : public testing::TestWithParam<const char*> {};
 
 TEST_P(Allocation, MakesTheSamePicture) {
