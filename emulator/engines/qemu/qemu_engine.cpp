@@ -27,7 +27,8 @@ constexpr double kMostFruitlessCpuSeconds = 5;
 
 /// RV32IMAFC_Zicsr_Zifencei and nothing more, in machine mode alone; everything else traps.
 constexpr const char* kCpu =
-    "rv32,d=false,s=false,u=false,h=false,mmu=false,sstc=false,Zihintpause=false,Zfh=false,zba=false,zbb=false,zbc=false,zbs=false,pmp=true";
+    "rv32,d=false,s=false,u=false,h=false,mmu=false,sstc=false,Zihintpause=false,Zfh=false,zba=false,zbb=false,zbc="
+    "false,zbs=false,pmp=true";
 
 std::filesystem::path plugin_file() {
   std::error_code error;
