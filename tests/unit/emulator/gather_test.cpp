@@ -2,10 +2,6 @@
 // How a NIU lets records gather before it wakes its processor: when, for what, and that it is the same every time.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <random>
-#include <thread>
-
 #include "emulator/engines/shared_memory.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/network_side.hpp"
@@ -28,26 +24,37 @@ struct Batch {
   std::uint32_t records;
 };
 
+/// PE 0's part: one record each to arrive at PE 1 at these times.
+void send_to_arrive(Niu& niu, NativeClock& clock, const std::vector<Cycles>& arrive) {
+  for (std::size_t i = 0; i < arrive.size(); ++i) {
+    clock.spend(arrive[i] - kLatency - 1 - clock.cycles());
+    record(niu, static_cast<std::uint32_t>(i)) = {};
+    send_one(niu, 1, static_cast<std::uint16_t>(i));
+  }
+}
+
+/// The next wake-up.
+Batch receive_batch(Niu& niu, const NativeClock& clock) {
+  Batch batch{0, 0, 0};
+  for (const auto* arrival = &niu.receive(); arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
+    if (batch.arrivals == 0) batch.woken = clock.cycles();
+    ++batch.arrivals;
+    batch.records += arrival->count;
+  }
+  return batch;
+}
+
 /// PE 0 sends one record each to arrive at PE 1 at the times given; the batches in which PE 1 gets them.
 std::vector<Batch> batches(const std::vector<Cycles>& arrive, std::uint32_t enough,
                            const std::function<void(HostPort&)>& at_start = {}, std::uint32_t messages = 0) {
   const auto program = [&](Niu& niu, NativeClock& clock) {
     set_test_slots(niu, 64);
     if (niu.pe() == 0) {
-      for (std::size_t i = 0; i < arrive.size(); ++i) {
-        clock.spend(arrive[i] - kLatency - 1 - clock.cycles());
-        record(niu, static_cast<std::uint32_t>(i)) = {};
-        send_one(niu, 1, static_cast<std::uint16_t>(i));
-      }
+      send_to_arrive(niu, clock, arrive);
     } else if (niu.pe() == 1) {
       niu.gather(kTick, enough);
       for (std::size_t got = 0; got < arrive.size() + messages;) {
-        Batch batch{0, 0, 0};
-        for (const auto* arrival = &niu.receive(); arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
-          if (batch.arrivals == 0) batch.woken = clock.cycles();
-          ++batch.arrivals;
-          batch.records += arrival->count;
-        }
+        const Batch batch = receive_batch(niu, clock);
         got += batch.arrivals;
         niu.send(static_cast<protocol::MessageKind>(kText), batch);
       }
@@ -112,19 +119,11 @@ TEST(Gather, ABusyProcessorTakesWhatATickWouldHaveBroughtIt) {
       [&](Niu& niu, NativeClock& clock) {
         set_test_slots(niu, 64);
         if (niu.pe() == 0) {
-          for (std::size_t i = 0; i < arrive.size(); ++i) {
-            clock.spend(arrive[i] - kLatency - 1 - clock.cycles());
-            record(niu, static_cast<std::uint32_t>(i)) = {};
-            send_one(niu, 1, static_cast<std::uint16_t>(i));
-          }
+          send_to_arrive(niu, clock, arrive);
         } else {
           niu.gather(kTick, 64);
           for (int i = 0; i < 3; ++i) {
-            Batch batch{0, 0, 0};
-            for (const auto* a = &niu.receive(); a->kind != ArrivalKind::none; a = &niu.receive_more()) {
-              if (batch.arrivals++ == 0) batch.woken = clock.cycles();
-            }
-            got.push_back(batch);
+            got.push_back(receive_batch(niu, clock));
             if (i == 0) clock.spend(9000 - clock.cycles());
           }
           niu.send(static_cast<protocol::MessageKind>(kDone));
@@ -146,11 +145,11 @@ TEST(Gather, MoreThanTheRingHoldsIsStillOneBatch) {
   const auto pes = kManyPes + 8;
   Batch got{0, 0, 0};
   ListeningHost host(1);
-  run(small_machine(8, 9), host, [&](Niu& niu, NativeClock& /*clock*/) {
+  run(small_machine(8, 9), host, [&](Niu& niu, NativeClock& clock) {
     set_test_slots(niu, niu.pe() == 0 ? 2048 : 0);
     if (niu.pe() == 0) {
       niu.gather(1'000'000, 4096);
-      for (const auto* a = &niu.receive(); a->kind != ArrivalKind::none; a = &niu.receive_more()) ++got.arrivals;
+      got = receive_batch(niu, clock);
       niu.send(static_cast<protocol::MessageKind>(kDone));
     } else {
       for (std::uint32_t i = 0; i < kEach; ++i) {
@@ -195,27 +194,13 @@ NativeProgram gatherers(std::uint32_t per_pe, std::uint32_t life, std::uint32_t 
   return [=](Niu& niu, NativeClock& clock) {
     set_test_slots(niu, 256);
     niu.gather(cycles, enough);
-    for (std::uint32_t i = 0; i < per_pe; ++i) {
-      const auto slot = static_cast<std::uint16_t>(i % kOwnSlots);
-      record(niu, slot) = {niu.pe(), i, life, 0, {}};
-      send_one(niu, protocol::hash_combine(niu.pe(), i) % niu.pes(), slot);
-    }
+    for (std::uint32_t i = 0; i < per_pe; ++i) set_out(niu, i, life);
     for (;;) {
       std::uint32_t died = 0;
       for (const auto* arrival = &niu.receive(); arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
         const auto slots = arrival->slots;
         const std::uint32_t count = arrival->count;
-        for (std::uint32_t i = 0; i < count; ++i) {
-          TestRecord& got = record(niu, slots[i]);
-          clock.spend(protocol::hash_combine(got.number, got.life) % 300);
-          if (--got.life == 0) {
-            niu.release(slots[i]);
-            ++died;
-          } else {
-            const std::uint32_t key = protocol::hash_combine(got.source * 1000 + got.number, got.life);
-            send_one(niu, key % niu.pes(), slots[i]);
-          }
-        }
+        for (std::uint32_t i = 0; i < count; ++i) died += wander_on(niu, clock, slots[i]) ? 1 : 0;
       }
       if (died != 0) niu.send(static_cast<protocol::MessageKind>(kDone), died);
     }
@@ -227,25 +212,7 @@ class GatherRepeats : public testing::TestWithParam<std::uint32_t> {};
 TEST_P(GatherRepeats, SameRunWhateverTheThreadsDo) {
   MachineSetup setup = small_machine(3, 3);
   setup.description.torus.send_queue_packets = 2;
-  std::string first;
-  for (unsigned attempt = 0; attempt < 5; ++attempt) {
-    NativeOptions options;
-    options.before_hint = [attempt](unsigned pe) {
-      if (attempt == 0) return;
-      thread_local std::minstd_rand random(attempt * 1000 + pe + 1);
-      const auto roll = random() % 64;
-      if (roll == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 300));
-      if (roll < 8) std::this_thread::yield();
-    };
-    CountingHost host(9 * 60);
-    const Outcome outcome = run(setup, host, gatherers(60, 12, GetParam(), 20), options);
-    std::string all = outcome.figures;
-    for (const Heard& heard : outcome.heard) {
-      all += std::to_string(heard.time) + ":" + std::to_string(heard.source) + " ";
-    }
-    if (attempt == 0) first = all;
-    ASSERT_EQ(all, first) << "attempt " << attempt;
-  }
+  expect_same_runs(setup, gatherers(60, 12, GetParam(), 20), 9 * 60, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ticks, GatherRepeats, testing::Values(0U, 100U, 5'000U));

@@ -5,10 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <random>
-#include <thread>
-
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
 #include "tests/unit/emulator/wanderers.hpp"
@@ -157,25 +153,7 @@ TEST(Machine, SameRunWhateverTheThreadsDo) {
   MachineSetup setup = small_machine(3, 3);
   setup.description.torus.send_queue_packets = 1;
   setup.description.bus.send_queue_messages = 1;
-  std::string first;
-  for (unsigned attempt = 0; attempt < 6; ++attempt) {
-    NativeOptions options;
-    options.before_hint = [attempt](unsigned pe) {
-      if (attempt == 0) return;
-      thread_local std::minstd_rand random(attempt * 1000 + pe + 1);
-      const auto roll = random() % 64;
-      if (roll == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 300));
-      if (roll < 8) std::this_thread::yield();
-    };
-    CountingHost host(9 * 60);
-    const Outcome outcome = run(setup, host, wanderers(60, 12, 6), options);
-    std::string all = outcome.figures;
-    for (const Heard& heard : outcome.heard) {
-      all += std::to_string(heard.time) + ":" + std::to_string(heard.source) + " ";
-    }
-    if (attempt == 0) first = all;
-    ASSERT_EQ(all, first) << "attempt " << attempt;
-  }
+  expect_same_runs(setup, wanderers(60, 12, 6), 9 * 60, 6);
 }
 
 TEST(Machine, MessagesOfOneQueueKeepTheirOrderAndReachHostAndFrameBuffer) {

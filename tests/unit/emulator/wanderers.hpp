@@ -2,7 +2,12 @@
 // A machine under any load: records that wander over the torus and come home. A machine's setup in, its figures out.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "firmware/protocol/random.hpp"
@@ -25,6 +30,25 @@ inline Outcome run(const MachineSetup& setup, ListeningHost& host, const NativeP
   return {host.heard, exact(machine.figures()), machine.figures()};
 }
 
+/// The way of a record that has come: on by a hash of it, until its life ends. True: it has died here.
+inline bool wander_on(Niu& niu, NativeClock& clock, std::uint16_t slot) {
+  TestRecord& got = record(niu, slot);
+  clock.spend(protocol::hash_combine(got.number, got.life) % 300);
+  if (--got.life == 0) {
+    niu.release(slot);
+    return true;
+  }
+  const std::uint32_t key = protocol::hash_combine(got.source * 1000 + got.number, got.life);
+  send_one(niu, key % niu.pes(), slot);
+  return false;
+}
+/// The first step of record `number` of this PE.
+inline void set_out(Niu& niu, std::uint32_t number, std::uint32_t life) {
+  const auto slot = static_cast<std::uint16_t>(number % kOwnSlots);
+  record(niu, slot) = {niu.pe(), number, life, 0, {}};
+  send_one(niu, protocol::hash_combine(niu.pe(), number) % niu.pes(), slot);
+}
+
 /// Records wander from PE to PE by a hash until their life ends; the last home tells the host. No PE holds state.
 inline NativeProgram wanderers(std::uint32_t per_pe, std::uint32_t life, std::uint32_t niu_slots) {
   return [=](Niu& niu, NativeClock& clock) {
@@ -33,9 +57,7 @@ inline NativeProgram wanderers(std::uint32_t per_pe, std::uint32_t life, std::ui
     std::uint32_t died = 0;
     for (;;) {
       if (created < per_pe) {
-        const auto slot = static_cast<std::uint16_t>(created % kOwnSlots);
-        record(niu, slot) = {niu.pe(), created, life, 0, {}};
-        send_one(niu, protocol::hash_combine(niu.pe(), created) % niu.pes(), slot);
+        set_out(niu, created, life);
         ++created;
       }
       const auto& arrival = (created < per_pe || died != 0) ? niu.receive_if_any() : niu.receive();
@@ -46,17 +68,7 @@ inline NativeProgram wanderers(std::uint32_t per_pe, std::uint32_t life, std::ui
       }
       const auto slots = arrival.slots;
       const std::uint32_t count = arrival.count;
-      for (std::uint32_t i = 0; i < count; ++i) {
-        TestRecord& got = record(niu, slots[i]);
-        clock.spend(protocol::hash_combine(got.number, got.life) % 300);
-        if (--got.life == 0) {
-          niu.release(slots[i]);
-          ++died;
-        } else {
-          const std::uint32_t key = protocol::hash_combine(got.source * 1000 + got.number, got.life);
-          send_one(niu, key % niu.pes(), slots[i]);
-        }
-      }
+      for (std::uint32_t i = 0; i < count; ++i) died += wander_on(niu, clock, slots[i]) ? 1 : 0;
     }
   };
 }
@@ -75,5 +87,29 @@ class CountingHost final : public ListeningHost {
  private:
   std::uint64_t records_;
 };
+
+/// Runs a program whose records all come home several times, each but the first with its threads held up by chance.
+inline void expect_same_runs(const MachineSetup& setup, const NativeProgram& program, std::uint64_t records,
+                             unsigned attempts) {
+  std::string first;
+  for (unsigned attempt = 0; attempt < attempts; ++attempt) {
+    NativeOptions options;
+    options.before_hint = [attempt](unsigned pe) {
+      if (attempt == 0) return;
+      thread_local std::minstd_rand random(attempt * 1000 + pe + 1);
+      const auto roll = random() % 64;
+      if (roll == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 300));
+      if (roll < 8) std::this_thread::yield();
+    };
+    CountingHost host(records);
+    const Outcome outcome = run(setup, host, program, options);
+    std::string all = outcome.figures;
+    for (const Heard& heard : outcome.heard) {
+      all += std::to_string(heard.time) + ":" + std::to_string(heard.source) + " ";
+    }
+    if (attempt == 0) first = all;
+    ASSERT_EQ(all, first) << "attempt " << attempt;
+  }
+}
 
 }  // namespace torolux::test
