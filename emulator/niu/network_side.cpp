@@ -124,9 +124,9 @@ void NiuNetworkSide::release(Cycles horizon, PeTimes& times) {
   set_times(times);
 }
 
-/// Whether the processor polls right now, whatever it did at the last refresh.
-bool NiuNetworkSide::polls() const {
-  return wait_kind(channel_->wait.load(std::memory_order_seq_cst)) == WaitKind::poll;
+/// What the processor says right now, whatever it said at the last refresh.
+WaitKind NiuNetworkSide::says() const {
+  return wait_kind(channel_->wait.load(std::memory_order_seq_cst));
 }
 
 void NiuNetworkSide::publish_horizon(Cycles horizon) {
@@ -134,7 +134,7 @@ void NiuNetworkSide::publish_horizon(Cycles horizon) {
   if (!overflow_.empty()) horizon = std::min(horizon, overflow_.front().time);
   if (channel_->horizon.load(std::memory_order_relaxed) >= horizon) return;
   channel_->horizon.store(horizon, std::memory_order_seq_cst);
-  if (polls()) wake_processor();  // it may just have begun to
+  if (says() == WaitKind::poll) wake_processor();  // it may just have begun to
 }
 
 void NiuNetworkSide::sleep_until_bound(Cycles wanted) {
@@ -224,7 +224,7 @@ void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, PeTi
     overflow_.push_back({now, index});
   }
   set_times(times);
-  if (polls()) wake_processor();
+  if (says() == WaitKind::poll) wake_processor();
 }
 
 void NiuNetworkSide::push_arrival(const Block& block, Cycles time) {
@@ -251,7 +251,7 @@ void NiuNetworkSide::left(Departures& departures, Cycles now, PeTimes& times) {
     floor_ = std::max(floor_, now + kCommandCycles);  // it goes on no earlier
     set_times(times);
   }
-  const WaitKind waits = wait_kind(channel_->wait.load(std::memory_order_seq_cst));
+  const WaitKind waits = says();
   if (waits == WaitKind::torus_place || waits == WaitKind::bus_place) wake_processor();
 }
 

@@ -86,7 +86,7 @@ class NiuNetworkSide {
   void signal_processor();
   bool set_times(PeTimes& times) const;
   Gathering next_wake() const;
-  bool polls() const;
+  WaitKind says() const;
 
   struct Overflow {
     Cycles time;

@@ -397,7 +397,7 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     return {stop, clock};
   }
   channel_.instructions.store(instructions, std::memory_order_relaxed);
-  const bool marker = is_phase_marker_immediate(immediate);
+  const bool marker = protocol::is_phase_marker(immediate);
   if (marker && mark_phase(channel_, immediate, clock)) {
     // Not a command, but news: the next HINT ends no earlier.
     channel_.bound.store(clock + kCommandCycles, std::memory_order_release);

@@ -12,7 +12,6 @@ namespace {
 
 using protocol::Hint;
 
-constexpr auto kEnter = static_cast<std::int32_t>(Hint::enter_phase);
 constexpr auto kLeave = static_cast<std::int32_t>(Hint::leave_phase);
 
 void charge(NiuChannel& channel, std::uint64_t clock) {
@@ -34,11 +33,6 @@ void report_mismatch(NiuChannel& channel, std::uint8_t phase, std::uint64_t cloc
 }
 
 }  // namespace
-
-bool is_phase_marker_immediate(std::int32_t immediate) {
-  constexpr auto phases = static_cast<std::int32_t>(protocol::kPhases);
-  return immediate >= kEnter && immediate < kLeave + phases && immediate % 64 < phases;
-}
 
 bool mark_phase(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock) {
   charge(channel, clock);

@@ -8,9 +8,6 @@
 
 namespace torolux {
 
-/// Whether a HINT's immediate is that of a phase marker.
-bool is_phase_marker_immediate(std::int32_t immediate);
-
 /// Charges the busy cycles since the last marker to the innermost open phase, then opens or closes one.
 /// False: markers do not nest as they should; a fault has gone to the network side.
 bool mark_phase(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock);

@@ -50,6 +50,14 @@ constexpr bool is_hint(std::uint32_t instruction) {
 constexpr std::int32_t hint_immediate(std::uint32_t instruction) {
   return static_cast<std::int32_t>(instruction) >> 20;
 }
+/// Whether a HINT with this immediate is a phase marker.
+constexpr bool is_phase_marker(std::int32_t immediate) {
+  const auto marks = [immediate](Hint first) {
+    const auto from = static_cast<std::int32_t>(first);
+    return immediate >= from && immediate < from + static_cast<std::int32_t>(kPhases);
+  };
+  return marks(Hint::enter_phase) || marks(Hint::leave_phase);
+}
 static_assert(hint_immediate(hint_instruction(-5)) == -5 && is_hint(hint_instruction(-5)));
 
 }  // namespace torolux::protocol

@@ -250,15 +250,7 @@ std::optional<InstructionClass> class_of(std::uint32_t instruction) {
 }
 
 bool is_phase_marker(std::uint32_t instruction) {
-  if (!protocol::is_hint(instruction)) {
-    return false;
-  }
-  const std::int32_t immediate = protocol::hint_immediate(instruction);
-  const auto marks = [&](protocol::Hint first) {
-    const auto from = static_cast<std::int32_t>(first);
-    return immediate >= from && immediate < from + static_cast<std::int32_t>(protocol::kPhases);
-  };
-  return marks(protocol::Hint::enter_phase) || marks(protocol::Hint::leave_phase);
+  return protocol::is_hint(instruction) && protocol::is_phase_marker(protocol::hint_immediate(instruction));
 }
 
 std::uint32_t cycles_of(std::uint32_t instruction, const LatencyTable& latency) {

@@ -18,10 +18,6 @@ constexpr std::size_t padded(std::size_t bytes) {
   return (bytes + 7) / 8 * 8;
 }
 
-constexpr bool is_marker(std::int32_t immediate) {
-  return immediate >= static_cast<std::int32_t>(Hint::enter_phase);
-}
-
 /// The most that one entry takes: the window, and a full packet of records in separate slots.
 constexpr std::size_t kLargestEntry =
     sizeof(HintLogEntry) + 2 * sizeof(NiuWindow) + protocol::kMostPacketBytes + 32 * (sizeof(HintLogPatch) + 8);
@@ -72,7 +68,7 @@ void HintRecorder::add_receive(std::uint32_t& patches) {
 }
 
 void HintRecorder::happened(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
-  if (is_marker(immediate) || head_.whole == 0) {
+  if (protocol::is_phase_marker(immediate) || head_.whole == 0) {
     return;
   }
   if (log_.size() - head_.used < kLargestEntry) {
@@ -124,7 +120,7 @@ HintLogEntry HintReplayer::apply() {
 
 NiuProcessorSide::Result HintReplayer::hint(std::int32_t immediate, std::uint64_t clock) {
   using enum NiuProcessorSide::Outcome;
-  if (is_marker(immediate)) {
+  if (protocol::is_phase_marker(immediate)) {
     return {done, clock};
   }
   if (at_end()) {

@@ -55,8 +55,7 @@ std::string path_of(const OpenFile& file) {
 
 /// False: the HINT at which the PE stands is no phase marker, or nobody wants to be called at those.
 bool call_marker(TranslatedPe& pe) {
-  if (pe.marker == nullptr ||
-      !is_phase_marker(static_cast<std::uint32_t>(protocol::hint_instruction(pe.hint_immediate)))) {
+  if (pe.marker == nullptr || !protocol::is_phase_marker(pe.hint_immediate)) {
     return false;
   }
   pe.marker(pe.marker_context, pe.hint_immediate, pe.cycles, pe.instructions);
