@@ -370,21 +370,6 @@ void HintRun::take_records(const Arrival& arrival, std::span<const std::byte> re
 
 }  // namespace
 
-std::size_t niu_channel_bytes() {
-  return sizeof(NiuChannel);
-}
-std::uint64_t niu_channel_layout() {
-  const std::array<std::size_t, 6> facts{sizeof(NiuChannel),           offsetof(NiuChannel, wanted),
-                                         offsetof(NiuChannel, asleep), offsetof(NiuChannel, processor),
-                                         sizeof(ProcessorState),       protocol::kProtocolVersion};
-  std::uint64_t layout = 0;
-  for (const std::size_t fact : facts) layout = layout * 0x1'0000'01B3U + fact;
-  return layout;
-}
-NiuChannel* niu_channel_at(void* memory) {
-  return static_cast<NiuChannel*>(memory);
-}
-
 NiuProcessorSide::NiuProcessorSide(NiuChannel& channel, std::span<std::byte> local_memory, std::uint32_t window_offset,
                                    Waiting waiting)
     : channel_(channel), local_memory_(local_memory), window_offset_(window_offset), waiting_(waiting) {}
