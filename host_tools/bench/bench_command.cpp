@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// `torolux bench engine`: a scene enters, the engine's speed in the machine and alone leaves, on standard output.
+// `torolux bench engine`: scenes enter, the engines' speeds in the machine and alone leave, on standard output.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "emulator/errors.hpp"
 #include "host_tools/bench/engine_bench.hpp"
@@ -18,9 +20,12 @@ namespace torolux {
 namespace {
 
 constexpr std::size_t kLabel = 26;
+/// The innermost loop of a PE: rays against triangles (tests/images).
+constexpr const char* kKernel = "triangles.elf";
 
 struct BenchOptions {
-  std::optional<std::string> scene, machine;
+  std::vector<std::string> scenes;
+  std::optional<std::string> machine;
   std::string pes = "4x4";
   unsigned max_shots = 200;
   unsigned size = 64;
@@ -28,51 +33,64 @@ struct BenchOptions {
   unsigned threads = 0;
 };
 
-/// The Cornell box of the source tree in which this program was built.
-std::filesystem::path default_scene() {
+/// A scene of the source tree in which this program was built.
+std::string own_scene(const char* name) {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  auto scene = (program.parent_path() / "../../../scenes/cornell_box").lexically_normal();
+  auto scene = (program.parent_path() / "../../../scenes" / name).lexically_normal();
   if (error || !std::filesystem::is_directory(scene)) {
     throw UsageError("no scene at " + scene.string() + ": name one");
   }
-  return scene;
+  return scene.string();
 }
 
 void print_speed(const std::string& label, const EngineSpeed& speed) {
-  std::cout << left(label, kLabel) << right(significant(speed.instructions_per_second() * 1e-6, 4), 10)
-            << " million instructions/s   (" << grouped(speed.instructions) << " in "
-            << significant(speed.wall_seconds, 4) << " s; "
-            << significant(speed.instructions_per_cpu_second() * 1e-6, 4) << " million per second of host CPU)\n";
+  std::cout << left("  " + label, kLabel) << right(significant(speed.instructions_per_second() * 1e-6, 4), 8)
+            << right(significant(speed.instructions_per_cpu_second() * 1e-6, 4), 16)
+            << right(significant(speed.wall_seconds, 4), 12) << right(significant(speed.cpu_seconds, 4), 12) << "\n";
 }
 
-void print_engine(const std::string& name, const EngineResult& result) {
-  print_speed(name + " in the machine", result.machine);
-  print_speed(name + " alone", result.bare);
-  std::cout << left("  ratio", kLabel) << right(significant(result.ratio(), 3), 10) << " by wall time, "
-            << significant(result.cpu_ratio(), 3) << " by host CPU time of the PEs\n"
-            << left("  emulator's own share", kLabel) << right(percent(result.emulator_share()), 10) << " of "
-            << significant(result.scheduler_seconds + result.machine.cpu_seconds, 4) << " s of host CPU\n";
+void print_head(const std::string& what, std::uint64_t instructions) {
+  std::cout << what << ": " << grouped(instructions) << " instructions of the PEs\n"
+            << left("", kLabel) << "  10^6/s   10^6/s of CPU      wall s       CPU s\n";
 }
 
-void print(const EngineBenchResult& result) {
-  print_engine("translated", result.translated);
-  print_engine("qemu", result.qemu);
-  const double alone =
-      result.translated.bare.instructions_per_cpu_second() / result.qemu.bare.instructions_per_cpu_second();
-  const double in_machine = result.qemu.machine.wall_seconds / result.translated.machine.wall_seconds;
-  std::cout << left("translated : qemu", kLabel) << right(significant(alone, 3), 10) << " alone, per host CPU; "
-            << significant(in_machine, 3) << " in the machine, by wall time\n";
+void print_bare(const BareSpeeds& bare) {
+  print_speed("translated, alone", bare.translated);
+  print_speed("qemu, alone", bare.qemu);
+  if (bare.native) {
+    print_speed("native, alone", *bare.native);
+  }
+  std::cout << left("  translated, by CPU time", kLabel) << right(significant(bare.qemu_ratio(), 3), 8)
+            << " times as fast as qemu";
+  if (const auto ratio = bare.native_ratio()) {
+    std::cout << "; " << significant(*ratio, 3) << " times the time of native";
+  }
+  std::cout << "\n";
+}
+
+void print_in_machine(const std::string& name, const MachineSpeed& speed, const EngineSpeed& alone) {
+  print_speed(name + ", in the machine", speed.pes);
+  std::cout << left("", kLabel) << "  of its speed alone: "
+            << percent(speed.pes.instructions_per_second() / alone.instructions_per_second()) << " by wall time, "
+            << percent(speed.pes.instructions_per_cpu_second() / alone.instructions_per_cpu_second())
+            << " by CPU time of the PEs; emulator's own share of CPU: " << percent(speed.emulator_share()) << "\n";
+}
+
+void print_render(const std::string& scene, const RenderBenchResult& result) {
+  print_head(scene, result.translated.pes.instructions);
+  print_in_machine("translated", result.translated, result.bare.translated);
+  print_in_machine("qemu", result.qemu, result.bare.qemu);
+  print_bare(result.bare);
   if (!result.whole) {
-    std::cout << "Alone they repeated only the beginning of the run: a log was full.\n";
+    std::cout << "  Alone they repeated only the beginning of the run: a log was full.\n";
   }
   std::cout << std::flush;
 }
 
-int run_bench_engine(const BenchOptions& options) {
-  const Scene scene = load_scene(options.scene ? std::filesystem::path(*options.scene) : default_scene(), {});
+RenderBenchResult bench_scene(const Scene& scene, const BenchOptions& options, const BenchStep& step) {
   check_renderable(scene);
-  EngineBenchJob job{scene, scene.camera.value_or(Camera{}), {}, {}, firmware_image()};
+  RenderBenchJob job{scene, scene.camera.value_or(Camera{}), {}, {}, firmware_image()};
   job.quality.width = job.quality.height = options.size;
   job.quality.max_shots = options.max_shots;
   job.repetitions = options.repetitions;
@@ -83,12 +101,36 @@ int run_bench_engine(const BenchOptions& options) {
   if (options.machine) {
     job.machine.description = load_machine_description(*options.machine);
   }
-  const auto tell = [](const char* step) { std::cerr << "torolux: " << step << "\n"; };
-  const EngineBenchResult result = bench_engine(job, tell, [](const RenderProgress&) { return !interrupted(); });
+  return bench_render(job, step, [](const RenderProgress&) { return !interrupted(); });
+}
+
+int run_bench_engine(const BenchOptions& options) {
+  const auto tell = [](const std::string& what) {
+    return [what](const char* step) { std::cerr << "torolux: " << what << ": " << step << "\n"; };
+  };
+  std::vector<std::string> scenes = options.scenes;
+  if (scenes.empty()) {
+    scenes = {own_scene("cornell_box"), own_scene("interior")};
+  }
+  for (const std::string& name : scenes) {
+    const Scene scene = load_scene(name, {});
+    const RenderBenchResult result = bench_scene(scene, options, tell(scene.name));
+    if (interrupted()) {
+      return kInterrupted;
+    }
+    print_render(scene.name, result);
+  }
+  const auto kernel = firmware_image().parent_path() / kKernel;
+  if (!std::filesystem::exists(kernel)) {
+    return 0;  // an installation without the tests' images
+  }
+  const BareSpeeds speeds =
+      bench_image(kernel, options.repetitions, tell("kernel"), [](Cycles) { return !interrupted(); });
   if (interrupted()) {
     return kInterrupted;
   }
-  print(result);
+  print_head("rays against triangles", speeds.qemu.instructions);
+  print_bare(speeds);
   return 0;
 }
 
@@ -101,7 +143,7 @@ void add_bench_command(CLI::App& app, CommandAction& action) {
   CLI::App* engine = bench->add_subcommand(
       "engine",
       "Instructions per second of each engine: the PEs in a render, and the same PEs with nothing around them");
-  engine->add_option("SCENE", options->scene, "As for render [the Cornell box]")->type_name("");
+  engine->add_option("SCENE", options->scenes, "As for render [the Cornell box and the interior]")->type_name("");
   engine->add_option("--pes", options->pes, "PEs of the torus, columns x rows")
       ->type_name("PxQ")
       ->capture_default_str();

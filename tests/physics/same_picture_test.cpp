@@ -86,6 +86,24 @@ TEST(Engine, TranslatedIsQemuToTheLastFigure) {
   }
 }
 
+class EveryScene : public testing::TestWithParam<std::string> {};
+
+/// The beginning of each scene's radiosity stage, and a small picture; tests/soak does it at the scenes' own quality.
+TEST_P(EveryScene, TranslatedIsQemuToTheLastFigure) {
+  RenderCase scene = native_case(source_dir() / "scenes" / GetParam());
+  scene.quality.max_shots = 12;
+  scene.machine = {};
+  scene.machine.engine = "qemu";
+  const RenderResult qemu = run_case(scene);
+  expect_all_home(qemu);
+  scene.machine.engine = "translated";
+  const RenderResult translated = run_case(scene);
+  EXPECT_EQ(bytes_of(translated.picture), bytes_of(qemu.picture));
+  EXPECT_EQ(exact_figures(translated.figures), exact_figures(qemu.figures));
+}
+INSTANTIATE_TEST_SUITE_P(Names, EveryScene, testing::ValuesIn(scene_names()),
+                         [](const auto& name) { return name.param; });
+
 /// A thousand PEs in one process.
 TEST(Engine, TranslatedTakesManyPes) {
   RenderCase cornell = small_cornell("cornell_spheres");

@@ -2,11 +2,21 @@
 // For tests that render: a small scene and settings in, picture and figures out, on an engine by name.
 #include "tests/support/render_support.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <sstream>
 
 namespace torolux::test {
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "scenes")) {
+    if (std::filesystem::exists(entry.path() / "scene.toml")) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 RenderCase native_case(const std::filesystem::path& scene) {
   RenderCase result;

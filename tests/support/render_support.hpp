@@ -22,6 +22,9 @@ inline std::filesystem::path pe_image() {
   return std::filesystem::path(TOROLUX_FIRMWARE_DIR) / "pe.elf";
 }
 
+/// Folders of scenes/, sorted: all that come with Torolux.
+std::vector<std::string> scene_names();
+
 /// What a test renders: change the fields that the test is about.
 struct RenderCase {
   std::filesystem::path scene;
