@@ -39,6 +39,8 @@ class MachineDice {
     machine.host.cycles_per_message = number(1, 400);
     machine.records.credits_per_pe = chance(3) ? number(1, 8) : number(9, 600);
     machine.records.niu_slots = chance(3) ? number(16, 24) : number(25, 600);
+    machine.records.gather_cycles = chance(3) ? 0 : 1U << number(4, 20);
+    machine.records.gather_records = chance(3) ? number(1, 40) : 4096;
     if (chance(2)) machine.torus.link_error_rate = number(1, 200) * 1e-3;
     if (chance(2)) machine.injected_delay_cycles = number(1, 3000);
     return machine;
@@ -58,7 +60,8 @@ inline std::string to_text(const MachineDescription& machine, unsigned columns, 
        << machine.bus.bytes_per_cycle << ", control buffers " << machine.bus.control_buffers << ", FBC "
        << machine.frame_buffer.cycles_per_pixel << "/" << machine.frame_buffer.queue_messages << ", host "
        << machine.host.cycles_per_message << ", credits " << machine.records.credits_per_pe << ", slots "
-       << machine.records.niu_slots << ", errors " << machine.torus.link_error_rate << ", delays "
+       << machine.records.niu_slots << ", gathering " << machine.records.gather_cycles << "/"
+       << machine.records.gather_records << ", errors " << machine.torus.link_error_rate << ", delays "
        << machine.injected_delay_cycles;
   return text.str();
 }
