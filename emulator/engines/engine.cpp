@@ -19,7 +19,7 @@ using Registry = std::map<std::string, EngineFactory, std::less<>>;
 
 Registry& registry() {
   static Registry engines = {
-      {"qemu", [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
+      {kQemuEngine, [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
       {std::string(kTranslated), [](const EngineSetup& setup) { return make_translated_engine(setup); }}};
   return engines;
 }

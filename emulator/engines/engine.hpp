@@ -32,7 +32,10 @@ struct EngineSetup {
   const MachineDescription& machine;
   const Image& image;
   std::vector<PeMemory>& pes;
-  unsigned threads;  ///< host threads to use, >= 1
+  unsigned threads;                  ///< host threads to use, >= 1
+  std::vector<bool> elsewhere = {};  ///< by number: PEs that another engine of this machine runs; empty: none
+
+  bool runs(std::size_t pe) const { return elsewhere.empty() || !elsewhere[pe]; }
 };
 
 class Engine {
@@ -61,6 +64,7 @@ class Engine {
 
 using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>;
 
+inline constexpr const char* kQemuEngine = "qemu";  ///< the reference
 /// Where the user names none.
 inline constexpr const char* kDefaultEngine = "translated";
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/mixed_engine.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/machine/emulation.hpp"
 #include "emulator/niu/channel.hpp"
@@ -63,9 +63,10 @@ void check(const MachineSetup& setup) {
   check_queue("bus.send_queue_messages", setup.description.bus.send_queue_messages);
 }
 
-PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image) {
+/// on_qemu: other processes must be able to map it.
+PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, bool on_qemu) {
   const std::string name = "torolux-pe" + std::to_string(pe);
-  const auto use = engine_runs_here(setup.engine) ? SharedMemory::Use::here : SharedMemory::Use::shared;
+  const auto use = engine_runs_here(setup.engine) && !on_qemu ? SharedMemory::Use::here : SharedMemory::Use::shared;
   PeMemory memory{SharedMemory(name + "-niu", niu_channel_bytes(), use),
                   SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes), use), setup.local_memory_bytes};
   const auto local = memory.local.bytes().first(setup.local_memory_bytes);
@@ -124,13 +125,14 @@ Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::ma
   p.setup = setup;
   p.image = image;
   const unsigned pes = setup.columns * setup.rows;
+  const std::vector<bool> on_qemu = setup.debugging.on_qemu(pes);
   p.pes.reserve(pes);
   for (unsigned pe = 0; pe < pes; ++pe) {
-    p.pes.push_back(make_pe(pe, setup, image));
+    p.pes.push_back(make_pe(pe, setup, image, on_qemu[pe]));
     p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
   }
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
-  p.engine = engine_named(setup.engine)({p.setup.description, p.image, p.pes, threads});
+  p.engine = make_engine(setup.engine, {p.setup.description, p.image, p.pes, threads}, setup.debugging);
 }
 
 Machine::~Machine() = default;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/engines/debugging.hpp"
 #include "emulator/engines/engine.hpp"
 #include "emulator/engines/image.hpp"
 #include "emulator/host/host_program.hpp"
@@ -22,6 +23,7 @@ struct MachineSetup {
   unsigned rows = 4;
   std::uint32_t local_memory_bytes = protocol::kDefaultLocalMemory;
   std::string engine = kDefaultEngine;
+  Debugging debugging;
   unsigned threads = 0;  ///< 0: all cores
   std::uint32_t frame_width = 0;
   std::uint32_t frame_height = 0;

@@ -129,6 +129,7 @@ void add_info_command(CLI::App& app, CommandAction& action) {
   add_view_options(*command, *options);
   add_light_options(*command, *options);
   add_machine_options(*command, *options);
+  add_engine_option(*command, *options);
   command->callback([options, &action] { action = [options] { return run_info(*options); }; });
 }
 

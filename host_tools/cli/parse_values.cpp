@@ -2,6 +2,7 @@
 // Text enters, checked values leave.
 #include "host_tools/cli/parse_values.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -75,6 +76,15 @@ std::array<std::uint32_t, N> parse_sizes(const std::string& text, const std::str
   return result;
 }
 
+constexpr const char* kPeListForm = "a list of PEs like 0-3,7";
+
+/// A PE of the largest machine.
+unsigned pe_number(std::string_view text, const std::string& expected) {
+  const auto number = whole(text);
+  if (!number) wrong_form(text, expected);
+  return in_range(text, *number, 0, protocol::kMostPes - 1);
+}
+
 }  // namespace
 
 std::array<std::uint32_t, 2> parse_pair(const std::string& text, std::uint32_t least, std::uint32_t most) {
@@ -111,6 +121,31 @@ std::uint32_t parse_memory(const std::string& text) {
   if (bytes % protocol::kPageBytes != 0)
     throw InputError(quoted(text) + " is not a multiple of " + bytes_text(protocol::kPageBytes));
   return static_cast<std::uint32_t>(bytes);
+}
+
+std::vector<unsigned> parse_pe_list(const std::string& text) {
+  std::vector<unsigned> pes;
+  for (const std::string_view part : split(text, ',')) {
+    const auto ends = split(part, '-');
+    if (ends.size() > 2) wrong_form(text, kPeListForm);
+    const unsigned first = pe_number(ends.front(), kPeListForm);
+    const unsigned last = pe_number(ends.back(), kPeListForm);
+    if (last < first) throw InputError(quoted(part) + " ends before it begins");
+    for (unsigned pe = first; pe <= last; ++pe) pes.push_back(pe);
+  }
+  std::ranges::sort(pes);
+  pes.erase(std::ranges::unique(pes).begin(), pes.end());
+  return pes;
+}
+
+GdbPort parse_gdb_port(const std::string& text) {
+  constexpr const char* kForm = "a PE and a TCP port like 3:1234";
+  const auto parts = split(text, ':');
+  if (parts.size() != 2) wrong_form(text, kForm);
+  const unsigned pe = pe_number(parts[0], kForm);
+  const auto port = whole(parts[1]);
+  if (!port) wrong_form(text, kForm);
+  return {pe, static_cast<std::uint16_t>(in_range(text, *port, 0, std::numeric_limits<std::uint16_t>::max()))};
 }
 
 std::array<double, 3> parse_vector(const std::string& text) {

@@ -8,6 +8,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "emulator/engines/debugging.hpp"
 
 namespace torolux {
 
@@ -35,5 +38,12 @@ double parse_number(const std::string& text, double least, double most);
 
 /// A whole number within least..most.
 std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uint64_t most);
+
+/// Numbers of PEs, and ranges of them: "3", "0-3,7". Ascending, none twice. Whether the machine has them is not
+/// checked.
+std::vector<unsigned> parse_pe_list(const std::string& text);
+
+/// "PE:PORT", each within its range of all machines.
+GdbPort parse_gdb_port(const std::string& text);
 
 }  // namespace torolux

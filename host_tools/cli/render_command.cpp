@@ -8,6 +8,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/settle.hpp"
 #include "host_tools/files/write_file.hpp"
@@ -43,7 +44,8 @@ RenderResult run_machine(const Scene& scene, const Settled& settled, bool quiet)
 int run_render(const RenderOptions& options) {
   const Scene scene = load_scene(options.scene, scene_options(options));
   check_renderable(scene);
-  const Settled settled = settle(options, scene);
+  Settled settled = settle(options, scene);
+  settled.machine.debugging.listens = announce_debugger(firmware_image());
   check_results_writable(settled, options);
   print_notes(scene.warnings, options.quiet);
   if (interrupted()) return kInterrupted;
@@ -68,6 +70,8 @@ void add_render_command(CLI::App& app, CommandAction& action) {
   add_view_options(*command, *options);
   add_light_options(*command, *options);
   add_machine_options(*command, *options);
+  add_engine_option(*command, *options);
+  add_debugging_options(*command, options->debugging, kMachineGroup);
   command->footer("An option given outweighs the scene's own default, which outweighs the one in [brackets].");
   command->callback([options, &action] { action = [options] { return run_render(*options); }; });
 }

@@ -175,7 +175,7 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
 }
 
 void add_machine_options(CLI::App& command, RenderOptions& options) {
-  const std::string group = "Machine (does not change the picture)";
+  const std::string group = kMachineGroup;
   const MachineChoice built_in;
   add_value(command, "--pes", "PxQ", "PEs of the torus, columns x rows",
             [&options](const std::string& text) { options.pes = parse_pes(text); })
@@ -204,17 +204,20 @@ void add_machine_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--machine", "FILE.toml", "Parameters of the machine [built in]",
             [&options](const std::string& text) { take_path(options.machine, text); })
       ->group(group);
+  add_value(
+      command, "--threads", "N", "Threads of this computer that work for the machine [all cores]",
+      [&options](const std::string& text) { options.threads = static_cast<std::uint32_t>(parse_count(text, 1, 4096)); })
+      ->group(group);
+}
+
+void add_engine_option(CLI::App& command, RenderOptions& options) {
   add_value(command, "--engine", "NAME", "What runs the PEs: " + joined(engine_names()),
             [&options](const std::string& text) {
               engine_named(text);
               options.engine = text;
             })
-      ->default_str(built_in.engine)
-      ->group(group);
-  add_value(
-      command, "--threads", "N", "Threads of this computer that work for the machine [all cores]",
-      [&options](const std::string& text) { options.threads = static_cast<std::uint32_t>(parse_count(text, 1, 4096)); })
-      ->group(group);
+      ->default_str(kDefaultEngine)
+      ->group(kMachineGroup);
 }
 
 }  // namespace torolux

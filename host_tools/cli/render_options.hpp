@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/engines/debugging.hpp"
+
 namespace CLI {
 class App;
 }
@@ -51,6 +53,7 @@ struct RenderOptions {
   std::optional<std::uint32_t> pe_memory;
   std::optional<SubspacesOption> subspaces;
   std::optional<std::string> allocation, engine;
+  Debugging debugging;
   bool enter_empty = false;
   std::optional<std::filesystem::path> machine;
   std::optional<std::uint32_t> threads;
@@ -64,8 +67,13 @@ void add_output_options(CLI::App& command, RenderOptions& options);
 void add_view_options(CLI::App& command, RenderOptions& options);
 /// --patches, --elements, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights, --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
-/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --engine, --threads.
+/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
+/// --engine.
+void add_engine_option(CLI::App& command, RenderOptions& options);
+
+/// Their group in --help.
+inline constexpr const char* kMachineGroup = "Machine (does not change the picture)";
 
 /// Throws UsageError unless `name` is an allocation; the message lists them all.
 void check_allocation(const std::string& name);

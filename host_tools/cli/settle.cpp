@@ -74,6 +74,7 @@ MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   pick(machine.allocation, options.allocation, scene.defaults.allocation);
   machine.skip_empty_subspaces = !options.enter_empty;
   if (options.engine) machine.engine = *options.engine;
+  machine.debugging = options.debugging;
   machine.threads = options.threads.value_or(0);
   return machine;
 }

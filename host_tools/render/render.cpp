@@ -20,6 +20,7 @@ MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, con
   machine.rows = choice.rows;
   machine.local_memory_bytes = *setup.memory;
   machine.engine = choice.engine;
+  machine.debugging = choice.debugging;
   machine.threads = choice.threads;
   machine.frame_width = quality.width;
   machine.frame_height = quality.height;

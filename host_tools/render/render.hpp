@@ -40,6 +40,7 @@ struct MachineChoice {
   std::string allocation = "skewed";
   bool skip_empty_subspaces = true;  ///< camera rays begin in the first subspace on their way with anything in it
   std::string engine = kDefaultEngine;
+  Debugging debugging;
   unsigned threads = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "emulator/engines/engine.hpp"
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/text.hpp"
@@ -24,6 +25,7 @@ struct RunOptions {
   std::string pe_memory = "1M";
   std::string engine = kDefaultEngine;
   std::optional<std::string> machine, stats;
+  Debugging debugging;
   unsigned threads = 0;
   bool quiet = false;
 };
@@ -48,6 +50,8 @@ MachineSetup setup_from(const RunOptions& options) {
   setup.local_memory_bytes = value_of("--pe-memory", parse_memory, options.pe_memory);
   engine_named(options.engine);
   setup.engine = options.engine;
+  setup.debugging = options.debugging;
+  setup.debugging.listens = announce_debugger(options.image);
   setup.threads = options.threads;
   if (options.machine) {
     setup.description = load_machine_description(*options.machine);
@@ -110,6 +114,7 @@ void add_run_command(CLI::App& app, CommandAction& action) {
       ->capture_default_str();
   command->add_option("--machine", options->machine, "Parameters of the machine [built in]")->type_name("FILE.toml");
   command->add_option("--engine", options->engine, "What runs the PEs")->type_name("NAME")->capture_default_str();
+  add_debugging_options(*command, options->debugging, "");
   command->add_option("--threads", options->threads, "Threads of this computer that work for the machine [all cores]")
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));

@@ -47,11 +47,32 @@ struct HintPlace {
   }
 };
 
+/// An instruction that is counted alone, packed likewise.
+struct CountedPlace {
+  std::uint32_t address;
+  std::uint32_t cycles;  // 24 bits
+  bool is_marker;        // costs nothing, and is not counted
+  bool may_repeat;       // accesses memory: a watchpoint makes QEMU begin it once more
+
+  void* pack() const {
+    const std::uint64_t bits = (static_cast<std::uint64_t>(address) << 32U) | ((cycles & kMostCycles) << 8U) |
+                               (is_marker ? 2U : 0U) | (may_repeat ? 1U : 0U);
+    return reinterpret_cast<void*>(bits);  // NOLINT(performance-no-int-to-ptr): never followed
+  }
+  static CountedPlace unpack(const void* pointer) {
+    const auto bits = reinterpret_cast<std::uint64_t>(pointer);
+    return {static_cast<std::uint32_t>(bits >> 32U), static_cast<std::uint32_t>(bits >> 8U) & kMostCycles,
+            (bits & 2U) != 0, (bits & 1U) != 0};
+  }
+  static constexpr std::uint32_t kMostCycles = 0xFF'FFFFU;
+};
+
 class Plugin {
  public:
   Plugin(PluginShare& share, NiuProcessorSide side) : share_(share), side_(side) {}
 
   void translated(qemu_plugin_tb* block);
+  void count(const CountedPlace& place);
   void hint(const HintPlace& place);
 
   // At most one of the two is there.
@@ -59,6 +80,8 @@ class Plugin {
   std::optional<HintReplayer> replayer;
 
  private:
+  void count_block(qemu_plugin_tb* block);
+  void count_each(qemu_plugin_tb* block);
   NiuProcessorSide::Result answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   [[noreturn]] void end();
 
@@ -71,6 +94,7 @@ class Plugin {
   bool retrying_ = false;
   std::uint64_t retry_clock_ = 0;
   std::uint64_t retry_instructions_ = 0;
+  std::uint32_t last_counted_ = 0;  // address
 };
 
 std::unique_ptr<Plugin> plugin;
@@ -85,6 +109,10 @@ void on_hint(unsigned /*vcpu*/, void* user_data) {
   plugin->hint(HintPlace::unpack(user_data));
 }
 
+void on_instruction(unsigned /*vcpu*/, void* user_data) {
+  plugin->count(CountedPlace::unpack(user_data));
+}
+
 void on_translated(qemu_plugin_id_t /*id*/, qemu_plugin_tb* block) {
   plugin->translated(block);
 }
@@ -94,6 +122,40 @@ void Plugin::translated(qemu_plugin_tb* block) {
   if (address < protocol::kLocalMemoryBase || address - protocol::kLocalMemoryBase >= share_.local_memory_bytes) {
     return;  // the boot ROM
   }
+  if (share_.counts_instructions != 0) {
+    count_each(block);
+  } else {
+    count_block(block);
+  }
+}
+
+void Plugin::count_each(qemu_plugin_tb* block) {
+  auto address = static_cast<std::uint32_t>(qemu_plugin_tb_vaddr(block));
+  for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
+    qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);
+    const std::uint32_t bits = bits_of(instruction);
+    const auto kind = class_of(bits);
+    const bool accesses =
+        kind == InstructionClass::load || kind == InstructionClass::store || kind == InstructionClass::atomic;
+    const CountedPlace place{address, cycles_of(bits, share_.latency), is_phase_marker(bits), accesses};
+    qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_instruction, QEMU_PLUGIN_CB_NO_REGS, place.pack());
+    if (protocol::is_hint(bits)) {
+      const HintPlace hint{protocol::hint_immediate(bits), 0, 0};
+      qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_hint, QEMU_PLUGIN_CB_NO_REGS, hint.pack());
+    }
+    address += static_cast<std::uint32_t>(qemu_plugin_insn_size(instruction));
+  }
+}
+
+void Plugin::count(const CountedPlace& place) {
+  const bool repeats = place.may_repeat && place.address == last_counted_;
+  last_counted_ = place.address;
+  if (repeats) return;
+  share_.cycles += place.cycles;
+  share_.instructions += place.is_marker ? 0 : 1;
+}
+
+void Plugin::count_block(qemu_plugin_tb* block) {
   HintPlace rest{};
   for (std::size_t i = qemu_plugin_tb_n_insns(block); i-- > 0;) {
     qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);

@@ -9,7 +9,7 @@
 
 namespace torolux {
 
-inline constexpr std::uint32_t kPluginShareVersion = 2;
+inline constexpr std::uint32_t kPluginShareVersion = 3;
 
 enum class HintLogUse : std::uint32_t { none, record, replay };
 
@@ -22,10 +22,12 @@ struct PluginShare {
   std::int32_t local_descriptor;     ///< local memory, likewise
   std::int32_t log_descriptor;       ///< see hint_log.hpp; only where it is used
   HintLogUse log_use;
+  /// 1: count instruction by instruction. A debugger's watchpoint leaves a block in the middle, and begins again there.
+  std::uint32_t counts_instructions;
   std::uint64_t channel_layout;  ///< niu_channel_layout()
   LatencyTable latency;
 
-  // Counted by the translated code at the start of each block, so ahead of the PE by up to a block.
+  // Counted by the translated code at the start of each block, so ahead of the PE by up to a block; or see above.
   alignas(64) std::uint64_t cycles;  ///< of all instructions since `_start`, the NIU driver's retries included
   std::uint64_t instructions;
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
-#include <optional>
 #include <string>
 
+#include "emulator/engines/qemu/gdb_socket.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/engines/qemu/qemu_process.hpp"
 #include "emulator/errors.hpp"
@@ -72,14 +72,21 @@ std::vector<int> cores_for(unsigned threads) {
 /// What is the same for all PEs of an engine.
 struct Launch {
   EngineSetup setup;
-  std::optional<QemuHintLogs> logs;
+  QemuHintLogs logs;
   std::string plugin;  // as QEMU's option takes it
   std::vector<int> cores;
 };
 
+/// A PE, and the debugger that may hold it.
+struct Debugged {
+  unsigned pe;
+  GdbSocket socket;
+};
+
 class QemuPe {
  public:
-  QemuPe(std::size_t number, const Launch& launch);
+  /// debugger: where one may connect; none: not at all.
+  QemuPe(std::size_t number, const Launch& launch, const GdbSocket* debugger);
 
   /// Throws MachineFailure where the PE cannot go on. tick: wall time since the last look.
   void check(std::uint64_t most_cycles_between_hints, Clock::duration tick);
@@ -89,10 +96,12 @@ class QemuPe {
  private:
   void watch_progress(std::uint64_t cycles, Clock::duration tick);
   [[noreturn]] void fail(const std::string& what) const;
-  static PluginShare& prepare(SharedMemory& memory, std::size_t number, const Launch& launch);
-  static QemuProcess start(std::size_t number, const Launch& launch, const SharedMemory& share);
+  static PluginShare& prepare(SharedMemory& memory, std::size_t number, const Launch& launch, bool debugged);
+  static QemuProcess start(std::size_t number, const Launch& launch, const SharedMemory& share,
+                           const GdbSocket* debugger);
 
   std::size_t number_;
+  bool debugged_;
   SharedMemory share_memory_;
   PluginShare& share_;
   QemuProcess process_;
@@ -102,13 +111,14 @@ class QemuPe {
   double cpu_seconds_before_silence_ = 0;
 };
 
-QemuPe::QemuPe(std::size_t number, const Launch& launch)
+QemuPe::QemuPe(std::size_t number, const Launch& launch, const GdbSocket* debugger)
     : number_(number),
+      debugged_(debugger != nullptr),
       share_memory_("torolux-share", sizeof(PluginShare)),
-      share_(prepare(share_memory_, number, launch)),
-      process_(start(number, launch, share_memory_)) {}
+      share_(prepare(share_memory_, number, launch, debugged_)),
+      process_(start(number, launch, share_memory_, debugger)) {}
 
-PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Launch& launch) {
+PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Launch& launch, bool debugged) {
   const PeMemory& pe = launch.setup.pes[number];
   auto& share = *new (memory.bytes().data()) PluginShare{};  // placed in memory that SharedMemory owns
   share.version = kPluginShareVersion;
@@ -117,17 +127,19 @@ PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Lau
   share.local_memory_bytes = pe.local_memory_bytes;
   share.channel_descriptor = pe.channel.descriptor();
   share.local_descriptor = pe.local.descriptor();
-  share.log_descriptor = launch.logs ? launch.logs->logs[number].descriptor() : -1;
-  share.log_use = launch.logs ? launch.logs->use : HintLogUse::none;
+  share.log_use = launch.logs.use;
+  share.log_descriptor = share.log_use != HintLogUse::none ? (*launch.logs.logs)[number].descriptor() : -1;
+  share.counts_instructions = debugged ? 1 : 0;
   share.latency = launch.setup.machine.processor.latency;
   return share;
 }
 
-QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const SharedMemory& share) {
+QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const SharedMemory& share,
+                          const GdbSocket* debugger) {
   const PeMemory& pe = launch.setup.pes[number];
   const std::string memory = std::to_string(pe.local.bytes().size());
   const std::string descriptor = std::to_string(pe.local.descriptor());
-  const std::vector<std::string> arguments = {
+  std::vector<std::string> arguments = {
       "qemu-system-riscv32",
       "-machine",
       "virt,memory-backend=ram0",
@@ -149,8 +161,14 @@ QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const Shared
       "-plugin",
       launch.plugin + ",share=" + std::to_string(share.descriptor())};
   std::vector<int> inherited = {pe.channel.descriptor(), pe.local.descriptor(), share.descriptor()};
-  if (launch.logs) {
-    inherited.push_back(launch.logs->logs[number].descriptor());
+  if (launch.logs.use != HintLogUse::none) {
+    inherited.push_back((*launch.logs.logs)[number].descriptor());
+  }
+  if (debugger != nullptr) {
+    const std::string socket = std::to_string(debugger->descriptor());
+    arguments.insert(arguments.end(),
+                     {"-chardev", "socket,id=gdb,server=on,wait=off,nodelay=on,fd=" + socket, "-gdb", "chardev:gdb", "-S"});
+    inherited.push_back(debugger->descriptor());
   }
   return QemuProcess(arguments, inherited, launch.cores);
 }
@@ -182,7 +200,8 @@ void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick
          " cycles: an endless loop? (processor.most_cycles_between_hints = " +
          std::to_string(most_cycles_between_hints) + ")");
   }
-  watch_progress(cycles, tick);
+  // Whoever debugs a PE may take any time.
+  if (!debugged_) watch_progress(cycles, tick);
 }
 
 void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
@@ -207,19 +226,27 @@ void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
 
 class QemuEngine final : public Engine {
  public:
-  QemuEngine(const EngineSetup& setup, std::optional<QemuHintLogs> logs)
-      : launch_{setup, logs, {}, {}}, most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {}
+  QemuEngine(const EngineSetup& setup, const QemuOptions& options)
+      : launch_{setup, options.logs, {}, {}},
+        listens_(options.listens),
+        most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {
+    for (const GdbPort& port : options.gdb) debugged_.push_back({port.pe, GdbSocket(port.port)});
+  }
 
-  std::string_view name() const override { return "qemu"; }
+  std::string_view name() const override { return kQemuEngine; }
 
   void start() override {
     launch_.plugin = escape_commas(plugin_file().string());
     launch_.cores = cores_for(launch_.setup.threads);
     pes_.reserve(launch_.setup.pes.size());
-    for (std::size_t i = 0; i < launch_.setup.pes.size(); ++i) {
-      pes_.emplace_back(i, launch_);
+    for (std::size_t pe = 0; pe < launch_.setup.pes.size(); ++pe) {
+      if (launch_.setup.runs(pe)) pes_.emplace_back(pe, launch_, debugger_of(pe));
     }
     last_check_ = Clock::now();
+    for (const Debugged& debugged : debugged_) {
+      if (listens_) listens_({debugged.pe, debugged.socket.port()});
+    }
+    debugged_.clear();  // QEMU alone listens: nobody connects to a PE that is gone
   }
 
   void check() override {
@@ -247,7 +274,14 @@ class QemuEngine final : public Engine {
   }
 
  private:
+  const GdbSocket* debugger_of(std::size_t pe) const {
+    const auto found = std::ranges::find(debugged_, pe, &Debugged::pe);
+    return found == debugged_.end() ? nullptr : &found->socket;
+  }
+
   Launch launch_;
+  std::vector<Debugged> debugged_;  // until they have started
+  std::function<void(const GdbPort&)> listens_;
   std::uint64_t most_cycles_between_hints_;
   std::vector<QemuPe> pes_;
   Clock::time_point last_check_;
@@ -255,12 +289,8 @@ class QemuEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup) {
-  return std::make_unique<QemuEngine>(setup, std::nullopt);
-}
-
-std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuHintLogs& logs) {
-  return std::make_unique<QemuEngine>(setup, logs);
+std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuOptions& options) {
+  return std::make_unique<QemuEngine>(setup, options);
 }
 
 }  // namespace torolux

@@ -2,9 +2,11 @@
 // The reference engine: one qemu-system-riscv32 for each PE, with our plugin in it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include "emulator/engines/debugging.hpp"
 #include "emulator/engines/engine.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
 
@@ -12,12 +14,18 @@ namespace torolux {
 
 /// Logs of what HINTs do, one for each PE, for `torolux bench engine`: see hint_log.hpp.
 struct QemuHintLogs {
-  HintLogUse use;
-  std::vector<SharedMemory>& logs;  ///< must outlive the engine
+  HintLogUse use = HintLogUse::none;
+  std::vector<SharedMemory>* logs = nullptr;  ///< must outlive the engine
 };
 
-/// QEMU and the plugin are looked for when the PEs are started. setup.pes must outlive the engine.
-std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup);
-std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuHintLogs& logs);
+struct QemuOptions {
+  QemuHintLogs logs = {};
+  std::vector<GdbPort> gdb = {};                     ///< of PEs that this engine runs
+  std::function<void(const GdbPort&)> listens = {};  ///< as Debugging::listens
+};
+
+/// QEMU and the plugin are looked for when the PEs are started. setup.pes must outlive the engine. Throws InputError
+/// where a debugger's port is in use.
+std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuOptions& options = {});
 
 }  // namespace torolux

@@ -48,7 +48,11 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
       : setup_(setup),
         code_(setup.image, setup.machine.processor.latency, options),
-        queue_(setup.pes.size(), setup.threads - 1) {}
+        queue_(setup.pes.size(), setup.threads - 1) {
+    for (unsigned pe = 0; pe < setup.pes.size(); ++pe) {
+      if (!setup_.runs(pe) && queue_.claim(pe)) queue_.finish(pe);
+    }
+  }
   TranslatedEngine(const TranslatedEngine&) = delete;
   TranslatedEngine& operator=(const TranslatedEngine&) = delete;
   ~TranslatedEngine() override { end(); }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Two engines, each with its own PEs; what is asked of a PE goes to its own engine.
+#include "emulator/engines/mixed_engine.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "emulator/engines/qemu/qemu_engine.hpp"
+#include "emulator/errors.hpp"
+
+namespace torolux {
+namespace {
+
+class MixedEngine final : public Engine {
+ public:
+  MixedEngine(std::unique_ptr<Engine> most, std::unique_ptr<Engine> qemu, std::vector<bool> on_qemu)
+      : most_(std::move(most)), qemu_(std::move(qemu)), on_qemu_(std::move(on_qemu)) {}
+
+  std::string_view name() const override { return most_->name(); }
+  void start() override {
+    qemu_->start();
+    most_->start();
+  }
+  void check() override {
+    qemu_->check();
+    most_->check();
+  }
+  void stop() override {
+    qemu_->stop();
+    most_->stop();
+  }
+  double cpu_seconds() const override { return qemu_->cpu_seconds() + most_->cpu_seconds(); }
+  ProcessorWaker* waker(unsigned pe) override { return (on_qemu_[pe] ? qemu_ : most_)->waker(pe); }
+  /// While QEMU runs the PE in question, others may run here.
+  bool help(unsigned pe, std::uint64_t wanted) override { return most_->help(pe, wanted); }
+  double help_seconds() const override { return most_->help_seconds(); }
+
+ private:
+  std::unique_ptr<Engine> most_, qemu_;
+  std::vector<bool> on_qemu_;
+};
+
+void check_pe(unsigned pe, std::size_t pes) {
+  if (pe >= pes) {
+    throw UsageError("there is no PE " + std::to_string(pe) + " to run on QEMU: this machine's PEs are 0 to " +
+                     std::to_string(pes - 1));
+  }
+}
+
+}  // namespace
+
+std::vector<bool> Debugging::on_qemu(std::size_t pes) const {
+  std::vector<bool> result(pes);
+  for (const unsigned pe : qemu_pes) {
+    check_pe(pe, pes);
+    result[pe] = true;
+  }
+  for (auto port = gdb.begin(); port != gdb.end(); ++port) {
+    check_pe(port->pe, pes);
+    result[port->pe] = true;
+    const auto same = [port](const GdbPort& other) { return other.pe == port->pe; };
+    if (std::any_of(gdb.begin(), port, same)) {
+      throw UsageError("PE " + std::to_string(port->pe) + " is to have two debuggers: one is allowed");
+    }
+  }
+  return result;
+}
+
+std::unique_ptr<Engine> make_engine(std::string_view name, const EngineSetup& setup, const Debugging& debugging) {
+  const EngineFactory& factory = engine_named(name);
+  std::vector<bool> on_qemu = debugging.on_qemu(setup.pes.size());
+  const QemuOptions options{.gdb = debugging.gdb, .listens = debugging.listens};
+  const bool none = std::find(on_qemu.begin(), on_qemu.end(), true) == on_qemu.end();
+  if (none) return factory(setup);
+  const bool all = std::find(on_qemu.begin(), on_qemu.end(), false) == on_qemu.end();
+  if (all || name == kQemuEngine) {
+    return make_qemu_engine(setup, options);
+  }
+  EngineSetup of_qemu = setup;
+  of_qemu.elsewhere = on_qemu;
+  of_qemu.elsewhere.flip();
+  EngineSetup of_most = setup;
+  of_most.elsewhere = on_qemu;
+  auto qemu = make_qemu_engine(of_qemu, options);
+  return std::make_unique<MixedEngine>(factory(of_most), std::move(qemu), std::move(on_qemu));
+}
+
+}  // namespace torolux

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Options into Debugging; a port into a command to type.
+#include "host_tools/cli/debugging_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <vector>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/machine.hpp"
+#include "host_tools/cli/parse_values.hpp"
+
+namespace torolux {
+namespace {
+
+/// Takes each value of an option through `parse`; errors name the option.
+template <class Parse>
+void add_values(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
+                const std::string& group, Parse parse) {
+  const auto take = [name, parse](const std::vector<std::string>& texts) {
+    try {
+      for (const std::string& text : texts) parse(text);
+    } catch (const UsageError& error) {
+      throw UsageError(name + ": " + error.what());
+    } catch (const InputError& error) {
+      throw InputError(name + ": " + error.what());
+    }
+  };
+  CLI::Option* option = command.add_option_function<std::vector<std::string>>(name, take, help);
+  option->type_name(form)->allow_extra_args(false);
+  if (!group.empty()) option->group(group);
+}
+
+/// In single quotes for a shell, where it needs them.
+std::string shell_word(const std::string& text) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+,=:@%";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+void add_debugging_options(CLI::App& command, Debugging& debugging, const std::string& group) {
+  add_values(command, "--qemu-pes", "LIST",
+             "PEs that run on QEMU whatever runs the rest: numbers and ranges, like 0-3,7. May be repeated", group,
+             [&debugging](const std::string& text) {
+               const std::vector<unsigned> pes = parse_pe_list(text);
+               debugging.qemu_pes.insert(debugging.qemu_pes.end(), pes.begin(), pes.end());
+             });
+  add_values(command, "--gdb", "PE:PORT",
+             "Halt this PE at its start, on QEMU, until a debugger that connects to this port of 127.0.0.1 lets it go "
+             "on; 0: any free port. May be repeated",
+             group, [&debugging](const std::string& text) { debugging.gdb.push_back(parse_gdb_port(text)); });
+}
+
+std::function<void(const GdbPort&)> announce_debugger(const std::filesystem::path& image) {
+  return [file = shell_word(image.string())](const GdbPort& debugger) {
+    std::cerr << "torolux: PE " << debugger.pe << " is halted until a debugger lets it go on:\n"
+              << "  gdb-multiarch " << file << " -ex 'target remote 127.0.0.1:" << debugger.port << "' -ex 'tbreak *"
+              << std::hex << std::showbase << protocol::kLocalMemoryBase << std::dec << "' -ex continue" << std::endl;
+  };
+}
+
+}  // namespace torolux

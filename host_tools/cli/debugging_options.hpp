@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// --qemu-pes and --gdb: which PEs run on QEMU and which a debugger may hold; and what to tell whoever wants to connect.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "emulator/engines/debugging.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace torolux {
+
+void add_debugging_options(CLI::App& command, Debugging& debugging, const std::string& group);
+
+/// As Debugging::listens: prints on standard error how to connect. image: that the PEs run.
+std::function<void(const GdbPort&)> announce_debugger(const std::filesystem::path& image);
+
+}  // namespace torolux
