@@ -79,6 +79,10 @@ std::vector<pid_t> ToroluxProcess::children(std::size_t count) const {
   return found;
 }
 
+std::string ToroluxProcess::errors_so_far() const {
+  return contents_of(errors_);
+}
+
 Finished ToroluxProcess::wait() {
   int status = 0;
   waitpid(process_, &status, 0);

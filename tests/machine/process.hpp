@@ -31,6 +31,8 @@ class ToroluxProcess {
   void signal(int number) const;
   /// Its child processes, as soon as there are `count` of them; fewer where that takes longer than ten seconds.
   std::vector<pid_t> children(std::size_t count) const;
+  /// What it has written to standard error.
+  std::string errors_so_far() const;
   /// Waits for the end.
   Finished wait();
 
