@@ -20,6 +20,7 @@ void add_render_command(CLI::App& app, CommandAction& action);
 void add_info_command(CLI::App& app, CommandAction& action);
 void add_compare_command(CLI::App& app, CommandAction& action);
 void add_run_command(CLI::App& app, CommandAction& action);
+void add_lockstep_command(CLI::App& app, CommandAction& action);
 void add_bench_command(CLI::App& app, CommandAction& action);
 
 /// True after SIGINT or SIGTERM. Long work asks for it in its progress callback, cleans up and ends; torolux_main then

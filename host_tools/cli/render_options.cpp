@@ -68,11 +68,8 @@ void check_allocation(const std::string& name) {
     throw UsageError("\"" + name + "\" is not an allocation; there are: " + std::string(kAllocations));
 }
 
-void add_scene_options(CLI::App& command, RenderOptions& options) {
-  command.add_option("SCENE", options.scene, "A folder with scene.toml, a .toml file, or an .obj file")
-      ->required()
-      ->type_name("")
-      ->group("Scene");
+void add_scene_options(CLI::App& command, RenderOptions& options, const std::string& name, const std::string& help) {
+  command.add_option(name, options.scene, help)->required()->type_name("")->group("Scene");
   command.add_flag("--studio", options.studio, "Put the mesh into a room with a lamp, both fitted to it")
       ->group("Scene");
 }

@@ -59,8 +59,9 @@ struct RenderOptions {
   std::optional<std::uint32_t> threads;
 };
 
-/// SCENE and --studio.
-void add_scene_options(CLI::App& command, RenderOptions& options);
+/// SCENE and --studio. name, help: of the first.
+void add_scene_options(CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
+                       const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
 /// --output, --exposure, --stats, --save-radiosity, --radiosity, --quiet.
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --eye, --look-at, --up, --fov.

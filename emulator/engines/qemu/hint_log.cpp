@@ -5,13 +5,11 @@
 #include <atomic>
 #include <cstring>
 
-#include "firmware/protocol/hints.hpp"
+#include "emulator/engines/qemu/hint_effects.hpp"
 
 namespace torolux {
 namespace {
 
-using protocol::ArrivalKind;
-using protocol::Hint;
 using protocol::NiuWindow;
 
 constexpr std::size_t padded(std::size_t bytes) {
@@ -28,7 +26,7 @@ HintRecorder::HintRecorder(std::span<std::byte> log, std::span<const std::byte> 
                            std::uint32_t window_offset)
     : log_(log.subspan(sizeof(HintLogHead))),
       local_memory_(local_memory),
-      window_(*reinterpret_cast<const NiuWindow*>(local_memory.data() + window_offset)),
+      window_offset_(window_offset),
       head_(*reinterpret_cast<HintLogHead*>(log.data())) {
   std::uint32_t patches = 0;
   auto* entry = reinterpret_cast<HintLogEntry*>(take(sizeof(HintLogEntry)));
@@ -43,28 +41,11 @@ std::byte* HintRecorder::take(std::size_t bytes) {
   return place;
 }
 
-std::uint32_t HintRecorder::offset_in_window(const void* field) const {
-  return static_cast<std::uint32_t>(static_cast<const std::byte*>(field) - local_memory_.data());
-}
-
 void HintRecorder::patch(std::uint32_t offset, std::uint32_t bytes, std::uint32_t& patches) {
   const HintLogPatch head{offset, bytes};
   std::memcpy(take(sizeof head), &head, sizeof head);
   std::memcpy(take(bytes), local_memory_.data() + offset, bytes);
   ++patches;
-}
-
-void HintRecorder::add_receive(std::uint32_t& patches) {
-  patch(offset_in_window(&window_.arrival), sizeof window_.arrival, patches);
-  if (window_.arrival.kind == ArrivalKind::message) {
-    patch(offset_in_window(&window_.message),
-          static_cast<std::uint32_t>(sizeof window_.message) + window_.message.bytes, patches);
-  } else if (window_.arrival.kind == ArrivalKind::records) {
-    const std::uint32_t slots = window_.slots.address - protocol::kLocalMemoryBase;
-    for (std::uint32_t i = 0; i < window_.arrival.count; ++i) {
-      patch(slots + window_.arrival.slots[i] * window_.slots.bytes, window_.slots.bytes, patches);
-    }
-  }
 }
 
 void HintRecorder::happened(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
@@ -77,19 +58,8 @@ void HintRecorder::happened(std::int32_t immediate, std::uint64_t clock, std::ui
   }
   std::uint32_t patches = 0;
   auto* entry = reinterpret_cast<HintLogEntry*>(take(sizeof(HintLogEntry)));
-  switch (static_cast<Hint>(immediate)) {
-    case Hint::receive:
-    case Hint::receive_if_any:
-    case Hint::receive_more:
-      add_receive(patches);
-      break;
-    case Hint::clock:
-      patch(offset_in_window(&window_.clock), sizeof window_.clock, patches);
-      break;
-    default:
-      break;
-  }
-  patch(offset_in_window(&window_.released), sizeof window_.released, patches);
+  for_each_written(immediate, local_memory_, window_offset_,
+                   [&](std::uint32_t offset, std::uint32_t bytes) { patch(offset, bytes, patches); });
   *entry = {clock, immediate, patches};
   head_.cycles = clock;
   head_.instructions = instructions;

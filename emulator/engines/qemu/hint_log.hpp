@@ -43,14 +43,12 @@ class HintRecorder {
   void happened(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
 
  private:
-  void add_receive(std::uint32_t& patches);
   void patch(std::uint32_t offset, std::uint32_t bytes, std::uint32_t& patches);
-  std::uint32_t offset_in_window(const void* field) const;
   std::byte* take(std::size_t bytes);
 
   std::span<std::byte> log_;
   std::span<const std::byte> local_memory_;
-  const protocol::NiuWindow& window_;
+  std::uint32_t window_offset_;
   HintLogHead& head_;
 };
 

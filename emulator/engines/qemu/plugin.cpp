@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -12,8 +13,10 @@
 
 #include "emulator/engines/isa/instruction_class.hpp"
 #include "emulator/engines/qemu/hint_log.hpp"
+#include "emulator/engines/qemu/hint_meeting.hpp"
 #include "emulator/engines/qemu/plugin_api.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
+#include "emulator/niu/futex.hpp"
 #include "emulator/niu/processor_side.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
@@ -67,6 +70,9 @@ struct CountedPlace {
   static constexpr std::uint32_t kMostCycles = 0xFF'FFFFU;
 };
 
+/// While it waits for the emulator it shows that it is alive.
+constexpr std::chrono::microseconds kLongestSleep{50'000};
+
 class Plugin {
  public:
   Plugin(PluginShare& share, NiuProcessorSide side) : share_(share), side_(side) {}
@@ -75,14 +81,17 @@ class Plugin {
   void count(const CountedPlace& place);
   void hint(const HintPlace& place);
 
-  // At most one of the two is there.
+  // At most one of these is there.
   std::optional<HintRecorder> recorder;
   std::optional<HintReplayer> replayer;
+  /// Where the emulator does what HINTs do.
+  HintMeeting* meeting = nullptr;
 
  private:
   void count_block(qemu_plugin_tb* block);
   void count_each(qemu_plugin_tb* block);
   NiuProcessorSide::Result answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
+  NiuProcessorSide::Result meet(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   [[noreturn]] void end();
 
   PluginShare& share_;
@@ -173,6 +182,9 @@ void Plugin::count_block(qemu_plugin_tb* block) {
 }
 
 NiuProcessorSide::Result Plugin::answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
+  if (meeting != nullptr) {
+    return meet(immediate, clock, instructions);
+  }
   if (replayer) {
     return replayer->hint(immediate, clock);
   }
@@ -181,6 +193,25 @@ NiuProcessorSide::Result Plugin::answer(std::int32_t immediate, std::uint64_t cl
     recorder->happened(immediate, result.clock, instructions);
   }
   return result;
+}
+
+/// Phase markers are only noted: the emulator looks at them at the next HINT.
+NiuProcessorSide::Result Plugin::meet(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
+  using enum NiuProcessorSide::Outcome;
+  if (protocol::is_phase_marker(immediate)) {
+    meeting->markers.add({clock, instructions, immediate, 0});
+    return {done, clock};
+  }
+  meeting->immediate = immediate;
+  meeting->instructions = instructions;
+  meeting->clock = clock;
+  meeting->turn.store(HintMeeting::of_emulator);
+  futex_wake(meeting->turn);
+  while (meeting->turn.load() == HintMeeting::of_emulator) {
+    futex_wait(meeting->turn, HintMeeting::of_emulator, kLongestSleep);
+    share_.hints.fetch_add(1, std::memory_order_relaxed);
+  }
+  return {meeting->stop != 0 ? stop : done, meeting->clock};
 }
 
 void Plugin::end() {
@@ -264,6 +295,13 @@ const char* install(qemu_plugin_id_t id, const qemu_info_t& info, std::string_vi
     } else {
       plugin->replayer.emplace(*log, memory);
     }
+  }
+  if (share.meeting_descriptor >= 0) {
+    const auto meeting = map_descriptor(share.meeting_descriptor);
+    if (!meeting || meeting->size() < sizeof(HintMeeting)) {
+      return "the meeting place for HINTs cannot be mapped";
+    }
+    plugin->meeting = reinterpret_cast<HintMeeting*>(meeting->data());
   }
   qemu_plugin_register_vcpu_tb_trans_cb(id, on_translated);
   return nullptr;

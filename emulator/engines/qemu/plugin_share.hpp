@@ -22,6 +22,7 @@ struct PluginShare {
   std::int32_t local_descriptor;     ///< local memory, likewise
   std::int32_t log_descriptor;       ///< see hint_log.hpp; only where it is used
   HintLogUse log_use;
+  std::int32_t meeting_descriptor;  ///< HintMeeting; -1: the plugin itself does what HINTs do
   /// 1: count instruction by instruction. A debugger's watchpoint leaves a block in the middle, and begins again there.
   std::uint32_t counts_instructions;
   std::uint64_t channel_layout;  ///< niu_channel_layout()

@@ -73,6 +73,7 @@ std::vector<int> cores_for(unsigned threads) {
 struct Launch {
   EngineSetup setup;
   QemuHintLogs logs;
+  std::vector<SharedMemory>* meetings;
   std::string plugin;  // as QEMU's option takes it
   std::vector<int> cores;
 };
@@ -129,6 +130,7 @@ PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Lau
   share.local_descriptor = pe.local.descriptor();
   share.log_use = launch.logs.use;
   share.log_descriptor = share.log_use != HintLogUse::none ? (*launch.logs.logs)[number].descriptor() : -1;
+  share.meeting_descriptor = launch.meetings != nullptr ? (*launch.meetings)[number].descriptor() : -1;
   share.counts_instructions = debugged ? 1 : 0;
   share.latency = launch.setup.machine.processor.latency;
   return share;
@@ -164,10 +166,13 @@ QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const Shared
   if (launch.logs.use != HintLogUse::none) {
     inherited.push_back((*launch.logs.logs)[number].descriptor());
   }
+  if (launch.meetings != nullptr) {
+    inherited.push_back((*launch.meetings)[number].descriptor());
+  }
   if (debugger != nullptr) {
     const std::string socket = std::to_string(debugger->descriptor());
-    arguments.insert(arguments.end(),
-                     {"-chardev", "socket,id=gdb,server=on,wait=off,nodelay=on,fd=" + socket, "-gdb", "chardev:gdb", "-S"});
+    arguments.insert(arguments.end(), {"-chardev", "socket,id=gdb,server=on,wait=off,nodelay=on,fd=" + socket, "-gdb",
+                                       "chardev:gdb", "-S"});
     inherited.push_back(debugger->descriptor());
   }
   return QemuProcess(arguments, inherited, launch.cores);
@@ -227,7 +232,7 @@ void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
 class QemuEngine final : public Engine {
  public:
   QemuEngine(const EngineSetup& setup, const QemuOptions& options)
-      : launch_{setup, options.logs, {}, {}},
+      : launch_{setup, options.logs, options.meetings, {}, {}},
         listens_(options.listens),
         most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {
     for (const GdbPort& port : options.gdb) debugged_.push_back({port.pe, GdbSocket(port.port)});

@@ -20,6 +20,8 @@ struct QemuHintLogs {
 
 struct QemuOptions {
   QemuHintLogs logs = {};
+  /// Memory of a HintMeeting for each PE: whoever has it does what HINTs do. nullptr: QEMU's plugin does.
+  std::vector<SharedMemory>* meetings = nullptr;
   std::vector<GdbPort> gdb = {};                     ///< of PEs that this engine runs
   std::function<void(const GdbPort&)> listens = {};  ///< as Debugging::listens
 };

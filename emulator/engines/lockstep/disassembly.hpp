@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// An instruction as a person reads it: "lw a0, 4(sp)". Compressed ones as what they stand for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "emulator/engines/translated/instruction.hpp"
+
+namespace torolux::lockstep {
+
+/// pc: where it stands, for the targets of jumps.
+std::string disassemble(const translated::Instruction& instruction, std::uint32_t pc);
+
+}  // namespace torolux::lockstep
