@@ -108,10 +108,11 @@ TEST(Lockstep, AWrongResultIsFoundWhereItLiesInMemory) {
   // (5 + 7 + 1)^2 + 100, and one more.
   EXPECT_THAT(report, ContainsRegex("word +0x0000010d +0x0000010e +0x0000010d"));
   EXPECT_THAT(report, HasSubstr("That word, at 0x80021008"));
-  EXPECT_THAT(report, ContainsRegex("Last stored there at pc .*, clock [0-9]+: 0x0000010d"));
-  EXPECT_THAT(report, ContainsRegex("Since HINT 2 \\(clock [0-9]+\\) the interpreter has executed 5 instructions"));
-  EXPECT_THAT(report, ContainsRegex("addi a3, a2, 100.*\n.*addi a0, a0, 1.*\n.*sw a3, 8\\(s0\\).*\n.*addi a0, a0, 1.*\n"
-                                    ".*hint 5"));
+  EXPECT_THAT(report, ContainsRegex("Last stored there, as interpreted, at pc .*, clock [0-9]+: 0x0000010d"));
+  EXPECT_THAT(report, ContainsRegex("it goes the same way up to pc 0x8000002c.*, clock [0-9]+\\."));
+  EXPECT_THAT(report, HasSubstr("Memory differs then at 0x80021008"));
+  EXPECT_THAT(report, ContainsRegex("of 3 since HINT 2 \\(clock [0-9]+\\):\n"
+                                    ".* addi a3, a2, 100 .*\n.* addi a0, a0, 1 .*\n.* sw a3, 8\\(s0\\) .*$"));
 }
 
 TEST(Lockstep, AStoreToAWrongPlaceIsFound) {
@@ -126,7 +127,7 @@ TEST(Lockstep, AStoreToAWrongPlaceIsFound) {
 
 TEST(Lockstep, AWrongCostIsFoundAtTheNextHint) {
   EXPECT_THAT(report_with(InstructionClass::store, 2),
-              AllOf(HasSubstr("part at its HINT 1: the clocks differ"), HasSubstr("Since the start (clock 0)")));
+              AllOf(HasSubstr("part at its HINT 1: the clocks differ"), HasSubstr("since the start (clock 0)")));
   EXPECT_THAT(report_with(InstructionClass::multiply, 4),
               AllOf(HasSubstr("part at its HINT 2: phase marker 1 (QEMU: 67 at clock "), HasSubstr(") differs")));
 }

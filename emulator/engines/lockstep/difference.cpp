@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "emulator/engines/lockstep/disassembly.hpp"
+#include "emulator/engines/lockstep/parting.hpp"
 #include "emulator/engines/lockstep/trace.hpp"
 
 namespace torolux::lockstep {
@@ -17,6 +18,7 @@ using translated::TranslatedPe;
 
 /// The interpreter is given so many instructions more than QEMU took.
 constexpr std::uint64_t kMostMore = 100'000;
+constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
 /// A trap has led the program to where it is.
 bool has_trapped(const TranslatedPe& pe) {
@@ -100,20 +102,63 @@ void print_table(std::ostream& out, const std::string& place, const std::array<P
   out << "\n  That word, at " << place << ", is the first that differs in local memory.";
 }
 
-void print_trace(std::ostream& out, const PeInQuestion& pe, const Trace& trace, bool word_differs) {
-  if (trace.store) {
-    out << "\n  Last stored there at pc " << pe.image.describe(trace.store->pc) << ", clock " << trace.store->clock
-        << ": " << hexadecimal(trace.store->word) << ".";
-  } else if (word_differs) {
-    out << "\n  As interpreted, nothing has been stored there since the last HINT.";
-  }
-  out << "\n  Since " << (pe.hint == 1 ? "the start" : "HINT " + std::to_string(pe.hint - 1)) << " (clock "
-      << pe.last_hint_clock << ") the interpreter has executed " << trace.instructions << " instructions; the last "
-      << trace.last.size() << ":";
+std::string place_text(const PeInQuestion& pe, std::uint32_t pc, std::uint64_t clock) {
+  return "pc " + pe.image.describe(pc) + ", clock " + std::to_string(clock);
+}
+
+void print_parting(std::ostream& out, const PeInQuestion& pe, const Parting& parting) {
+  const auto place = [&](const Parting::Place& at) { return place_text(pe, at.pc, at.clock); };
+  out << "\n  Translated and interpreted, it goes the same way up to " << place(parting.same)
+      << ".\n    From there translated:  to " << place(parting.translated) << "\n    From there interpreted: to "
+      << place(parting.interpreted);
+  if (parting.byte) out << "\n    Memory differs then at " << hexadecimal(translated::kMemoryBase + *parting.byte);
+}
+
+void print_instructions(std::ostream& out, const PeInQuestion& pe, const Trace& trace) {
+  out << "\n  The last instructions that the interpreter executes up to there, of " << trace.instructions << " since "
+      << (pe.hint == 1 ? "the start" : "HINT " + std::to_string(pe.hint - 1)) << " (clock " << pe.last_hint_clock
+      << "):";
   for (const TracedInstruction& traced : trace.last) {
     out << "\n    clock " << std::left << std::setw(12) << traced.clock << hexadecimal(traced.instruction.bits) << "  "
         << std::setw(32) << disassemble(traced.instruction, traced.pc) << pe.image.describe(traced.pc);
   }
+}
+
+/// The way from the last HINT to this one as the interpreter goes it, any number of times.
+class Way {
+ public:
+  Way(const PeInQuestion& pe, Shadow& shadow, std::uint64_t most_instructions)
+      : pe_(pe),
+        shadow_(shadow),
+        start_(shadow.pe()),
+        memory_(shadow.memory().begin(), shadow.memory().end()),
+        most_instructions_(most_instructions) {}
+
+  /// clock: to stop at.
+  Trace trace(std::optional<std::uint32_t> watched, std::uint64_t clock) {
+    shadow_.pe() = start_;
+    std::ranges::copy(memory_, shadow_.memory().begin());
+    return trace_to_hint(pe_.map, shadow_.pe(), watched, {most_instructions_, clock});
+  }
+  std::optional<Parting> parting(std::uint64_t until) const {
+    return find_parting(pe_.code, pe_.map, start_, memory_, until);
+  }
+
+ private:
+  const PeInQuestion& pe_;
+  Shadow& shadow_;
+  TranslatedPe start_;
+  std::vector<std::byte> memory_;
+  std::uint64_t most_instructions_;
+};
+
+/// The instructions up to where the ways part, or up to where the byte that differs there has been stored.
+Trace trace_to_parting(Way& way, const Parting& parting) {
+  const std::uint64_t end = parting.interpreted.clock;
+  if (!parting.byte) return way.trace(std::nullopt, end);
+  const Trace trace = way.trace((translated::kMemoryBase + *parting.byte) & ~3U, end);
+  const bool stored = trace.store && trace.store->clock > parting.same.clock;
+  return stored ? way.trace(std::nullopt, trace.store->clock) : trace;
 }
 
 }  // namespace
@@ -142,8 +187,10 @@ std::string report(const PeInQuestion& pe, const Difference& difference, const H
   const bool had_hint = difference.what.find("alone") == std::string::npos;
   const Party of_translated = party(shadow.pe(), had_hint);
   shadow.go_back();
-  const Trace trace =
-      trace_to_hint(pe.code, shadow.pe(), word, qemu.instructions - shadow.pe().instructions + kMostMore);
+  Way way(pe, shadow, qemu.instructions - shadow.pe().instructions + kMostMore);
+  const auto parting = way.parting(qemu.clock + kMostMore);
+  const std::optional<Trace> up_to_parting = parting ? std::optional(trace_to_parting(way, *parting)) : std::nullopt;
+  const Trace trace = way.trace(word, kNoLimit);
   const Party of_interpreter = party(shadow.pe(), trace.at_hint);
 
   std::ostringstream out;
@@ -151,7 +198,14 @@ std::string report(const PeInQuestion& pe, const Difference& difference, const H
       << difference.what;
   print_table(out, word ? hexadecimal(*word) + " (" + pe.image.describe(*word) + ")" : "",
               {of_qemu, of_translated, of_interpreter});
-  print_trace(out, pe, trace, word.has_value());
+  if (trace.store) {
+    out << "\n  Last stored there, as interpreted, at " << place_text(pe, trace.store->pc, trace.store->clock) << ": "
+        << hexadecimal(trace.store->word);
+  } else if (word) {
+    out << "\n  As interpreted, nothing has been stored there since the last HINT.";
+  }
+  if (parting) print_parting(out, pe, *parting);
+  print_instructions(out, pe, up_to_parting ? *up_to_parting : trace);
   return out.str();
 }
 

@@ -31,7 +31,8 @@ struct PeInQuestion {
   std::uint64_t hint;             ///< number of this HINT, phase markers not counted, from 1
   std::uint64_t last_hint_clock;  ///< at the end of the last one
   const Image& image;
-  const translated::CodeMap& code;
+  const TranslatedImage& code;     ///< as the shadow runs it
+  const translated::CodeMap& map;  ///< as it should be
 };
 
 /// Several lines. Takes the shadow back to the last HINT, and so spoils it.

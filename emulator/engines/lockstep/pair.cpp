@@ -75,7 +75,7 @@ bool Pair::compare() {
     for (const MemoryRange& range : shadow_.memories().touched()) totals_.bytes += range.end - range.begin;
     return true;
   }
-  const PeInQuestion pe{number_, totals_.hints, last_hint_clock_, common_.setup.image, common_.map};
+  const PeInQuestion pe{number_, totals_.hints, last_hint_clock_, common_.setup.image, common_.code, common_.map};
   std::string text = report(pe, *found, meeting_, shadow_, local_.bytes());
   const std::lock_guard lock(mutex_);
   difference_ = std::move(text);

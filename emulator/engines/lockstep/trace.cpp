@@ -34,10 +34,10 @@ std::uint32_t word_at(const TranslatedPe& pe, std::uint32_t address) {
 
 }  // namespace
 
-Trace trace_to_hint(const CodeMap& code, TranslatedPe& pe, std::optional<std::uint32_t> watched, std::uint64_t most) {
+Trace trace_to_hint(const CodeMap& code, TranslatedPe& pe, std::optional<std::uint32_t> watched, TraceLimit limit) {
   const Interpreter interpreter(code);
   Trace trace;
-  while (trace.instructions < most && !trace.at_hint) {
+  while (trace.instructions < limit.instructions && pe.cycles < limit.clock && !trace.at_hint) {
     const std::uint32_t pc = pe.pc;
     const translated::PlacedInstruction* placed = code.at(pc);
     const bool stores = watched && placed != nullptr && stores_to(pe, placed->instruction, *watched);

@@ -33,9 +33,13 @@ struct Trace {
   bool at_hint = false;              ///< else: stuck, or beyond the limit
 };
 
-/// Interprets until the next HINT that is no phase marker, at most `most` instructions. watched: address of a word, a
-/// multiple of 4.
+struct TraceLimit {
+  std::uint64_t instructions;
+  std::uint64_t clock = ~std::uint64_t{0};
+};
+
+/// Interprets until the next HINT that is no phase marker, or the limit. watched: address of a word, a multiple of 4.
 Trace trace_to_hint(const translated::CodeMap& code, translated::TranslatedPe& pe, std::optional<std::uint32_t> watched,
-                    std::uint64_t most);
+                    TraceLimit limit);
 
 }  // namespace torolux::lockstep
