@@ -51,6 +51,23 @@ TEST(ParseMemory, TakesUnits) {
     EXPECT_THROW(parse_memory(text), InputError) << text;
 }
 
+TEST(ParsePeList, TakesNumbersAndRanges) {
+  EXPECT_EQ(parse_pe_list("3"), std::vector<unsigned>{3});
+  EXPECT_EQ(parse_pe_list("7,0-3,2"), (std::vector<unsigned>{0, 1, 2, 3, 7}));
+  for (const char* text : {"", ",", "3,", "1-2-3", "-3", "3-", "a", "1..3", "0x3", " 3"})
+    EXPECT_THROW(parse_pe_list(text), UsageError) << text;
+  for (const char* text : {"3-1", "65520", "0-99999999999999999999"})
+    EXPECT_THROW(parse_pe_list(text), InputError) << text;
+}
+
+TEST(ParseGdbPort, TakesPeAndPort) {
+  EXPECT_EQ(parse_gdb_port("3:1234"), (GdbPort{3, 1234}));
+  EXPECT_EQ(parse_gdb_port("0:0"), (GdbPort{0, 0}));
+  for (const char* text : {"", "3", "3:", ":1234", "3:1:2", "a:1", "3:-1", "localhost:1234"})
+    EXPECT_THROW(parse_gdb_port(text), UsageError) << text;
+  for (const char* text : {"3:65536", "65520:1234"}) EXPECT_THROW(parse_gdb_port(text), InputError) << text;
+}
+
 TEST(ParseVector, TakesThreeNumbers) {
   EXPECT_EQ(parse_vector("1,-2.5,3e2"), (std::array<double, 3>{1, -2.5, 300}));
   EXPECT_EQ(parse_vector("-.5,+1,0"), (std::array<double, 3>{-0.5, 1, 0}));
