@@ -72,7 +72,7 @@ std::vector<int> cores_for(unsigned threads) {
 /// What is the same for all PEs of an engine.
 struct Launch {
   EngineSetup setup;
-  QemuHintLogs logs;
+  std::optional<QemuHintLogs> logs;
   std::vector<SharedMemory>* meetings;
   std::string plugin;  // as QEMU's option takes it
   std::vector<int> cores;
@@ -128,8 +128,8 @@ PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Lau
   share.local_memory_bytes = pe.local_memory_bytes;
   share.channel_descriptor = pe.channel.descriptor();
   share.local_descriptor = pe.local.descriptor();
-  share.log_use = launch.logs.use;
-  share.log_descriptor = share.log_use != HintLogUse::none ? (*launch.logs.logs)[number].descriptor() : -1;
+  share.log_descriptor = launch.logs ? launch.logs->logs[number].descriptor() : -1;
+  share.log_use = launch.logs ? launch.logs->use : HintLogUse::none;
   share.meeting_descriptor = launch.meetings != nullptr ? (*launch.meetings)[number].descriptor() : -1;
   share.counts_instructions = debugged ? 1 : 0;
   share.latency = launch.setup.machine.processor.latency;
@@ -163,8 +163,8 @@ QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const Shared
       "-plugin",
       launch.plugin + ",share=" + std::to_string(share.descriptor())};
   std::vector<int> inherited = {pe.channel.descriptor(), pe.local.descriptor(), share.descriptor()};
-  if (launch.logs.use != HintLogUse::none) {
-    inherited.push_back((*launch.logs.logs)[number].descriptor());
+  if (launch.logs) {
+    inherited.push_back(launch.logs->logs[number].descriptor());
   }
   if (launch.meetings != nullptr) {
     inherited.push_back((*launch.meetings)[number].descriptor());
@@ -296,6 +296,10 @@ class QemuEngine final : public Engine {
 
 std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuOptions& options) {
   return std::make_unique<QemuEngine>(setup, options);
+}
+
+std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuHintLogs& logs) {
+  return make_qemu_engine(setup, QemuOptions{.logs = logs});
 }
 
 }  // namespace torolux

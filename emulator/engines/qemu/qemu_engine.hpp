@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
@@ -14,12 +15,12 @@ namespace torolux {
 
 /// Logs of what HINTs do, one for each PE, for `torolux bench engine`: see hint_log.hpp.
 struct QemuHintLogs {
-  HintLogUse use = HintLogUse::none;
-  std::vector<SharedMemory>* logs = nullptr;  ///< must outlive the engine
+  HintLogUse use;
+  std::vector<SharedMemory>& logs;  ///< must outlive the engine
 };
 
 struct QemuOptions {
-  QemuHintLogs logs = {};
+  std::optional<QemuHintLogs> logs = {};
   /// Memory of a HintMeeting for each PE: whoever has it does what HINTs do. nullptr: QEMU's plugin does.
   std::vector<SharedMemory>* meetings = nullptr;
   std::vector<GdbPort> gdb = {};                     ///< of PEs that this engine runs
@@ -29,5 +30,6 @@ struct QemuOptions {
 /// QEMU and the plugin are looked for when the PEs are started. setup.pes must outlive the engine. Throws InputError
 /// where a debugger's port is in use.
 std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuOptions& options = {});
+std::unique_ptr<Engine> make_qemu_engine(const EngineSetup& setup, const QemuHintLogs& logs);
 
 }  // namespace torolux

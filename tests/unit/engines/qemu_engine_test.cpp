@@ -186,7 +186,7 @@ class HintLog : public testing::Test {
     EXPECT_TRUE(pes.next_command(0) && pes.next_command(0));
   }
   EngineFactory with_log(HintLogUse use) {
-    return [this, use](const EngineSetup& setup) { return make_qemu_engine(setup, {.logs = {use, &logs_}}); };
+    return [this, use](const EngineSetup& setup) { return make_qemu_engine(setup, QemuHintLogs{use, logs_}); };
   }
   HintLogHead& head() { return *reinterpret_cast<HintLogHead*>(logs_[0].bytes().data()); }
 
