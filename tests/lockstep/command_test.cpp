@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstring>
 #include <regex>
 
@@ -55,6 +56,30 @@ TEST(LockstepCommand, RefusesWhatMakesNoSense) {
   EXPECT_THAT(option.errors, HasSubstr("--size is for scenes, and this is a firmware image"));
   EXPECT_EQ(run_torolux({"lockstep", "/nowhere.elf"}).exit_code, 2);
   EXPECT_EQ(run_torolux({"lockstep"}).exit_code, 1);
+}
+
+/// Ten PEs in endless loops: see tests/images.
+class EndlessLockstep : public testing::Test {
+ protected:
+  EndlessLockstep() : run_({"lockstep", image("faults"), "--pes", "1x10"}), qemus_(run_.children(10)) {}
+  void SetUp() override { ASSERT_EQ(qemus_.size(), 10U); }
+
+  ToroluxProcess run_;
+  std::vector<pid_t> qemus_;
+};
+
+TEST_F(EndlessLockstep, CtrlCLeavesNothingBehind) {
+  run_.signal(SIGINT);
+  EXPECT_EQ(run_.wait().exit_code, 130);
+  EXPECT_TRUE(all_gone(qemus_));
+}
+
+TEST_F(EndlessLockstep, AKilledQemuIsNamed) {
+  ASSERT_EQ(kill(qemus_[7], SIGKILL), 0);
+  const Finished end = run_.wait();
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_THAT(end.errors, HasSubstr("PE 7: its QEMU process was killed by signal 9"));
+  EXPECT_TRUE(all_gone(qemus_));
 }
 
 /// pe.elf with the first fmul.s of a function turned into fadd.s.
