@@ -2,6 +2,7 @@
 // Traps, control and status registers, memory protection, jumps to odd places: what a program sees of them is QEMU's.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -157,6 +158,47 @@ TEST(TranslatedControl, ReturnsWhereNoCallStandsAreRefused) {
     const Outcome outcome = run_to_halt(image, Way::translated);
     EXPECT_EQ(outcome.halted, calls) << outcome.failure;
     EXPECT_EQ(outcome.failure.empty(), calls);
+  }
+}
+
+/// Two functions. The first jumps by a register that an operation makes of two others to `place`, which is an
+/// instruction of the first (behind the jump) or the second, or the beginning of the second.
+enum class Place : std::uint8_t { own_function, other_function, beginning };
+Image jump_to(Place place, bool by_sum, bool interpreted) {
+  constexpr Reg kFrm = 1;
+  Code code;
+  turn_float_on(code);
+  code << csrrwi(0, csr::kFrm, interpreted ? kFrm : 0) << 0x00B5'7553U /* fadd.s: else frm is of no interest */;
+  constexpr std::int32_t kJump = 4 * 16;  // behind all that makes its register
+  constexpr Word kSecond = 0x8000'0000U + kJump + 8;
+  const Word target = place == Place::own_function ? kSecond - 4 : place == Place::beginning ? kSecond : kSecond + 4;
+  constexpr Word kOther = 0x1357'9BDFU;  // neither this nor the other operand looks like an address of code
+  code.li(kT1, by_sum ? target - kOther : target ^ kOther).li(kT2, kOther);
+  code << r_type(0x33, by_sum ? 0 : 4, 0, kT0, kT1, kT2);
+  while (code.here() < kJump) code << addi(0, 0, 0);
+  code << jalr(0, kT0, 0) << hint(protocol::Hint::halt);
+  code << addi(kValue, kValue, 1) << hint(protocol::Hint::halt);
+  Image image = image_of(code);
+  image.symbols.push_back({0x8000'0000U, kSecond - 0x8000'0000U, "first", true});
+  image.symbols.push_back({kSecond, 8, "second", true});
+  std::ranges::sort(image.symbols, {}, &ImageSymbol::address);
+  return image;
+}
+
+TEST(TranslatedControl, JumpsThatNobodyCouldForeseeAreRefused) {
+  for (const bool interpreted : {false, true}) {
+    for (const bool by_sum : {false, true}) {
+      for (const Place place : {Place::own_function, Place::other_function, Place::beginning}) {
+        // A sum is the table of a switch, which leads to its own function alone; all else may be a pointer to one.
+        const bool foreseen = place == Place::own_function || (place == Place::beginning && !by_sum);
+        const Image image = jump_to(place, by_sum, interpreted);
+        EXPECT_TRUE(run_to_halt(image, Way::qemu).halted);
+        const Outcome outcome = run_to_halt(image, Way::translated);
+        EXPECT_EQ(outcome.halted, foreseen) << "place " << static_cast<int>(place) << ", sum " << by_sum << ", frm "
+                                            << interpreted << ": " << outcome.failure;
+        EXPECT_EQ(outcome.failure.find("jumped to pc") == std::string::npos, foreseen) << outcome.failure;
+      }
+    }
   }
 }
 
