@@ -121,7 +121,7 @@ class RoundDrawer {
   /// pmpaddr of a range inside, whether it is read as an address or as a power of two.
   Word range(Word begin, Word bytes) {
     const Word address = (begin + below(bytes)) >> 2U;
-    if (below(3) == 0) return address;
+    if (below(3) == 0) return address & ~(bytes / 16);  // by chance all ones, it would reach out
     // 8 bytes to a half of all: so many ones at the end.
     Word ones = 0;
     for (Word size = 8; size < bytes / 2 && below(6) != 0; size *= 2) ones = ones << 1U | 1U;
