@@ -14,11 +14,11 @@ std::string flow_label(std::uint32_t address) {
 std::string entry_label(std::uint32_t address) {
   return "r_" + hexadecimal(address).substr(2, 8);
 }
-std::string called_name(std::size_t number) {
-  return "called_" + std::to_string(number);
+std::string called_name(std::uint32_t begin) {
+  return "called_" + hexadecimal(begin).substr(2, 8);
 }
-std::string resumed_name(std::size_t number) {
-  return "resumed_" + std::to_string(number);
+std::string resumed_name(std::uint32_t begin) {
+  return "resumed_" + hexadecimal(begin).substr(2, 8);
 }
 
 using Numbers = std::map<std::uint32_t, std::size_t>;  // of functions, by where they begin
@@ -71,7 +71,7 @@ std::string FunctionWriter::go_to(const Block& block, std::uint32_t address, Reg
     const auto callee = numbers_.find(address);
     if (callee == numbers_.end()) return leave(save, Exit::jump, address);
     there = "{ if (TOROLUX_RARELY(depth >= kDeepest)) " + leave(save, Exit::jump, address) + " " + writer_.save(save) +
-            "return " + called_name(callee->second) + "(pe, count, " + hexadecimal(address) + ", depth + 1); }";
+            "return " + called_name(callee->first) + "(pe, count, " + hexadecimal(address) + ", depth + 1); }";
   }
   if (address > block.begin) return there;
   return "{ if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) " + leave(save, Exit::slice, address) +
@@ -87,7 +87,7 @@ void FunctionWriter::write_call(const Block& block, RegisterSet save) {
   }
   writer_.line("if (TOROLUX_RARELY(depth >= kDeepest)) " + leave(save, Exit::jump, block.target));
   writer_.line(writer_.save(save));
-  writer_.line("const Left left = " + called_name(callee->second) + "(pe, count, " + hexadecimal(block.target) +
+  writer_.line("const Left left = " + called_name(callee->first) + "(pe, count, " + hexadecimal(block.target) +
                ", depth + 1);");
   writer_.line("count = left.count;");
   writer_.line("if (TOROLUX_RARELY(left.at != " + hexadecimal(block.end) + ")) return left;");
@@ -225,12 +225,12 @@ std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
   std::string called_table;
   std::string resumed_table;
   for (std::size_t n = 0; n < functions.size(); ++n) {
-    for (const std::string& name : {called_name(n), resumed_name(n)}) {
+    for (const std::string& name : {called_name(functions[n].begin), resumed_name(functions[n].begin)}) {
       declarations += "extern \"C\" __attribute__((visibility(\"hidden\"))) Left " + name +
                       "(TranslatedPe*, std::uint64_t, std::uint64_t, std::uint32_t);\n";
     }
-    called_table += called_name(n) + ", ";
-    resumed_table += resumed_name(n) + ", ";
+    called_table += called_name(functions[n].begin) + ", ";
+    resumed_table += resumed_name(functions[n].begin) + ", ";
     if (!functions[n].blocks.empty() && blocks.all().contains(functions[n].begin)) numbers[functions[n].begin] = n;
   }
   std::vector<SourceText> units;
@@ -242,8 +242,8 @@ std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
   };
   for (std::size_t n = 0; n < functions.size(); ++n) {
     const FunctionFlow flow(code, blocks, liveness, functions[n]);
-    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], false).text(called_name(n));
-    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], true).text(resumed_name(n));
+    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], false).text(called_name(functions[n].begin));
+    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], true).text(resumed_name(functions[n].begin));
     if (unit.size() > kMostText) finish();
   }
   unit += tables(blocks.observed(), called_table, resumed_table);
