@@ -71,15 +71,31 @@ SharedMemory fresh_memory(const Recording& recording) {
   return memory;
 }
 
+struct Replay {
+  translated::TranslatedPe pe{};
+  HintReplayer& niu;
+  bool asked = false, goes_on = true;
+};
+
+bool replay_hint(void* context, std::int32_t immediate, std::uint64_t clock, std::uint64_t /*instructions*/) {
+  auto& replay = *static_cast<Replay*>(context);
+  const NiuProcessorSide::Result result = replay.niu.hint(immediate, clock);
+  replay.goes_on = result.outcome == NiuProcessorSide::Outcome::done;
+  replay.pe.cycles += result.clock - clock;
+  replay.asked = !replay.goes_on;
+  return replay.goes_on;
+}
+
 void translated_pe(const Recording& recording, const translated::TranslatedImage& code, SharedMemory& memory,
                    HintReplayer& niu) {
-  translated::TranslatedPe pe{};
-  code.start(pe, memory.bytes().first(recording.local_memory_bytes), memory.bytes().size());
-  pe.marker = [](void*, std::int32_t, std::uint64_t, std::uint64_t) {};
-  while (code.run(pe) == translated::TranslatedImage::Stop::hint) {
-    const NiuProcessorSide::Result result = niu.hint(pe.hint_immediate, pe.cycles);
-    if (result.outcome != NiuProcessorSide::Outcome::done) return;
-    pe.cycles = result.clock;
+  Replay replay{{}, niu};
+  code.start(replay.pe, memory.bytes().first(recording.local_memory_bytes), memory.bytes().size());
+  replay.pe.marker = [](void*, std::int32_t, std::uint64_t, std::uint64_t) {};
+  replay.pe.hint = &replay_hint;
+  replay.pe.context = &replay;
+  while (replay.goes_on && code.run(replay.pe) == translated::TranslatedImage::Stop::hint) {
+    if (!replay.asked) replay_hint(&replay, replay.pe.hint_immediate, replay.pe.cycles, replay.pe.instructions);
+    replay.asked = false;
   }
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The text for each instruction. Names in it: x1..x31, f0..f31, memory, stores, load_limit, store_limit, count, pe, and
-// o... for offsets.
+// The text for each instruction. Names in it: x1..x31, f0..f31, memory, load_limit, store_limit, count, pe.
 #include "emulator/engines/translated/block_writer.hpp"
 
-#include <algorithm>
-#include <array>
 #include <string_view>
 
 namespace torolux::translated {
@@ -94,10 +91,6 @@ std::string_view type_of_load(Op op) {
   }
 }
 
-bool is_store(Op op) {
-  return (op >= Op::sb && op <= Op::sw) || op == Op::fsw;
-}
-
 }  // namespace
 
 std::string hexadecimal(std::uint32_t value) {
@@ -169,75 +162,43 @@ std::string BlockWriter::look(std::uint32_t pc, RegisterSet registers) const {
   return leave(registers, "left_for(Exit::look, " + hexadecimal(pc) + ")");
 }
 
-void BlockWriter::begin(const std::vector<std::uint32_t>& addresses, RegisterSet unsettled) {
+void BlockWriter::begin(RegisterSet unsettled, const AccessChecks& checks) {
   unsettled_ = unsettled;
-  find_accesses(addresses);
-  for (const Accesses& group : accesses_) line("std::uint32_t o" + hexadecimal(group.first).substr(2, 8) + ";");
-}
-
-void BlockWriter::find_accesses(const std::vector<std::uint32_t>& addresses) {
-  constexpr std::size_t kNone = ~std::size_t{0};
-  accesses_.clear();
-  accesses_of_.clear();
-  std::array<std::array<std::size_t, 32>, 2> open{};  // by what they do and base register
-  open[0].fill(kNone);
-  open[1].fill(kNone);
-  for (const std::uint32_t pc : addresses) {
-    const Instruction& i = code_.at(pc)->instruction;
-    if (i.op >= Op::lb && i.op <= Op::fsw) {
-      const bool stores = is_store(i.op);
-      const auto immediate = static_cast<std::int32_t>(i.immediate);
-      std::size_t& group = open[stores ? 1 : 0][i.rs1];
-      if (group == kNone) {
-        group = accesses_.size();
-        accesses_.push_back({pc, immediate, immediate, i.rs1, stores});
-      }
-      accesses_[group].lowest = std::min(accesses_[group].lowest, immediate);
-      accesses_[group].highest = std::max(accesses_[group].highest, immediate);
-      accesses_of_[pc] = group;
-    }
-    if (writes_x(i.op)) open[0][i.rd] = open[1][i.rd] = kNone;
-  }
+  checks_ = checks;
 }
 
 bool BlockWriter::may_look(std::uint32_t pc) const {
-  const auto found = accesses_of_.find(pc);
-  if (found != accesses_of_.end()) return accesses_[found->second].first == pc;
-  return code_.at(pc)->instruction.op == Op::hint;
+  return checks_.contains(pc) || code_.at(pc)->instruction.op == Op::hint;
 }
 
-/// Before the first of several accesses: whether they all are plainly allowed.
-void BlockWriter::write_check(std::uint32_t pc, RegisterSet look_saves) {
-  const std::size_t number = accesses_of_.at(pc);
-  const Accesses& group = accesses_[number];
-  if (group.first != pc) return;
-  const std::string o = "o" + hexadecimal(pc).substr(2, 8);
-  const std::uint32_t base = group.stores ? code_.store_base() : kMemoryBase;
-  const auto span = static_cast<std::uint32_t>(group.highest - group.lowest);
-  line(o + " = " + x(group.base) + " + " + hexadecimal(static_cast<std::uint32_t>(group.lowest) - base) + ";");
-  const std::string last = span == 0 ? o : "std::uint64_t{" + o + "} + " + decimal(span) + "u";
-  line("if (TOROLUX_RARELY(" + last + " >= " + (group.stores ? "store_limit" : "load_limit") + ")) " +
-       look(pc, look_saves));
+/// Before an access, where needed: whether it and later ones are plainly allowed.
+void BlockWriter::write_check(const Instruction& i, std::uint32_t pc, RegisterSet look_saves) {
+  const auto found = checks_.find(pc);
+  if (found == checks_.end()) return;
+  const auto& [stores, offsets] = found->second;
+  const std::uint32_t begin = stores ? code_.store_base() : kMemoryBase;
+  const std::string first = x(i.rs1) + " + " + hexadecimal(static_cast<std::uint32_t>(offsets.lowest) - begin);
+  const std::string last = offsets.highest == offsets.lowest
+                               ? first
+                               : "std::uint64_t{" + first + "} + " + decimal(offsets.highest - offsets.lowest) + "u";
+  line("if (TOROLUX_RARELY(" + last + " >= " + (stores ? "store_limit" : "load_limit") + ")) " + look(pc, look_saves));
 }
 
 bool BlockWriter::write_memory(const Instruction& i, std::uint32_t pc, RegisterSet look_saves) {
-  if (i.op < Op::lb || i.op > Op::fsw) return false;
+  if (!is_access(i.op)) return false;
   if (i.op == Op::fsw) exact_f(i.rs2);
-  write_check(pc, look_saves);
-  const Accesses& group = accesses_[accesses_of_.at(pc)];
-  const std::string offset = "o" + hexadecimal(group.first).substr(2, 8) + " + " +
-                             decimal(static_cast<std::int32_t>(i.immediate) - group.lowest) + "ull";
-  if (group.stores) {
+  write_check(i, pc, look_saves);
+  const std::string at = "memory, " + x(i.rs1) + ", " + decimal(static_cast<std::int32_t>(i.immediate));
+  if (is_store(i.op)) {
     const std::string value = i.op == Op::fsw  ? f(i.rs2)
                               : i.op == Op::sb ? "static_cast<std::uint8_t>(" + x(i.rs2) + ")"
                               : i.op == Op::sh ? "static_cast<std::uint16_t>(" + x(i.rs2) + ")"
                                                : x(i.rs2);
-    line("store_at(stores, " + offset + ", " + value + ");");
+    line("store_at(" + at + ", " + value + ");");
   } else if (i.op == Op::flw) {
-    line(assign_f(i.rd, true) + "load_at<float>(memory, " + offset + ");");
+    line(assign_f(i.rd, true) + "load_at<float>(" + at + ");");
   } else if (i.rd != 0) {
-    line(assign_x(i.rd) + "static_cast<std::uint32_t>(load_at<" + std::string(type_of_load(i.op)) + ">(memory, " +
-         offset + "));");
+    line(assign_x(i.rd) + "static_cast<std::uint32_t>(load_at<" + std::string(type_of_load(i.op)) + ">(" + at + "));");
   }
   return true;
 }

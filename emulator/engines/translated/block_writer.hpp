@@ -4,10 +4,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
-#include <vector>
 
+#include "emulator/engines/translated/access_flow.hpp"
 #include "emulator/engines/translated/code_map.hpp"
 #include "emulator/engines/translated/liveness.hpp"
 
@@ -18,8 +17,8 @@ class BlockWriter {
   /// observed: the program can see fflags and mstatus.FS.
   BlockWriter(const CodeMap& code, bool observed, std::string& out) : code_(code), observed_(observed), out_(out) {}
 
-  /// Begins a block in which these f registers may hold a NaN that is not RISC-V's. addresses: of its instructions.
-  void begin(const std::vector<std::uint32_t>& addresses, RegisterSet unsettled);
+  /// Begins a block in which these f registers may hold a NaN that is not RISC-V's. checks: of its accesses.
+  void begin(RegisterSet unsettled, const AccessChecks& checks);
   /// cost_behind: of the rest of the block, for phase markers. look: registers to be saved where it cannot go on.
   void write(const Instruction& i, std::uint32_t pc, Cost cost_behind, RegisterSet look);
   /// Whether the instruction may send the PE to the interpreter.
@@ -47,28 +46,18 @@ class BlockWriter {
   bool write_flagged(const Instruction& i);
   bool write_bits(const Instruction& i);
   void write_marker(const Instruction& i, std::uint32_t pc, Cost cost_behind, RegisterSet look);
-  void write_check(std::uint32_t pc, RegisterSet look);
-  void find_accesses(const std::vector<std::uint32_t>& addresses);
+  void write_check(const Instruction& i, std::uint32_t pc, RegisterSet look);
 
   static std::string f(unsigned n);
   std::string exact_f(unsigned n);  // settles it first
   std::string assign_f(unsigned n, bool settled);
   std::string look(std::uint32_t pc, RegisterSet save) const;
 
-  /// Loads, or stores, of a block by the same base register: one check suffices for all.
-  struct Accesses {
-    std::uint32_t first;           ///< address of the first instruction: the check stands there
-    std::int32_t lowest, highest;  ///< immediates
-    unsigned base;
-    bool stores;
-  };
-
   const CodeMap& code_;
   bool observed_;
   std::string& out_;
   RegisterSet unsettled_ = 0;
-  std::vector<Accesses> accesses_;
-  std::map<std::uint32_t, std::size_t> accesses_of_;  // by the address of the instruction
+  AccessChecks checks_;
 };
 
 /// 0x80000000u

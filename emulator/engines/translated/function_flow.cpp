@@ -5,9 +5,18 @@
 namespace torolux::translated {
 
 FunctionFlow::FunctionFlow(const CodeMap& code, const Blocks& blocks, const Liveness& liveness,
-                           const GuestFunction& function)
-    : code_(code), blocks_(blocks), liveness_(liveness) {
-  for (const std::uint32_t address : function.blocks) at_[address] = {};
+                           const GuestFunction& function, bool resumes)
+    : code_(code),
+      blocks_(blocks),
+      liveness_(liveness),
+      function_(function),
+      resumes_(resumes),
+      at_([&function] {
+        std::map<std::uint32_t, AtBlock> at;
+        for (const std::uint32_t address : function.blocks) at[address] = {};
+        return at;
+      }()),
+      accesses_(access_flow()) {
   const auto repeat = [&](auto update) {
     for (bool changed = true; changed;) {
       changed = false;
@@ -24,10 +33,25 @@ std::vector<std::uint32_t> FunctionFlow::successors(const Block& block) const {
   const auto add = [&](std::uint32_t address) {
     if (inside(address)) found.push_back(address);
   };
-  if (block.ending == Ending::next || block.ending == Ending::branch) add(block.end);
+  const bool goes_on =
+      block.ending == Ending::next || block.ending == Ending::branch || block.ending == Ending::hint;
+  if (goes_on) add(block.end);
   const bool jumps = block.ending == Ending::jump && code_.at(block.last)->instruction.rd == 0;
   if (jumps || block.ending == Ending::branch) add(block.target);
   return found;
+}
+
+AccessFlow FunctionFlow::access_flow() const {
+  AccessFlow::Successors all;
+  std::vector<std::uint32_t> entered;
+  for (const auto& [address, sets] : at_) {
+    const Block& block = blocks_.all().at(address);
+    all[address] = successors(block);
+    if (is_entry(block)) entered.push_back(address);
+    const bool calls = block.ending == Ending::jump && code_.at(block.last)->instruction.rd != 0;
+    if (calls && inside(block.end)) entered.push_back(block.end);
+  }
+  return {code_, blocks_, all, entered};
 }
 
 std::vector<RegisterSet> FunctionFlow::saved(const Block& block) const {
@@ -65,7 +89,7 @@ bool FunctionFlow::update_needed(const Block& block) {
   const std::vector<RegisterSet> saves = saved(block);
   std::string none;
   BlockWriter plan(code_, false, none);
-  plan.begin(addresses, 0);
+  plan.begin(0, checks(block));
   RegisterSet needed = saves.back();  // leaves, for whatever reason: out of time, say
   for (const std::uint32_t next : successors(block)) needed |= at_[next].needed;
   for (std::size_t n = addresses.size(); n-- > 0;) {
@@ -83,7 +107,7 @@ bool FunctionFlow::update_unsettled(const Block& block) {
   const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
   std::string text;
   BlockWriter writer(code_, false, text);
-  writer.begin(addresses, at_[block.begin].unsettled);
+  writer.begin(at_[block.begin].unsettled, {});
   for (const std::uint32_t pc : addresses) writer.write(code_.at(pc)->instruction, pc, {0, 0}, 0);
   bool changed = false;
   for (const std::uint32_t next : successors(block)) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "emulator/engines/translated/access_flow.hpp"
 #include "emulator/engines/translated/block_writer.hpp"
 #include "emulator/engines/translated/generator.hpp"
 #include "emulator/engines/translated/liveness.hpp"
@@ -15,7 +16,15 @@ namespace torolux::translated {
 
 class FunctionFlow {
  public:
-  FunctionFlow(const CodeMap& code, const Blocks& blocks, const Liveness& liveness, const GuestFunction& function);
+  /// resumes: as it can be entered in the middle, not only where it begins (generate).
+  FunctionFlow(const CodeMap& code, const Blocks& blocks, const Liveness& liveness, const GuestFunction& function,
+               bool resumes);
+
+  /// Whether the block is reached from outside the function.
+  bool is_entry(const Block& block) const {
+    return resumes_ ? block.entry : block.begin == function_.begin || block.taken;
+  }
+  AccessChecks checks(const Block& block) const { return accesses_.checks(block); }
 
   /// Written since they were loaded, as the block begins: to be saved on the way out if still read.
   RegisterSet dirty(std::uint32_t block) const { return at_.at(block).dirty; }
@@ -34,6 +43,7 @@ class FunctionFlow {
   };
   /// Blocks of this function that control reaches from this one with its variables kept.
   std::vector<std::uint32_t> successors(const Block& block) const;
+  AccessFlow access_flow() const;
   bool update_dirty(const Block& block);
   bool update_needed(const Block& block);
   bool update_unsettled(const Block& block);
@@ -41,7 +51,10 @@ class FunctionFlow {
   const CodeMap& code_;
   const Blocks& blocks_;
   const Liveness& liveness_;
+  const GuestFunction& function_;
+  bool resumes_;
   std::map<std::uint32_t, AtBlock> at_;
+  AccessFlow accesses_;
 };
 
 }  // namespace torolux::translated

@@ -38,9 +38,6 @@ class FunctionWriter {
   std::string text(const std::string& name);
 
  private:
-  bool is_entry(const Block& block) const {
-    return resumes_ ? block.entry : block.begin == function_.begin || block.taken;
-  }
   void write_block(const Block& block);
   void write_ending(const Block& block, RegisterSet save);
   void write_call(const Block& block, RegisterSet save);
@@ -64,17 +61,18 @@ std::string FunctionWriter::leave(RegisterSet save, Exit why, std::uint32_t at) 
                        "left_for(Exit(" + std::to_string(static_cast<unsigned>(why)) + "), " + hexadecimal(at) + ")");
 }
 
-/// A jump backwards also looks at the time.
+/// A jump backwards also looks at the time, and so does code that goes on without one for very long.
 std::string FunctionWriter::go_to(const Block& block, std::uint32_t address, RegisterSet save) const {
   std::string there = "goto " + flow_label(address) + ";";
   if (!flow_.inside(address)) {
     const auto callee = numbers_.find(address);
     if (callee == numbers_.end()) return leave(save, Exit::jump, address);
-    there = "{ if (TOROLUX_RARELY(depth >= kDeepest)) " + leave(save, Exit::jump, address) + " " + writer_.save(save) +
+    there = "{ if (TOROLUX_RARELY(depth >= kDeepest || count >= slice)) " + leave(save, Exit::jump, address) + " " + writer_.save(save) +
             "return " + called_name(callee->first) + "(pe, count, " + hexadecimal(address) + ", depth + 1); }";
   }
-  if (address > block.begin) return there;
-  return "{ if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) " + leave(save, Exit::slice, address) +
+  constexpr unsigned kLong = 20;  // 2^20 bytes
+  if (address > block.begin && address >> kLong == block.begin >> kLong) return there;
+  return "{ if (TOROLUX_RARELY(count >= slice)) " + leave(save, Exit::slice, address) +
          " " + there + " }";
 }
 
@@ -85,7 +83,7 @@ void FunctionWriter::write_call(const Block& block, RegisterSet save) {
     writer_.line(leave(save, Exit::jump, block.target));
     return;
   }
-  writer_.line("if (TOROLUX_RARELY(depth >= kDeepest)) " + leave(save, Exit::jump, block.target));
+  writer_.line("if (TOROLUX_RARELY(depth >= kDeepest || count >= slice)) " + leave(save, Exit::jump, block.target));
   writer_.line(writer_.save(save));
   writer_.line("const Left left = " + called_name(callee->first) + "(pe, count, " + hexadecimal(block.target) +
                ", depth + 1);");
@@ -137,8 +135,9 @@ void FunctionWriter::write_ending(const Block& block, RegisterSet save) {
       write_indirect(block, last(), save);
       break;
     case Ending::hint:
-      writer_.line("pe->hint_immediate = " + std::to_string(static_cast<std::int32_t>(last().immediate)) + ";");
-      writer_.line(leave(save, Exit::hint, block.end));
+      writer_.line("if (TOROLUX_RARELY(!ask(pe, count, " + std::to_string(static_cast<std::int32_t>(last().immediate)) +
+                   "))) " + leave(save, Exit::hint, block.end));
+      writer_.line(go_to(block, block.end, save));
       break;
     case Ending::interpreted:
       writer_.line(leave(save, Exit::jump, block.end));
@@ -150,14 +149,14 @@ void FunctionWriter::write_ending(const Block& block, RegisterSet save) {
 }
 
 void FunctionWriter::write_block(const Block& block) {
-  if (is_entry(block)) {
+  if (flow_.is_entry(block)) {
     body_ += entry_label(block.begin) + ":\n";
     writer_.line(BlockWriter::load(flow_.needed(block.begin)));
   }
   body_ += flow_label(block.begin) + ": {\n";
   const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
   const std::vector<RegisterSet> saves = flow_.saved(block);
-  writer_.begin(addresses, flow_.unsettled(block.begin));
+  writer_.begin(flow_.unsettled(block.begin), flow_.checks(block));
   if (block.cost.cycles != 0) writer_.line("count += " + std::to_string(pack(block.cost)) + "ull;");
   const bool has_jump = block.ending != Ending::next && block.ending != Ending::interpreted;
   Cost behind = block.cost;
@@ -174,11 +173,11 @@ void FunctionWriter::write_block(const Block& block) {
 
 /// Everything is saved; `at` says where to go on.
 std::string FunctionWriter::dispatch() const {
-  std::string text = "dispatch:\n  if (TOROLUX_RARELY(static_cast<std::uint32_t>(count) >= slice)) ";
+  std::string text = "dispatch:\n  if (TOROLUX_RARELY(count >= slice)) ";
   text += "return {count, left_for(Exit::slice, static_cast<std::uint32_t>(at))};\n";
   text += "  switch (static_cast<std::uint32_t>(at)) {\n";
   for (const std::uint32_t address : function_.blocks) {
-    if (!is_entry(blocks_.all().at(address))) continue;
+    if (!flow_.is_entry(blocks_.all().at(address))) continue;
     text += "    case " + hexadecimal(address) + ": goto " + entry_label(address) + ";\n";
   }
   return text + "    default: return {count, left_for(Exit::jump, static_cast<std::uint32_t>(at))};\n  }\n";
@@ -190,9 +189,8 @@ std::string FunctionWriter::text(const std::string& name) {
                      "(TranslatedPe* pe, std::uint64_t count, std::uint64_t at, std::uint32_t depth) {\n  ";
   for (unsigned n = 1; n < 32; ++n) text += "std::uint32_t x" + std::to_string(n) + "; ";
   for (unsigned n = 0; n < 32; ++n) text += "float f" + std::to_string(n) + "; ";
-  text += "\n  std::byte* const memory = pe->memory;\n";
-  text += "  std::byte* const stores = memory + " + hexadecimal(code_.store_base() - kMemoryBase) + ";\n";
-  text += "  const std::uint32_t load_limit = pe->load_limit, store_limit = pe->store_limit, slice = pe->slice;\n";
+  text += "\n  const std::uintptr_t memory = reinterpret_cast<std::uintptr_t>(pe->memory) - kMemoryBase;\n";
+  text += "  const std::uint32_t load_limit = pe->load_limit, store_limit = pe->store_limit;\n  const std::uint64_t slice = pe->slice;\n";
   if (!resumes_) text += "  goto " + entry_label(function_.begin) + ";\n";
   return text + dispatch() + body_ + "}\n";
 }
@@ -241,9 +239,11 @@ std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
     unit = declarations;
   };
   for (std::size_t n = 0; n < functions.size(); ++n) {
-    const FunctionFlow flow(code, blocks, liveness, functions[n]);
-    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], false).text(called_name(functions[n].begin));
-    unit += FunctionWriter(code, blocks, flow, numbers, functions[n], true).text(resumed_name(functions[n].begin));
+    for (const bool resumes : {false, true}) {
+      const FunctionFlow flow(code, blocks, liveness, functions[n], resumes);
+      const std::string name = (resumes ? resumed_name : called_name)(functions[n].begin);
+      unit += FunctionWriter(code, blocks, flow, numbers, functions[n], resumes).text(name);
+    }
     if (unit.size() > kMostText) finish();
   }
   unit += tables(blocks.observed(), called_table, resumed_table);

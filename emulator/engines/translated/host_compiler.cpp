@@ -119,7 +119,11 @@ std::string machine_option() {
   // What x86-64-v3 has; clang does not know that name here. The rest of it came with these.
   const bool v3 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
                   __builtin_cpu_supports("bmi2") != 0 && __builtin_cpu_supports("fma") != 0;
-  return v3 ? "-march=x86-64-v3" : "-march=x86-64";
+  // What x86-64-v4 has: above all 32 registers for floating point, as many as RISC-V.
+  const bool v4 = v3 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
+                  __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+                  __builtin_cpu_supports("avx512vl") != 0;
+  return v4 ? "-march=x86-64-v4" : v3 ? "-march=x86-64-v3" : "-march=x86-64";
 #else
   return "-O2";
 #endif

@@ -259,6 +259,14 @@ bool is_branch(Op op) {
   return op >= Op::beq && op <= Op::bgeu;
 }
 
+bool is_access(Op op) {
+  return op >= Op::lb && op <= Op::fsw;
+}
+
+bool is_store(Op op) {
+  return (op >= Op::sb && op <= Op::sw) || op == Op::fsw;
+}
+
 bool is_csr(Op op) {
   return op >= Op::csrrw && op <= Op::csrrci;
 }

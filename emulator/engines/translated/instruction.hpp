@@ -132,6 +132,8 @@ bool is_float(Op op);   ///< needs mstatus.FS on (loads and stores of f register
 bool writes_f(Op op);   ///< rd is an f register
 bool writes_x(Op op);   ///< rd is an x register
 bool is_branch(Op op);  ///< conditional
+bool is_access(Op op);  ///< load or store, not atomic
+bool is_store(Op op);   ///< likewise
 bool is_csr(Op op);     ///< csr*
 
 }  // namespace torolux::translated

@@ -34,7 +34,8 @@ Processor::Processor(const TranslatedImage& code, const EngineSetup& setup, unsi
            NiuProcessorSide::Waiting::returns) {
   code_.start(pe_, local_memory(setup, number), mapped_bytes_for(setup.pes[number].local_memory_bytes));
   pe_.marker = &Processor::marker;
-  pe_.marker_context = this;
+  pe_.hint = &Processor::hint;
+  pe_.context = this;
 }
 
 void Processor::marker(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
@@ -42,19 +43,28 @@ void Processor::marker(void* processor, std::int32_t immediate, std::uint64_t cl
   static_cast<Processor*>(processor)->niu_.hint(immediate, clock, instructions);
 }
 
-Processor::Answer Processor::take_hint() {
-  const NiuProcessorSide::Result result = niu_.hint(pe_.hint_immediate, pe_.cycles, pe_.instructions);
+/// From translated code. True: it has happened, and the PE goes on at once.
+bool Processor::hint(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
+  auto& self = *static_cast<Processor*>(processor);
+  self.at_hint_ = self.ask(immediate, clock, instructions);
+  self.asked_ = self.at_hint_ != AtHint::none || (self.goal_ != nullptr && self.goal_->reached());
+  return !self.asked_;
+}
+
+/// What the HINT waited is added to the PE's clock. It is no work, so the slice ends later.
+Processor::AtHint Processor::ask(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
+  const NiuProcessorSide::Result result = niu_.hint(immediate, clock, instructions);
   switch (result.outcome) {
     case NiuProcessorSide::Outcome::retry:
-      return Answer::waits;
+      return AtHint::waits;
     case NiuProcessorSide::Outcome::stop:
-      return Answer::finished;
+      return AtHint::finished;
     case NiuProcessorSide::Outcome::done:
       break;
   }
-  at_hint_ = false;
-  pe_.cycles = result.clock;
-  return Answer::done;
+  pe_.cycles += result.clock - clock;
+  pe_.cycle_limit += result.clock - clock;
+  return AtHint::none;
 }
 
 /// Whether it has run for longer without a HINT than the machine allows.
@@ -63,21 +73,18 @@ bool Processor::loops() const {
 }
 
 Processor::Stop Processor::run(const Goal* goal) {
-  std::uint64_t slice_end = pe_.cycles + kSliceCycles;
+  goal_ = goal;
+  pe_.cycle_limit = pe_.cycles + kSliceCycles;
+  if (at_hint_ == AtHint::waits) at_hint_ = AtHint::reached;
   for (;;) {
-    if (at_hint_) {
-      const std::uint64_t begin = pe_.cycles;
-      const Answer answer = take_hint();
-      if (answer == Answer::waits) return Stop::waits;
-      if (answer == Answer::finished) return Stop::finished;
-      slice_end += pe_.cycles - begin;  // waiting is no work
-      if (goal != nullptr && goal->reached()) return Stop::enough;
-    }
-    if (pe_.cycles >= slice_end) return Stop::slice;
-    pe_.cycle_limit = slice_end;
+    if (at_hint_ == AtHint::reached) at_hint_ = ask(pe_.hint_immediate, pe_.cycles, pe_.instructions);
+    if (at_hint_ == AtHint::waits) return Stop::waits;
+    if (at_hint_ == AtHint::finished) return Stop::finished;
+    if (goal != nullptr && goal->reached()) return Stop::enough;
+    asked_ = false;
     switch (code_.run(pe_)) {
       case TranslatedImage::Stop::hint:
-        at_hint_ = true;
+        if (!asked_) at_hint_ = AtHint::reached;
         break;
       case TranslatedImage::Stop::cycle_limit:
         return loops() ? Stop::failed : Stop::slice;

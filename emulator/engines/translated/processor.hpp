@@ -42,17 +42,26 @@ class Processor {
   std::string failure() const;
 
  private:
-  enum class Answer : std::uint8_t { done, waits, finished };
-  Answer take_hint();
+  /// Where a HINT stands at which the code has stopped.
+  enum class AtHint : std::uint8_t {
+    none,      ///< there is none: it has happened, and the PE may go on
+    reached,   ///< nobody has asked the NIU yet
+    waits,     ///< the NIU has no answer yet
+    finished,  ///< the PE executes nothing more
+  };
+  AtHint ask(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   bool loops() const;
   static void marker(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
+  static bool hint(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
 
   const TranslatedImage& code_;
   const EngineSetup& setup_;
   unsigned number_;
   NiuChannel& channel_;
   NiuProcessorSide niu_;
-  bool at_hint_ = false;  // that has not happened yet
+  AtHint at_hint_ = AtHint::none;
+  bool asked_ = false;  // by the code itself, at the HINT at which it has stopped
+  const Goal* goal_ = nullptr;
   bool stuck_ = false;
   TranslatedPe pe_{};
 };

@@ -58,7 +58,7 @@ bool call_marker(TranslatedPe& pe) {
   if (pe.marker == nullptr || !protocol::is_phase_marker(pe.hint_immediate)) {
     return false;
   }
-  pe.marker(pe.marker_context, pe.hint_immediate, pe.cycles, pe.instructions);
+  pe.marker(pe.context, pe.hint_immediate, pe.cycles, pe.instructions);
   return true;
 }
 
@@ -134,7 +134,8 @@ void TranslatedImage::start(TranslatedPe& pe, std::span<std::byte> local_memory,
   pe.memory_bytes = static_cast<std::uint32_t>(local_memory.size());
   pe.cycle_limit = ~std::uint64_t{0};
   pe.marker = nullptr;
-  pe.marker_context = nullptr;
+  pe.hint = nullptr;
+  pe.context = nullptr;
   pe.stray = false;
   set_boot_registers(pe, mapped_bytes);
   refresh(pe);
@@ -144,12 +145,15 @@ void TranslatedImage::start(TranslatedPe& pe, std::span<std::byte> local_memory,
 void TranslatedImage::refresh(TranslatedPe& pe) const {
   constexpr std::uint32_t kWidest = 4;
   const std::uint32_t end = kMemoryBase + pe.memory_bytes;
-  const auto limit = [&](std::uint32_t begin, Access access) {
-    const std::uint32_t bytes = begin < end ? freely_accessible(pe, begin, end, access) : 0;
-    return bytes >= kWidest ? bytes - (kWidest - 1) : 0;
+  const auto accessible = [&](std::uint32_t begin, Access access) {
+    return begin < end ? freely_accessible(pe, begin, end, access) : 0;
   };
-  pe.load_limit = limit(kMemoryBase, Access::load);
-  pe.store_limit = limit(code_.store_base(), Access::store);
+  const auto limit = [](std::uint32_t bytes) { return bytes >= kWidest ? bytes - (kWidest - 1) : 0; };
+  const std::uint32_t loads = accessible(kMemoryBase, Access::load);
+  const std::uint32_t before_stores = code_.store_base() - kMemoryBase;
+  pe.load_limit = limit(loads);
+  // Where stores may go, loads may: translated code checks for stores alone.
+  pe.store_limit = limit(std::min(accessible(code_.store_base(), Access::store), loads - std::min(loads, before_stores)));
   pe.may_fetch = freely_accessible(pe, code_.begin(), code_.end(), Access::fetch) == code_.end() - code_.begin();
 }
 
@@ -206,11 +210,11 @@ void TranslatedImage::give_back_rest(TranslatedPe& pe) const {
 }
 
 Exit TranslatedImage::run_translated(TranslatedPe& pe, const Way& way) const {
-  pe.slice = static_cast<std::uint32_t>(std::min<std::uint64_t>(pe.cycle_limit - pe.cycles, kMostSlice));
+  pe.slice = pack({static_cast<std::uint32_t>(std::min<std::uint64_t>(pe.cycle_limit - pe.cycles, kMostSlice)), 0});
   const HostFunction function = (way.begins_function ? called_ : resumed_)[way.function];
   const Left left = enter_(&pe, function);
-  pe.cycles += static_cast<std::uint32_t>(left.count);
-  pe.instructions += left.count >> 32U;
+  pe.cycles += cycles_in(left.count);
+  pe.instructions += instructions_in(left.count);
   pe.pc = static_cast<std::uint32_t>(left.at);
   return static_cast<Exit>(left.at >> 32U);
 }

@@ -34,12 +34,13 @@ class TranslatedImage {
   /// Whether the cache had it.
   bool from_cache() const { return from_cache_; }
 
-  /// Puts a PE to the beginning of `_start`, without marker call and cycle limit. local_memory: the image is loaded
+  /// Puts a PE to the beginning of `_start`, without calls at HINTs and cycle limit. local_memory: the image is loaded
   /// and the NIU window filled in; it outlives the PE. mapped_bytes: as mapped_bytes_for, what QEMU would be given.
   void start(TranslatedPe& pe, std::span<std::byte> local_memory, std::size_t mapped_bytes) const;
 
   enum class Stop : std::uint8_t {
-    hint,         ///< executed and counted, pc behind it; hint_immediate says which. Set pe.cycles if it waits
+    hint,         ///< executed and counted, pc behind it; hint_immediate says which. pe.hint has been asked, if the
+                  ///< code is translated. Set pe.cycles if it waits
     cycle_limit,  ///< pe.cycles >= pe.cycle_limit
     stuck,        ///< it will never execute anything again: wfi, or a trap while mtvec points to nothing
                   ///< (mcause, mepc and mtval tell of the last trap), or pe.stray

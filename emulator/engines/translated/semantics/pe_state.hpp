@@ -14,6 +14,9 @@ inline constexpr std::uint32_t kMemoryBase = 0x8000'0000U;
 
 /// Called at every phase marker: immediate of the HINT, the PE's clock [cycles], its instructions so far.
 using MarkerCall = void (*)(void* context, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
+/// Called at every other HINT that translated code meets; arguments as for a marker. True: it has happened, and what it
+/// waited has been added to the PE's `cycles` (and to its limit): the code goes on. False: `run` stops, pc behind it.
+using HintCall = bool (*)(void* context, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
 
 struct TranslatedPe {
   std::uint32_t x[32];  ///< x[0] stays 0
@@ -35,10 +38,11 @@ struct TranslatedPe {
   /// indirect jump to what is no function. Registers may lack values there, so only the engine qemu can go on.
   bool stray;
   bool may_fetch;       ///< all code may be executed
-  std::uint32_t slice;  ///< translated code returns at a jump once it has counted so many cycles
+  std::uint64_t slice;  ///< packed: translated code returns at a jump back or a call once it has counted so much
 
   MarkerCall marker;  ///< none: `run` stops at phase markers as at any HINT
-  void* marker_context;
+  HintCall hint;      ///< none: `run` stops at every HINT
+  void* context;      ///< of both
 
   // Control and status registers.
   std::uint32_t fflags, frm;
@@ -58,23 +62,32 @@ inline constexpr std::uint32_t kNoReservation = 0xFFFF'FFFFU;
 enum class Exit : std::uint32_t {
   ret,       ///< to where a function returns. 0: who called it compares with the address it expects, alone
   jump,      ///< to a place outside the function
-  hint,      ///< a HINT, already counted; the address is behind it
+  hint,      ///< a HINT, already counted, at which the PE is to stop; the address is behind it
   look,      ///< the instruction there is for the interpreter; its block's cost from there on has been counted already
   slice,     ///< pe.slice cycles have been counted
   indirect,  ///< to a place outside the function that must be a known one
   stray,     ///< out of the function where nobody could foresee it
 };
 
-/// Cycles and instructions of a stretch of code, counted in one 64-bit number while translated code runs.
+/// Cycles and instructions of a stretch of code.
 struct Cost {
   std::uint32_t cycles;
   std::uint32_t instructions;
 };
+/// Both in the one number that translated code counts in, which one short addition raises: instructions below, cycles
+/// above. No instruction takes less than a cycle.
+inline constexpr unsigned kInstructionBits = 23;
 constexpr std::uint64_t pack(Cost cost) {
-  return (static_cast<std::uint64_t>(cost.instructions) << 32U) | cost.cycles;
+  return (static_cast<std::uint64_t>(cost.cycles) << kInstructionBits) | cost.instructions;
 }
-/// The largest slice: what one block may add to it still fits.
-inline constexpr std::uint32_t kMostSlice = 0x4000'0000U;
+constexpr std::uint64_t cycles_in(std::uint64_t count) {
+  return count >> kInstructionBits;
+}
+constexpr std::uint64_t instructions_in(std::uint64_t count) {
+  return count & ((std::uint64_t{1} << kInstructionBits) - 1U);
+}
+/// The most cycles of a slice: its instructions, and what runs until the time is looked at, fit.
+inline constexpr std::uint32_t kMostSlice = 1U << 20U;
 
 /// How translated code returns.
 struct Left {

@@ -40,15 +40,16 @@ inline float canonical(float value) {
   return value;
 }
 
+/// memory: where address 0 would be. base + offset is in local memory: sums do not wrap.
 template <class T>
-inline T load_at(const std::byte* memory, std::uint64_t offset) {
+inline T load_at(std::uintptr_t memory, std::uint32_t base, std::int64_t offset) {
   T value;
-  std::memcpy(&value, memory + offset, sizeof value);
+  std::memcpy(&value, reinterpret_cast<const void*>(memory + base + offset), sizeof value);
   return value;
 }
 template <class T>
-inline void store_at(std::byte* memory, std::uint64_t offset, T value) {
-  std::memcpy(memory + offset, &value, sizeof value);
+inline void store_at(std::uintptr_t memory, std::uint32_t base, std::int64_t offset, T value) {
+  std::memcpy(reinterpret_cast<void*>(memory + base + offset), &value, sizeof value);
 }
 
 inline float square_root(float a) {
@@ -101,9 +102,16 @@ inline std::uint32_t to_unsigned(float a) {
 /// A phase marker; count: what the code has counted up to it. False: the PE is to stop at it.
 inline bool mark(TranslatedPe* pe, std::uint64_t count, std::int32_t immediate) {
   if (pe->marker == nullptr) return false;
-  pe->marker(pe->marker_context, immediate, pe->cycles + static_cast<std::uint32_t>(count),
-             pe->instructions + (count >> 32U));
+  pe->marker(pe->context, immediate, pe->cycles + cycles_in(count),
+             pe->instructions + instructions_in(count));
   return true;
+}
+
+/// Any other HINT, likewise. False: the PE is to stop behind it.
+inline bool ask(TranslatedPe* pe, std::uint64_t count, std::int32_t immediate) {
+  pe->hint_immediate = immediate;
+  return pe->hint != nullptr && pe->hint(pe->context, immediate, pe->cycles + cycles_in(count),
+                                         pe->instructions + instructions_in(count));
 }
 
 }  // namespace torolux::translated
