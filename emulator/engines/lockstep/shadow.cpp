@@ -32,7 +32,7 @@ Shadow::Shadow(const translated::TranslatedImage& code, const SharedMemory& orig
   copy(memories_.touched(), original.bytes(), memory_.bytes());
   code_.start(pe_, memory_.bytes(), mapped_bytes_for(local_memory_bytes));
   pe_.marker = &Shadow::marker;
-  pe_.marker_context = this;
+  pe_.context = this;
   keep();
 }
 
