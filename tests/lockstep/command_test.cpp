@@ -106,7 +106,7 @@ Image altered_pe(const std::string& part_of_name) {
 }
 
 TEST(LockstepCommand, OneWrongInstructionOfARenderIsFound) {
-  const Image altered = altered_pe("cross_triangle");
+  const Image altered = altered_pe("traverse");
   register_engine("lockstep-altered", [&altered](const EngineSetup& setup) {
     lockstep::Options options;
     options.other_image = &altered;
@@ -125,7 +125,7 @@ TEST(LockstepCommand, OneWrongInstructionOfARenderIsFound) {
       << report;
   EXPECT_NE(row[1], row[2]) << "QEMU and translated";
   EXPECT_EQ(row[1], row[3]) << "QEMU and interpreted";
-  EXPECT_THAT(report, ContainsRegex("From there translated:  to pc .*cross_triangle"));
+  EXPECT_THAT(report, ContainsRegex("From there translated:  to pc .*traverse"));
   EXPECT_THAT(report, ContainsRegex("since HINT [0-9]+ .clock [0-9]+.:(\n    clock [0-9]+ .*){30}$"));
 }
 
