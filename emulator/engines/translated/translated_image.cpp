@@ -169,9 +169,11 @@ Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
       ((is_csr(placed->instruction.op) && placed->instruction.immediate > kFcsr) || placed->instruction.op == Op::mret);
   const Way* jump = !interpret_ && placed != nullptr && placed->instruction.op == Op::jalr ? way_at(pe.pc) : nullptr;
   const std::uint32_t from = pe.pc;
+  const std::uint64_t instructions = pe.instructions;
   const Interpreter::Step step = interpreter_.step(pe);
   if (may_change_rights) refresh(pe);
-  if (jump == nullptr || is_foreseen(jump->reach, from, pe.pc)) return step;
+  const bool refused = pe.instructions == instructions;  // it could not be fetched: a trap, and no jump
+  if (jump == nullptr || refused || is_foreseen(jump->reach, from, pe.pc)) return step;
   pe.stray = true;
   return Interpreter::Step::stuck;
 }
