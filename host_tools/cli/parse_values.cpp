@@ -134,7 +134,7 @@ std::vector<unsigned> parse_pe_list(const std::string& text) {
     for (unsigned pe = first; pe <= last; ++pe) pes.push_back(pe);
   }
   std::ranges::sort(pes);
-  pes.erase(std::ranges::unique(pes).begin(), pes.end());
+  pes.erase(std::unique(pes.begin(), pes.end()), pes.end());
   return pes;
 }
 
