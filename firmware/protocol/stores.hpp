@@ -163,7 +163,7 @@ inline constexpr std::uint32_t kOwnSlots = own_slots(Stage::radiosity);
 inline constexpr std::uint32_t kMostBounces = 255;
 /// Hemi-cube pixels across the top; shot points are k * k.
 inline constexpr std::uint32_t kMostHemicubeSize = 256;
-inline constexpr std::uint32_t kMostShotPoints = 16;
+inline constexpr std::uint32_t kMostShotPoints = 64;
 
 /// What the host tells a PE before a stage. The PE checks it: stores inside its free memory, aligned to 8, apart from
 /// each other.

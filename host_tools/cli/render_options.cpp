@@ -153,6 +153,9 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
             })
       ->default_str(std::to_string(built_in.shot_points))
       ->group(group);
+  add_count(command, "--emission-records", "Records with which all emitters together begin, about, 0 to 1e9",
+            options.emission_records, 0, 1'000'000'000, built_in.emission_records)
+      ->group(group);
   add_value(command, "--unshot", "FRACTION",
             "The radiosity stage ends when less than this fraction of the emitted "
             "flux is unshot",

@@ -43,7 +43,7 @@ struct RenderOptions {
 
   // The light.
   std::optional<LengthOption> patches, elements;
-  std::optional<std::uint32_t> hemicube, shot_points, max_shots, bounces;
+  std::optional<std::uint32_t> hemicube, shot_points, emission_records, max_shots, bounces;
   std::optional<double> unshot;
   std::optional<std::uint64_t> seed;
   bool two_sided_lights = false;

@@ -48,6 +48,7 @@ Quality settle_quality(const RenderOptions& options, const SceneDefaults& defaul
   quality.element_length = options.elements ? options.elements->length : defaults.element_length;
   pick(quality.hemicube, options.hemicube, defaults.hemicube);
   pick(quality.shot_points, options.shot_points, defaults.shot_points);
+  pick(quality.emission_records, options.emission_records, defaults.emission_records);
   pick(quality.unshot, options.unshot, defaults.unshot);
   pick(quality.max_shots, options.max_shots, defaults.max_shots);
   pick(quality.bounces, options.bounces, defaults.bounces);

@@ -18,15 +18,18 @@ namespace torolux {
 
 /// Everything that determines the picture, and nothing that does not.
 struct Quality {
-  std::uint32_t width = 256, height = 256;
-  std::uint32_t samples = 4;           ///< per pixel
+  std::uint32_t width = 512, height = 512;
+  std::uint32_t samples = 8;           ///< per pixel
   std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
   std::optional<double> element_length;
-  std::uint32_t hemicube = 16;    ///< pixels across the top, even, 4..256
+  std::uint32_t hemicube = 20;    ///< pixels across the top, even, 4..256
   std::uint32_t shot_points = 2;  ///< k: k * k points per patch
-  double unshot = 0.01;           ///< fraction of the emitted flux at which the radiosity stage ends
-  std::uint32_t max_shots = 0;    ///< patches shot in all; 0: no limit
-  std::uint32_t bounces = 32;     ///< path segments
+  /// With which all emitters together begin, about: their light casts the sharpest shadows, so that a patch that emits
+  /// gets more points than one that only reflects.
+  std::uint32_t emission_records = 4'000'000;
+  double unshot = 0.01;         ///< fraction of the emitted flux at which the radiosity stage ends
+  std::uint32_t max_shots = 0;  ///< patches shot in all; 0: no limit
+  std::uint32_t bounces = 32;   ///< path segments
   bool two_sided_lights = false;
   std::uint64_t seed = 1;
 };

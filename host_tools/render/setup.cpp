@@ -12,9 +12,6 @@
 namespace torolux {
 namespace {
 
-/// Records with which all emitters together begin, at hemi-cube 16 and 2 x 2 points: their light casts the sharpest
-/// shadows, so they get more points than a patch that only reflects.
-constexpr double kEmissionRecords = 500'000;
 /// Quanta of a pixel for one unit of radiance (the scene's greatest emitted one). With reflectances below 0.99 a
 /// surface shows at most 100 units, 2^47 quanta, far from the 2^63 at which the frame buffer's integers end.
 constexpr float kPixelScale = 0x1p40F;
@@ -50,10 +47,9 @@ std::uint32_t emission_points(const Scene& scene, const Mesh& mesh, const Qualit
     if (!emits(scene.materials[triangle.material])) continue;
     emitting += protocol::triangles_of_level(triangle.patch_level) * (quality.two_sided_lights ? 2.0 : 1.0);
   }
-  const double pixels_of_16 = protocol::hemicube_pixels(16);
-  const double wanted = std::sqrt(kEmissionRecords / (pixels_of_16 * emitting)) * quality.shot_points / 2;
-  const double most = std::min(16.0 * quality.shot_points, static_cast<double>(protocol::kMostShotPoints));
-  return static_cast<std::uint32_t>(std::clamp(std::floor(wanted), static_cast<double>(quality.shot_points), most));
+  const double wanted = std::sqrt(quality.emission_records / (protocol::hemicube_pixels(quality.hemicube) * emitting));
+  return static_cast<std::uint32_t>(std::clamp(std::floor(wanted), static_cast<double>(quality.shot_points),
+                                               static_cast<double>(protocol::kMostShotPoints)));
 }
 
 }  // namespace

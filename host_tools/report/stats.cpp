@@ -56,6 +56,7 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"elements", value_or_auto(quality.element_length)},
           {"hemicube", quality.hemicube},
           {"shot_points", quality.shot_points},
+          {"emission_records", quality.emission_records},
           {"unshot", quality.unshot},
           {"max_shots", quality.max_shots},
           {"bounces", quality.bounces},

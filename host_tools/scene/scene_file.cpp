@@ -112,6 +112,7 @@ SceneDefaults read_defaults(TomlTable table) {
   d.hemicube = narrow(table.integer("hemicube", 4, 256));
   if (d.hemicube && *d.hemicube % 2 != 0) refuse(table.place("hemicube"), "[defaults] 'hemicube' must be even");
   d.shot_points = narrow(table.integer("shot_points", 1, 64));
+  d.emission_records = narrow(table.integer("emission_records", 0, 1'000'000'000));
   d.max_shots = narrow(table.integer("max_shots", 0, 0xFFFF'FFFFU));
   d.bounces = narrow(table.integer("bounces", 1, 255));
   d.exposure_ev = table.number("exposure", -50, 50);

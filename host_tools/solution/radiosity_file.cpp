@@ -26,7 +26,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kVersion = 2;
 
 struct SavedSums {
   protocol::Tally tally;
@@ -103,6 +103,7 @@ void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected,
   differ("--seed", saved.seed, expected.seed);
   differ("--hemicube", saved.hemicube, expected.hemicube);
   differ("--shot-points", saved.shot_points, expected.shot_points);
+  differ("--emission-records", saved.emission_records, expected.emission_records);
   differ("--max-shots", saved.max_shots, expected.max_shots);
   differ("--bounces", saved.bounces, expected.bounces);
   differ("--two-sided-lights", saved.two_sided_lights, expected.two_sided_lights);
@@ -162,6 +163,7 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   origin.seed = quality.seed;
   origin.hemicube = quality.hemicube;
   origin.shot_points = quality.shot_points;
+  origin.emission_records = quality.emission_records;
   origin.max_shots = quality.max_shots;
   origin.bounces = quality.bounces;
   origin.two_sided_lights = quality.two_sided_lights ? 1 : 0;

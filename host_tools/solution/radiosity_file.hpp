@@ -24,7 +24,7 @@ struct RadiosityOrigin {
   std::uint32_t hemicube = 0, shot_points = 0, max_shots = 0, bounces = 0;
   std::uint32_t two_sided_lights = 0;
   std::uint32_t patch_sides = 0, elements = 0;  ///< of the mesh
-  std::uint32_t unused = 0;
+  std::uint32_t emission_records = 0;
 };
 static_assert(sizeof(RadiosityOrigin) == 80);
 

@@ -43,39 +43,15 @@ TEST(Main, HelpAndVersionAreNoErrors) {
 
 TEST(Main, HelpOfRenderIsComplete) {
   const std::string help = torolux({"render", "--help"}).out;
-  for (const char* option : {"SCENE",
-                             "--output",
-                             "--size",
-                             "--samples",
-                             "--eye",
-                             "--look-at",
-                             "--up",
-                             "--fov",
-                             "--exposure",
-                             "--pes",
-                             "--pe-memory",
-                             "--subspaces",
-                             "--allocation",
-                             "--machine",
-                             "--engine",
-                             "--patches",
-                             "--elements",
-                             "--hemicube",
-                             "--shot-points",
-                             "--unshot",
-                             "--max-shots",
-                             "--bounces",
-                             "--two-sided-lights",
-                             "--save-radiosity",
-                             "--radiosity",
-                             "--stats",
-                             "--seed",
-                             "--threads",
-                             "--quiet",
-                             "--studio",
-                             "--enter-empty"})
+  for (const char* option : {"SCENE",       "--output",     "--size",       "--samples",          "--eye",
+                             "--look-at",   "--up",         "--fov",        "--exposure",         "--pes",
+                             "--pe-memory", "--subspaces",  "--allocation", "--machine",          "--engine",
+                             "--patches",   "--elements",   "--hemicube",   "--shot-points",      "--emission-records",
+                             "--unshot",    "--max-shots",  "--bounces",    "--two-sided-lights", "--save-radiosity",
+                             "--radiosity", "--stats",      "--seed",       "--threads",          "--quiet",
+                             "--studio",    "--enter-empty"})
     EXPECT_THAT(help, HasSubstr(option));
-  for (const char* text : {"[256x256]", "[4x4]", "[skewed]", "[16]", "[0.01]", "[32]", "degrees", "scene units"})
+  for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[20]", "[0.01]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
@@ -105,7 +81,7 @@ TEST(Main, UsageErrors) {
 TEST(Main, ValuesThatAreNotAllowedAreBadInputAndNameTheOption) {
   const std::vector<std::array<const char*, 2>> cases = {
       {"--pes", "0x4"},     {"--pes", "256x256"},    {"--size", "0x10"},     {"--samples", "0"},
-      {"--hemicube", "15"}, {"--hemicube", "258"},   {"--shot-points", "0"}, {"--shot-points", "17"},
+      {"--hemicube", "15"}, {"--hemicube", "258"},   {"--shot-points", "0"}, {"--shot-points", "65"},
       {"--unshot", "0"},    {"--unshot", "1.5"},     {"--bounces", "256"},   {"--fov", "180"},
       {"--fov", "0"},       {"--pe-memory", "128K"}, {"--patches", "0"},     {"--subspaces", "0x1x1"},
       {"--threads", "0"},   {"--exposure", "1000"}};

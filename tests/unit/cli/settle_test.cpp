@@ -23,6 +23,7 @@ Scene scene_with_defaults() {
   d.samples = 103;
   d.hemicube = 104;
   d.shot_points = 5;
+  d.emission_records = 108;
   d.max_shots = 106;
   d.bounces = 107;
   d.exposure_ev = 1.5;
@@ -66,6 +67,7 @@ TEST(Settle, SceneOutweighsBuiltIn) {
   EXPECT_EQ(q.samples, 103U);
   EXPECT_EQ(q.hemicube, 104U);
   EXPECT_EQ(q.shot_points, 5U);
+  EXPECT_EQ(q.emission_records, 108U);
   EXPECT_EQ(q.max_shots, 106U);
   EXPECT_EQ(q.bounces, 107U);
   EXPECT_EQ(q.patch_length, 2.5);
@@ -85,6 +87,7 @@ RenderOptions all_given() {
   options.samples = 13;
   options.hemicube = 14;
   options.shot_points = 15;
+  options.emission_records = 21;
   options.max_shots = 16;
   options.bounces = 17;
   options.patches = LengthOption{};  // auto, given
@@ -111,6 +114,7 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_EQ(q.samples, 13U);
   EXPECT_EQ(q.hemicube, 14U);
   EXPECT_EQ(q.shot_points, 15U);
+  EXPECT_EQ(q.emission_records, 21U);
   EXPECT_EQ(q.max_shots, 16U);
   EXPECT_EQ(q.bounces, 17U);
   EXPECT_EQ(q.patch_length, std::nullopt);
