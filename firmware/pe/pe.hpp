@@ -43,9 +43,11 @@ static_assert(sizeof(Pe) <= 8U * 1024U);
 /// Receives and handles until the host says stop. `pe` is as constructed.
 void run_pe(Pe& pe, Niu& niu);
 
+// What run_pe calls stays a function of its own: translated code runs whole functions best from their beginning, and
+// run_pe goes on in its middle after each wait.
 // ---- Messages (control.cpp) ----
 /// Handles the message that has just come. False: it was `stop`.
-bool handle_message(Pe& pe, Niu& niu);
+[[gnu::noinline]] bool handle_message(Pe& pe, Niu& niu);
 
 // ---- Layout (layout.cpp, verify.cpp): fail the run where something does not hold ----
 void check_layout(Niu& niu, const protocol::StageLayout& layout);
@@ -53,8 +55,8 @@ void verify_stores(Niu& niu, const Scene& scene);
 
 // ---- Records ----
 /// Checks an arrived record before anything uses it, then follows its light.
-void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot);
-void handle_ray(Pe& pe, Niu& niu, Slot slot);
+[[gnu::noinline]] void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot);
+[[gnu::noinline]] void handle_ray(Pe& pe, Niu& niu, Slot slot);
 /// Follows a hemi-cube pixel's flux until it leaves this PE or ends (radiosity.cpp).
 void follow_light(Pe& pe, Niu& niu, Slot slot);
 /// Adds flux to one of this PE's elements (deposit.cpp).

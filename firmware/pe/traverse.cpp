@@ -81,6 +81,26 @@ bool seek(const Scene& scene, PeNumber self, Segment& segment, PeNumber& next) {
   }
 }
 
+/// Goes through the exit face. False: the next subspace is not here, and `way` says why.
+inline bool step(const Scene& scene, PeNumber self, Segment& segment, Walk& walk, const Subspace*& here, Way& way) {
+  const std::uint32_t face = walk.exit_face();
+  way.next = here->neighbour_pe[face];
+  if (way.next == kNobody) {
+    way.end = WayEnd::escaped;
+    return false;
+  }
+  segment.subspace = here->neighbour[face];
+  segment.first = false;
+  segment.entry_axis = static_cast<std::uint8_t>(walk.exit_axis());
+  if (way.next != self) {
+    way.end = WayEnd::handed_on;
+    return false;
+  }
+  here = &scene.subspaces[segment.subspace];
+  walk.cross(*here);
+  return true;
+}
+
 }  // namespace
 
 Way traverse(const Scene& scene, PeNumber self, Segment& segment) {
@@ -91,34 +111,23 @@ Way traverse(const Scene& scene, PeNumber self, Segment& segment) {
   }
   const Subspace* here = &scene.subspaces[segment.subspace];
   Walk walk(scene.layout, segment, *here);
+  // Most subspaces hold no polygon: what only those need of the ray waits until one does.
+  while (here->polygon_count == 0) {
+    if (!step(scene, self, segment, walk, here, way)) return way;
+  }
   const Shear shear(segment.origin, segment.direction, walk.inverse());
   Reach reach(segment.origin, segment.direction, walk.inverse());
-  for (;;) {
-    if (here->polygon_count > 0) {
-      Nearest nearest;
-      find_nearest(scene, *here, segment, walk, shear, reach, nearest);
-      if (nearest.polygon != protocol::kNoPolygon) {
-        way.end = WayEnd::hit;
-        way.hit = hit_of(nearest);
-        return way;
-      }
-    }
-    const std::uint32_t face = walk.exit_face();
-    way.next = here->neighbour_pe[face];
-    if (way.next == kNobody) {
-      way.end = WayEnd::escaped;
+  do {
+    if (here->polygon_count == 0) continue;
+    Nearest nearest;
+    find_nearest(scene, *here, segment, walk, shear, reach, nearest);
+    if (nearest.polygon != protocol::kNoPolygon) {
+      way.end = WayEnd::hit;
+      way.hit = hit_of(nearest);
       return way;
     }
-    segment.subspace = here->neighbour[face];
-    segment.first = false;
-    segment.entry_axis = static_cast<std::uint8_t>(walk.exit_axis());
-    if (way.next != self) {
-      way.end = WayEnd::handed_on;
-      return way;
-    }
-    here = &scene.subspaces[segment.subspace];
-    walk.cross(*here);
-  }
+  } while (step(scene, self, segment, walk, here, way));
+  return way;
 }
 
 }  // namespace torolux::pe

@@ -143,15 +143,18 @@ void replay(benchmark::State& state, const Recording& recording, RunPe run_pe) {
 void work_translated(benchmark::State& state, const char* scene) {
   const Recording& recording = recording_of(scene);
   const translated::TranslatedImage code(recording.image, recording.machine.processor.latency);
-  replay(state, recording, [&](SharedMemory& memory, HintReplayer& niu) { translated_pe(recording, code, memory, niu); });
+  replay(state, recording,
+         [&](SharedMemory& memory, HintReplayer& niu) { translated_pe(recording, code, memory, niu); });
 }
 void work_native(benchmark::State& state, const char* scene) {
   const Recording& recording = recording_of(scene);
   replay(state, recording, [&](SharedMemory& memory, HintReplayer& niu) { native_pe(recording, memory, niu); });
 }
 
-#define TOROLUX_WORK(scene)                                                                                          \
-  BENCHMARK_CAPTURE(work_translated, scene, #scene)->Name("work/" #scene "/translated")->Unit(benchmark::kMillisecond); \
+#define TOROLUX_WORK(scene)                         \
+  BENCHMARK_CAPTURE(work_translated, scene, #scene) \
+      ->Name("work/" #scene "/translated")          \
+      ->Unit(benchmark::kMillisecond);              \
   BENCHMARK_CAPTURE(work_native, scene, #scene)->Name("work/" #scene "/native")->Unit(benchmark::kMillisecond)
 TOROLUX_WORK(cornell_box);
 TOROLUX_WORK(interior);

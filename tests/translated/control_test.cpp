@@ -98,6 +98,47 @@ TEST(TranslatedControl, AccessOutsideLocalMemoryTraps) {
   finish(code, "access", Counts::ignored);
 }
 
+/// Translated code checks once for several accesses by the same register, and looks ahead of branches for them. What is
+/// outside still traps where it stands, what is inside still works; a copy of the register, and one that has moved on,
+/// are as good as the register itself, and no better. A loop, because what follows a trap is interpreted until then.
+TEST(TranslatedControl, ChecksThatCoverOtherAccessesLetNothingThrough) {
+  Code code = begin_with_handler();
+  lock_memory(code);
+  constexpr Reg kCopy = 23, kMoved = 24, kTable = 25, kEnd = 26;
+  constexpr Word kAddresses = kData + 0x8000U;
+  const Word addresses[] = {kDataEnd - 128,
+                            kDataEnd - 64,
+                            kDataEnd - 60,
+                            kDataEnd - 56,
+                            kDataEnd - 36,
+                            kDataEnd - 32,
+                            kDataEnd - 12,
+                            kDataEnd - 8,
+                            kDataEnd - 4,
+                            kDataEnd,
+                            0x8000'0000U,
+                            0x8000'0100U,
+                            kAddresses - 4096,
+                            kData - protocol::kPageBytes - 20,
+                            kData - protocol::kPageBytes};
+  code.li(kValue, 0x1234'5678U).li(kTable, kAddresses);
+  for (const Word address : addresses) {
+    code.li(kT0, address);
+    code << sw(kT0, kTable, 0) << addi(kTable, kTable, 4);
+  }
+  code << addi(kEnd, kTable, 0);
+  code.li(kTable, kAddresses);
+  const std::int32_t begin = code.here();
+  code << lw(kAddress, kTable, 0) << addi(kTable, kTable, 4);
+  code << lw(kT0, kAddress, 0) << addi(kCopy, kAddress, 0) << addi(kMoved, kAddress, 24);
+  code << bne(kTable, 0, 12) << lw(kT1, kAddress, 32) << sw(kValue, kAddress, 28);  // these two are never executed
+  code << lw(kT1, kAddress, 8) << sw(kValue, kCopy, 4) << lw(kT2, kMoved, 32) << lw(kT2, kMoved, -16);
+  code << sw(kValue, kMoved, 8);
+  code << sw(kT0, kLog, 0) << sw(kT1, kLog, 4) << sw(kT2, kLog, 8) << addi(kLog, kLog, 12);
+  code << bne(kTable, kEnd, begin - code.here());
+  finish(code, "checks", Counts::ignored);
+}
+
 TEST(TranslatedControl, AtomicsTrapWhereTheyCannotWork) {
   Code code = begin_with_handler();
   lock_memory(code);

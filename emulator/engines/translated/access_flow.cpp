@@ -32,6 +32,11 @@ OffsetRange seen_from(const OffsetRange& range, std::int32_t added) {
   return range.empty() || !near ? OffsetRange{} : shifted;
 }
 
+void add_access(const Instruction& i, OffsetRange& loads, OffsetRange& stores) {
+  OffsetRange& range = is_store(i.op) ? stores : loads;
+  range = hull(range, {offset_of(i), offset_of(i)});
+}
+
 /// Whether rd becomes rs1 or rs2 plus a number.
 struct Copy {
   bool is_copy;
@@ -48,25 +53,35 @@ Copy copy_of(const Instruction& i) {
 }  // namespace
 
 AccessFlow::AccessFlow(const CodeMap& code, const Blocks& blocks, const Successors& successors,
-                       const std::vector<std::uint32_t>& entered)
-    : code_(code), blocks_(blocks) {
-  for (const auto& [address, next] : successors) at_[address] = {};
+                       const std::vector<std::uint32_t>& entered) {
+  for (const auto& [address, next] : successors) at_[address].steps = steps_of(code, blocks.all().at(address));
   for (bool changed = true; changed;) {
     changed = false;
     for (auto found = successors.rbegin(); found != successors.rend(); ++found) {
-      changed |= update_coming(blocks_.all().at(found->first), successors);
+      changed |= update_coming(at_.at(found->first), found->second);
     }
   }
-  for (const auto& [address, next] : successors) behind_[address] = coming_behind(next);
+  for (const auto& [address, next] : successors) note_coming(at_.at(address), coming_behind(next));
   for (const std::uint32_t address : entered) at_[address].reached = true;
   constexpr unsigned kPatience = 8;  // what still shrinks after so many rounds, a few bytes each time, is given up
   unsigned rounds = 0;
   for (bool changed = true; changed; ++rounds) {
     changed = false;
     for (const auto& [address, next] : successors) {
-      changed |= update_known(blocks_.all().at(address), successors, rounds >= kPatience);
+      changed |= update_known(at_.at(address), next, rounds >= kPatience);
     }
   }
+  for (const auto& [address, block] : at_) follow(block, &checks_[address]);
+}
+
+std::vector<AccessFlow::Step> AccessFlow::steps_of(const CodeMap& code, const Block& block) const {
+  std::vector<Step> steps;
+  for (const std::uint32_t address : addresses_in(code, block)) {
+    const Instruction& i = code.at(address)->instruction;
+    const bool matters = is_access(i.op) || (writes_x(i.op) && i.rd != 0);
+    if (matters) steps.push_back({&i, address, {}, {}});
+  }
+  return steps;
 }
 
 AccessFlow::ByBase AccessFlow::coming_behind(const std::vector<std::uint32_t>& successors) const {
@@ -80,35 +95,44 @@ AccessFlow::ByBase AccessFlow::coming_behind(const std::vector<std::uint32_t>& s
   return coming;
 }
 
-bool AccessFlow::update_coming(const Block& block, const Successors& successors) {
-  ByBase coming = coming_behind(successors.at(block.begin));
-  const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
-  for (auto pc = addresses.rbegin(); pc != addresses.rend(); ++pc) {
-    const Instruction& i = code_.at(*pc)->instruction;
+bool AccessFlow::update_coming(AtBlock& block, const std::vector<std::uint32_t>& successors) {
+  ByBase coming = coming_behind(successors);
+  for (auto step = block.steps.rbegin(); step != block.steps.rend(); ++step) {
+    const Instruction& i = *step->instruction;
     if (writes_x(i.op)) coming[i.rd] = {};
-    if (!is_access(i.op)) continue;
-    OffsetRange& range = is_store(i.op) ? coming[i.rs1].stores : coming[i.rs1].loads;
-    range = hull(range, {offset_of(i), offset_of(i)});
+    if (is_access(i.op)) add_access(i, coming[i.rs1].loads, coming[i.rs1].stores);
   }
-  const bool changed = at_[block.begin].coming != coming;
-  at_[block.begin].coming = coming;
+  const bool changed = block.coming != coming;
+  block.coming = coming;
   return changed;
 }
 
-bool AccessFlow::update_known(const Block& block, const Successors& successors, bool settle) {
-  if (!at_.at(block.begin).reached) return false;
-  AccessChecks unused;
-  const ByBase known = follow(block, unused);
+/// coming: behind the block.
+void AccessFlow::note_coming(AtBlock& block, ByBase coming) const {
+  ByBase coming_in_block{};
+  for (auto step = block.steps.rbegin(); step != block.steps.rend(); ++step) {
+    const Instruction& i = *step->instruction;
+    if (writes_x(i.op)) coming[i.rd] = coming_in_block[i.rd] = {};
+    if (!is_access(i.op)) continue;
+    step->coming = coming[i.rs1];
+    step->coming_in_block = coming_in_block[i.rs1];
+    for (ByBase* ranges : {&coming, &coming_in_block}) add_access(i, (*ranges)[i.rs1].loads, (*ranges)[i.rs1].stores);
+  }
+}
+
+bool AccessFlow::update_known(AtBlock& block, const std::vector<std::uint32_t>& successors, bool settle) {
+  if (!block.reached) return false;
+  const ByBase known = follow(block, nullptr);
   bool changed = false;
-  for (const std::uint32_t next : successors.at(block.begin)) {
-    AtBlock& there = at_[next];
+  for (const std::uint32_t next : successors) {
+    AtBlock& there = at_.at(next);
     if (!there.reached) {
       there.reached = changed = true;
       there.known = known;
       continue;
     }
     for (unsigned n = 1; n < known.size(); ++n) {
-      Ranges both{common(there.known[n].loads, known[n].loads), common(there.known[n].stores, known[n].stores)};
+      const Ranges both{common(there.known[n].loads, known[n].loads), common(there.known[n].stores, known[n].stores)};
       if (both == there.known[n]) continue;
       there.known[n] = settle ? Ranges{} : both;
       changed = true;
@@ -117,40 +141,25 @@ bool AccessFlow::update_known(const Block& block, const Successors& successors, 
   return changed;
 }
 
-AccessCheck AccessFlow::check_for(const Instruction& i, const Ranges& coming, const Ranges& coming_in_block) const {
+AccessCheck AccessFlow::check_for(const Step& step) {
+  const Instruction& i = *step.instruction;
   const OffsetRange here{offset_of(i), offset_of(i)};
   // A check for stores covers loads, too. But a way that only loads may have to do with constants.
-  if (is_store(i.op) || !coming_in_block.stores.empty()) {
-    return {true, hull(here, hull(coming.loads, coming.stores))};
+  if (is_store(i.op) || !step.coming_in_block.stores.empty()) {
+    return {true, hull(here, hull(step.coming.loads, step.coming.stores))};
   }
-  return {false, hull(here, coming.loads)};
+  return {false, hull(here, step.coming.loads)};
 }
 
-AccessFlow::ByBase AccessFlow::follow(const Block& block, AccessChecks& checks) const {
-  const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
-  // Backward first: what comes behind each access, in the block and beyond.
-  std::vector<std::array<Ranges, 2>> coming_at(addresses.size());
-  ByBase coming = behind_.at(block.begin);
-  ByBase coming_in_block{};
-  for (std::size_t n = addresses.size(); n-- > 0;) {
-    const Instruction& i = code_.at(addresses[n])->instruction;
-    if (is_access(i.op)) coming_at[n] = {coming[i.rs1], coming_in_block[i.rs1]};
-    if (writes_x(i.op)) coming[i.rd] = coming_in_block[i.rd] = {};
-    if (!is_access(i.op)) continue;
-    if (writes_x(i.op) && i.rd == i.rs1) coming_at[n] = {};
-    for (ByBase* ranges : {&coming, &coming_in_block}) {
-      OffsetRange& range = is_store(i.op) ? (*ranges)[i.rs1].stores : (*ranges)[i.rs1].loads;
-      range = hull(range, {offset_of(i), offset_of(i)});
-    }
-  }
-  ByBase known = at_.at(block.begin).known;
-  for (std::size_t n = 0; n < addresses.size(); ++n) {
-    const Instruction& i = code_.at(addresses[n])->instruction;
+AccessFlow::ByBase AccessFlow::follow(const AtBlock& block, AccessChecks* checks) {
+  ByBase known = block.known;
+  for (const Step& step : block.steps) {
+    const Instruction& i = *step.instruction;
     if (is_access(i.op)) {
       Ranges& ranges = known[i.rs1];
       if (!(is_store(i.op) ? ranges.stores : ranges.loads).contains(offset_of(i))) {
-        const AccessCheck check = check_for(i, coming_at[n][0], coming_at[n][1]);
-        checks[addresses[n]] = check;
+        const AccessCheck check = check_for(step);
+        if (checks != nullptr) (*checks)[step.address] = check;
         if (check.stores) ranges.stores = hull(ranges.stores, check.offsets);
         ranges.loads = hull(ranges.loads, check.offsets);
       }
@@ -161,12 +170,6 @@ AccessFlow::ByBase AccessFlow::follow(const Block& block, AccessChecks& checks) 
     known[i.rd] = {seen_from(from.loads, copy.added), seen_from(from.stores, copy.added)};
   }
   return known;
-}
-
-AccessChecks AccessFlow::checks(const Block& block) const {
-  AccessChecks checks;
-  follow(block, checks);
-  return checks;
 }
 
 }  // namespace torolux::translated

@@ -37,7 +37,7 @@ class AccessFlow {
              const std::vector<std::uint32_t>& entered);
 
   /// Of one block. A check looks ahead: it covers later accesses too, so that these need none.
-  AccessChecks checks(const Block& block) const;
+  const AccessChecks& checks(const Block& block) const { return checks_.at(block.begin); }
 
  private:
   struct Ranges {
@@ -45,23 +45,30 @@ class AccessFlow {
     bool operator==(const Ranges&) const = default;
   };
   using ByBase = std::array<Ranges, 32>;
+  /// A load or store, and what may still be accessed by the same base behind it.
+  struct Step {
+    const Instruction* instruction;
+    std::uint32_t address;
+    Ranges coming, coming_in_block;
+  };
   struct AtBlock {
-    ByBase coming{};       ///< may still be accessed, as the block begins
-    ByBase known{};        ///< has been checked on every way to the block
-    bool reached = false;  ///< `known` means something
+    std::vector<Step> steps;  ///< accesses, and what writes x registers
+    ByBase coming{};          ///< may still be accessed, as the block begins
+    ByBase known{};           ///< has been checked on every way to the block
+    bool reached = false;     ///< `known` means something
   };
 
-  bool update_coming(const Block& block, const Successors& successors);
-  bool update_known(const Block& block, const Successors& successors, bool settle);
+  std::vector<Step> steps_of(const CodeMap& code, const Block& block) const;
   ByBase coming_behind(const std::vector<std::uint32_t>& successors) const;
+  bool update_coming(AtBlock& block, const std::vector<std::uint32_t>& successors);
+  void note_coming(AtBlock& block, ByBase coming) const;
+  bool update_known(AtBlock& block, const std::vector<std::uint32_t>& successors, bool settle);
   /// Goes through the block; what is known behind it leaves.
-  ByBase follow(const Block& block, AccessChecks& checks) const;
-  AccessCheck check_for(const Instruction& i, const Ranges& coming, const Ranges& coming_in_block) const;
+  static ByBase follow(const AtBlock& block, AccessChecks* checks);
+  static AccessCheck check_for(const Step& step);
 
-  const CodeMap& code_;
-  const Blocks& blocks_;
   std::map<std::uint32_t, AtBlock> at_;
-  std::map<std::uint32_t, ByBase> behind_;  ///< may be accessed behind each block
+  std::map<std::uint32_t, AccessChecks> checks_;
 };
 
 }  // namespace torolux::translated

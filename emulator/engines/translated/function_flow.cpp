@@ -33,8 +33,7 @@ std::vector<std::uint32_t> FunctionFlow::successors(const Block& block) const {
   const auto add = [&](std::uint32_t address) {
     if (inside(address)) found.push_back(address);
   };
-  const bool goes_on =
-      block.ending == Ending::next || block.ending == Ending::branch || block.ending == Ending::hint;
+  const bool goes_on = block.ending == Ending::next || block.ending == Ending::branch || block.ending == Ending::hint;
   if (goes_on) add(block.end);
   const bool jumps = block.ending == Ending::jump && code_.at(block.last)->instruction.rd == 0;
   if (jumps || block.ending == Ending::branch) add(block.target);

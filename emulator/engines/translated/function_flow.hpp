@@ -24,7 +24,7 @@ class FunctionFlow {
   bool is_entry(const Block& block) const {
     return resumes_ ? block.entry : block.begin == function_.begin || block.taken;
   }
-  AccessChecks checks(const Block& block) const { return accesses_.checks(block); }
+  const AccessChecks& checks(const Block& block) const { return accesses_.checks(block); }
 
   /// Written since they were loaded, as the block begins: to be saved on the way out if still read.
   RegisterSet dirty(std::uint32_t block) const { return at_.at(block).dirty; }

@@ -67,13 +67,13 @@ std::string FunctionWriter::go_to(const Block& block, std::uint32_t address, Reg
   if (!flow_.inside(address)) {
     const auto callee = numbers_.find(address);
     if (callee == numbers_.end()) return leave(save, Exit::jump, address);
-    there = "{ if (TOROLUX_RARELY(depth >= kDeepest || count >= slice)) " + leave(save, Exit::jump, address) + " " + writer_.save(save) +
-            "return " + called_name(callee->first) + "(pe, count, " + hexadecimal(address) + ", depth + 1); }";
+    there = "{ if (TOROLUX_RARELY(depth >= kDeepest || count >= slice)) " + leave(save, Exit::jump, address) + " " +
+            writer_.save(save) + "return " + called_name(callee->first) + "(pe, count, " + hexadecimal(address) +
+            ", depth + 1); }";
   }
   constexpr unsigned kLong = 20;  // 2^20 bytes
   if (address > block.begin && address >> kLong == block.begin >> kLong) return there;
-  return "{ if (TOROLUX_RARELY(count >= slice)) " + leave(save, Exit::slice, address) +
-         " " + there + " }";
+  return "{ if (TOROLUX_RARELY(count >= slice)) " + leave(save, Exit::slice, address) + " " + there + " }";
 }
 
 void FunctionWriter::write_call(const Block& block, RegisterSet save) {
@@ -190,7 +190,9 @@ std::string FunctionWriter::text(const std::string& name) {
   for (unsigned n = 1; n < 32; ++n) text += "std::uint32_t x" + std::to_string(n) + "; ";
   for (unsigned n = 0; n < 32; ++n) text += "float f" + std::to_string(n) + "; ";
   text += "\n  const std::uintptr_t memory = reinterpret_cast<std::uintptr_t>(pe->memory) - kMemoryBase;\n";
-  text += "  const std::uint32_t load_limit = pe->load_limit, store_limit = pe->store_limit;\n  const std::uint64_t slice = pe->slice;\n";
+  text +=
+      "  const std::uint32_t load_limit = pe->load_limit, store_limit = pe->store_limit;\n  const std::uint64_t slice "
+      "= pe->slice;\n";
   if (!resumes_) text += "  goto " + entry_label(function_.begin) + ";\n";
   return text + dispatch() + body_ + "}\n";
 }
@@ -243,8 +245,8 @@ std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
       const FunctionFlow flow(code, blocks, liveness, functions[n], resumes);
       const std::string name = (resumes ? resumed_name : called_name)(functions[n].begin);
       unit += FunctionWriter(code, blocks, flow, numbers, functions[n], resumes).text(name);
+      if (unit.size() > kMostText) finish();
     }
-    if (unit.size() > kMostText) finish();
   }
   unit += tables(blocks.observed(), called_table, resumed_table);
   finish();

@@ -153,7 +153,8 @@ void TranslatedImage::refresh(TranslatedPe& pe) const {
   const std::uint32_t before_stores = code_.store_base() - kMemoryBase;
   pe.load_limit = limit(loads);
   // Where stores may go, loads may: translated code checks for stores alone.
-  pe.store_limit = limit(std::min(accessible(code_.store_base(), Access::store), loads - std::min(loads, before_stores)));
+  pe.store_limit =
+      limit(std::min(accessible(code_.store_base(), Access::store), loads - std::min(loads, before_stores)));
   pe.may_fetch = freely_accessible(pe, code_.begin(), code_.end(), Access::fetch) == code_.end() - code_.begin();
 }
 

@@ -102,16 +102,15 @@ inline std::uint32_t to_unsigned(float a) {
 /// A phase marker; count: what the code has counted up to it. False: the PE is to stop at it.
 inline bool mark(TranslatedPe* pe, std::uint64_t count, std::int32_t immediate) {
   if (pe->marker == nullptr) return false;
-  pe->marker(pe->context, immediate, pe->cycles + cycles_in(count),
-             pe->instructions + instructions_in(count));
+  pe->marker(pe->context, immediate, pe->cycles + cycles_in(count), pe->instructions + instructions_in(count));
   return true;
 }
 
 /// Any other HINT, likewise. False: the PE is to stop behind it.
 inline bool ask(TranslatedPe* pe, std::uint64_t count, std::int32_t immediate) {
   pe->hint_immediate = immediate;
-  return pe->hint != nullptr && pe->hint(pe->context, immediate, pe->cycles + cycles_in(count),
-                                         pe->instructions + instructions_in(count));
+  return pe->hint != nullptr &&
+         pe->hint(pe->context, immediate, pe->cycles + cycles_in(count), pe->instructions + instructions_in(count));
 }
 
 }  // namespace torolux::translated
