@@ -19,6 +19,7 @@ Slot RecordSlots::take(Niu& niu) {
 
 void Outbox::set(protocol::Stage stage) {
   batches_ = {};
+  for (Batch& batch : batches_) batch.destination = protocol::kNobody;
   used_ = 0;
   opened_ = 0;
   most_ = protocol::records_per_packet(stage);
@@ -36,13 +37,14 @@ void Outbox::put(Niu& niu, RecordSlots& slots, PeNumber destination, Slot slot) 
 }
 
 Outbox::Batch& Outbox::batch_for(Niu& niu, RecordSlots& slots, PeNumber destination) {
+  for (Batch& batch : batches_) {
+    if (batch.destination == destination) return batch;
+  }
   Batch* free = nullptr;
   Batch* fullest = &batches_[0];
   for (Batch& batch : batches_) {
     if (batch.count == 0) {
       free = &batch;
-    } else if (batch.destination == destination) {
-      return batch;
     } else if (batch.count > fullest->count || (batch.count == fullest->count && batch.opened < fullest->opened)) {
       fullest = &batch;
     }
@@ -56,6 +58,7 @@ void Outbox::send(Niu& niu, RecordSlots& slots, Batch& batch) {
   niu.send_records(batch.destination, std::span<const Slot>(batch.slots.data(), batch.count));
   for (std::uint32_t i = 0; i < batch.count; ++i) slots.free_own(batch.slots[i]);
   batch.count = 0;
+  batch.destination = protocol::kNobody;
   --used_;
 }
 

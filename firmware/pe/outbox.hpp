@@ -50,8 +50,8 @@ class Outbox {
 
  private:
   struct Batch {
-    PeNumber destination;
-    std::uint16_t count;   ///< 0: not in use
+    PeNumber destination;  ///< kNobody: not in use
+    std::uint16_t count;   ///< 0 likewise
     std::uint32_t opened;  ///< age
     std::array<Slot, protocol::kMostRecordsPerPacket> slots;
   };
