@@ -75,14 +75,34 @@ EngineSpeed replay_here(Recording& recording, unsigned threads, const ReplayPe& 
   return speed;
 }
 
-void run_translated(const translated::TranslatedImage& code, HintReplayer& niu, const PeMemory& memory) {
+/// A translated PE, and the log in the place of its NIU.
+struct ReplayedPe {
   translated::TranslatedPe pe{};
+  HintReplayer& niu;
+  bool asked = false;  ///< the HINT at which the code has stopped
+  bool goes_on = true;
+
+  static bool hint(void* context, std::int32_t immediate, std::uint64_t clock, std::uint64_t /*instructions*/) {
+    auto& self = *static_cast<ReplayedPe*>(context);
+    const NiuProcessorSide::Result result = self.niu.hint(immediate, clock);
+    self.goes_on = result.outcome == NiuProcessorSide::Outcome::done;
+    self.asked = !self.goes_on;
+    self.pe.cycles += result.clock - clock;
+    return self.goes_on;
+  }
+};
+
+void run_translated(const translated::TranslatedImage& code, HintReplayer& niu, const PeMemory& memory) {
+  ReplayedPe replayed{{}, niu};
+  translated::TranslatedPe& pe = replayed.pe;
   code.start(pe, memory.local.bytes().first(memory.local_memory_bytes), memory.local.bytes().size());
   pe.marker = [](void*, std::int32_t, std::uint64_t, std::uint64_t) {};
-  while (code.run(pe) == translated::TranslatedImage::Stop::hint) {
-    const NiuProcessorSide::Result result = niu.hint(pe.hint_immediate, pe.cycles);
-    if (result.outcome != NiuProcessorSide::Outcome::done) return;
-    pe.cycles = result.clock;
+  pe.hint = &ReplayedPe::hint;
+  pe.context = &replayed;
+  while (replayed.goes_on && code.run(pe) == translated::TranslatedImage::Stop::hint) {
+    // Interpreted code stops at a HINT without having asked.
+    if (!replayed.asked) ReplayedPe::hint(&replayed, pe.hint_immediate, pe.cycles, pe.instructions);
+    replayed.asked = false;
   }
 }
 
