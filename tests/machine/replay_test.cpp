@@ -16,6 +16,8 @@ namespace {
 Recording record_cornell() {
   RenderCase cornell = native_case(source_dir() / "scenes" / "cornell_box");
   cornell.quality.max_shots = 2;
+  cornell.quality.hemicube = 8;
+  cornell.quality.emission_records = 2000;
   cornell.machine = {};
   cornell.machine.columns = cornell.machine.rows = 2;
   return record(load_image(pe_image()), cornell.machine.description, 4, [&](const std::string& engine) {

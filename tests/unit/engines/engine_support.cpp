@@ -42,7 +42,7 @@ BarePes::BarePes(const Image& image, std::size_t count, const MachineDescription
 }
 
 std::optional<TakenCommand> BarePes::next_command(std::size_t pe) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (std::chrono::steady_clock::now() < deadline) {
     auto& commands = channel(pe).commands;
     if (const Command* command = commands.front()) {

@@ -35,7 +35,7 @@ class BarePes {
   Engine& engine() { return *engine_; }
   NiuChannel& channel(std::size_t pe) { return *niu_channel_at(pes_[pe].channel.bytes().data()); }
   std::span<std::byte> local_memory(std::size_t pe) { return pes_[pe].local.bytes(); }
-  /// The next command of a PE, or nothing after ten seconds. Checks the engine meanwhile.
+  /// The next command of a PE, or nothing after a minute. Checks the engine meanwhile.
   std::optional<TakenCommand> next_command(std::size_t pe);
 
  private:
