@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// `accuracy`: how far the product is from its references. Enters: scenes, settings; leaves: tables and plots in a folder.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/accuracy/picture_report.hpp"
+#include "tests/support/render_support.hpp"
+
+namespace {
+
+using namespace torolux;
+
+std::vector<std::filesystem::path> all_scenes() {
+  std::vector<std::filesystem::path> scenes;
+  for (const std::string& name : test::scene_names()) scenes.push_back(test::source_dir() / "scenes" / name);
+  const char* more = std::getenv("TOROLUX_MORE_SCENES");
+  if (more == nullptr) return scenes;
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(more)) {
+    if (entry.path().extension() == ".obj") found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  scenes.insert(scenes.end(), found.begin(), found.end());
+  return scenes;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Compares pictures with the path tracer. TOROLUX_MORE_SCENES: a folder with further .obj files.");
+  accuracy::PictureReportChoice choice;
+  choice.output = "accuracy";
+  app.add_option("--scene", choice.scenes, "folder, .toml or .obj; absent: all of scenes/ and TOROLUX_MORE_SCENES");
+  app.add_option("--setting", choice.settings, "coarse, default, fine, finer; absent: all");
+  app.add_option("--engine", choice.engine, "of the product")->capture_default_str();
+  app.add_option("--samples", choice.reference_samples, "of the path tracer, per pixel")->capture_default_str();
+  app.add_option("--threads", choice.threads, "0: all cores")->capture_default_str();
+  app.add_option("--output", choice.output, "folder")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (choice.scenes.empty()) choice.scenes = all_scenes();
+    report_pictures(choice);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "accuracy: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

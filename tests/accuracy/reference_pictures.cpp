@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// See reference_pictures.hpp.
+#include "tests/accuracy/reference_pictures.hpp"
+
+#include <bit>
+#include <cstdio>
+
+#include "host_tools/scene/vec.hpp"
+#include "tests/accuracy/table.hpp"
+
+namespace torolux::accuracy {
+namespace {
+
+/// FNV-1a of all that the picture depends on.
+class Hash {
+ public:
+  void add(std::uint64_t value) {
+    for (unsigned shift = 0; shift < 64; shift += 8) {
+      state_ = (state_ ^ ((value >> shift) & 0xFFU)) * 0x100000001B3U;
+    }
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(const Vec3d& v) {
+    for (const double x : v) add(x);
+  }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0xCBF29CE484222325U;
+};
+
+std::uint64_t hash_of(const Scene& scene, const View& view, const references::TraceChoice& choice) {
+  Hash hash;
+  for (const Vec3d& position : scene.positions) hash.add(position);
+  for (const Vec3d& normal : scene.normals) hash.add(normal);
+  for (const SceneTriangle& triangle : scene.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) hash.add(std::uint64_t{triangle.position[i]} << 32U | triangle.normal[i]);
+    hash.add(std::uint64_t{triangle.material});
+  }
+  for (const SceneMaterial& material : scene.materials) {
+    hash.add(static_cast<std::uint64_t>(material.kind));
+    for (const Vec3d& v : {material.diffuse, material.specular, material.transmittance, material.emission}) hash.add(v);
+    hash.add(material.refractive_index);
+  }
+  hash.add(view.camera.eye);
+  hash.add(view.camera.look_at);
+  hash.add(view.camera.up);
+  hash.add(view.camera.field_of_view_degrees);
+  hash.add(std::uint64_t{view.two_sided_lights});
+  hash.add(std::uint64_t{choice.width} << 32U | choice.height);
+  hash.add(std::uint64_t{choice.samples});
+  hash.add(choice.seed);
+  return hash.value();
+}
+
+/// There, and not older than the tracer.
+bool holds(const std::filesystem::path& file) {
+  return std::filesystem::exists(file) && std::filesystem::last_write_time(file) >=
+                                              std::filesystem::last_write_time(TOROLUX_REFERENCES_LIBRARY);
+}
+
+Picture mean_of(const Picture& a, const Picture& b) {
+  Picture mean = a;
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) mean.pixels[i][c] = (a.pixels[i][c] + b.pixels[i][c]) / 2;
+  }
+  return mean;
+}
+
+}  // namespace
+
+references::TracedPicture reference_picture(const Scene& scene, const View& view,
+                                            const references::TraceChoice& choice,
+                                            const std::filesystem::path& folder) {
+  std::array<char, 17> hash{};
+  std::snprintf(hash.data(), hash.size(), "%016llx",
+                static_cast<unsigned long long>(hash_of(scene, view, choice)));
+  const std::filesystem::path first = folder / (scene.name + "-" + hash.data() + "-1.pfm");
+  const std::filesystem::path second = folder / (scene.name + "-" + hash.data() + "-2.pfm");
+  if (holds(first) && holds(second)) {
+    references::TracedPicture kept{{}, read_picture(first), read_picture(second)};
+    kept.picture = mean_of(kept.first_half, kept.second_half);
+    return kept;
+  }
+  std::filesystem::create_directories(folder);
+  references::TracedPicture traced =
+      references::trace(references::World(scene, view.two_sided_lights), view.camera, choice);
+  write_picture(traced.first_half, first, 0);
+  write_picture(traced.second_half, second, 0);
+  return traced;
+}
+
+}  // namespace torolux::accuracy

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// See path_tracer.hpp.
+#include "tests/references/path_tracer.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "tests/references/scattering.hpp"
+
+namespace torolux::references {
+namespace {
+
+/// One light path, followed from the eye.
+class Path {
+ public:
+  Path(const World& world, LightFinding finding, Random& random) : world_(world), finding_(finding), random_(random) {}
+
+  /// A camera ray.
+  Colour along(const Vec& origin, const Vec& direction) {
+    origin_ = origin;
+    direction_ = direction;
+    follow();
+    return light_;
+  }
+
+  /// From a white diffuse surface.
+  Colour from(const Hit& hit) {
+    direction_ = hit.front ? Vec(-world_.triangles()[hit.triangle].normal) : world_.triangles()[hit.triangle].normal;
+    if (scatter(hit, Colour::Ones(), Colour::Zero(), 0)) follow();
+    return light_;
+  }
+
+ private:
+  void follow() {
+    for (;;) {
+      const auto hit = world_.closest(origin_, direction_, leaving_);
+      if (!hit) return;
+      meet_emitter(*hit);
+      if (!turn(*hit) || !survives()) return;
+    }
+  }
+
+  bool turn(const Hit& hit) {
+    const Material& material = world_.material(hit);
+    switch (material.model) {
+      case Model::mirror:
+        weight_ *= material.specular;
+        go(hit, mirror(direction_, world_.triangles()[hit.triangle].normal, world_.shading_normal(hit)));
+        density_ = 0;
+        return true;
+      case Model::glass:
+        cross_glass(hit, material);
+        return true;
+      case Model::diffuse:
+        return scatter(hit, world_.diffuse_at(hit), Colour::Zero(), 0);
+      case Model::glossy:
+        return scatter(hit, world_.diffuse_at(hit), material.specular, material.exponent);
+    }
+    return false;
+  }
+
+  void cross_glass(const Hit& hit, const Material& material) {
+    const Vec& flat = world_.triangles()[hit.triangle].normal;
+    const Vec round = world_.shading_normal(hit);
+    const double eta = hit.front ? 1 / material.refractive_index : material.refractive_index;
+    const GlassWays ways = glass(direction_, flat, round, eta);
+    density_ = 0;
+    if (random_.uniform() < ways.reflectance) {
+      go(hit, mirror(direction_, flat, round));
+      return;
+    }
+    weight_ *= material.transmittance;
+    radiance_scale_ *= eta * eta;  // radiance over the square of the refractive index is what a ray keeps
+    go(hit, ways.refracted);
+  }
+
+  /// Light from emitters at a diffuse or glossy surface, and the way on. False: the path has ended.
+  bool scatter(const Hit& hit, const Colour& diffuse, const Colour& specular, double exponent) {
+    const Vec& front = world_.triangles()[hit.triangle].normal;
+    const Reflection reflection(hit.front ? front : Vec(-front), -direction_, diffuse, specular, exponent);
+    if (finding_ != LightFinding::directions_only) ask_emitters(hit, reflection);
+    const Vec out = reflection.sample(random_);
+    const double cosine = reflection.cosine(out);
+    const double density = reflection.density(out);
+    if (cosine <= 0 || density <= 0) return false;
+    weight_ *= reflection.value(out) * (cosine / density);
+    go(hit, out);
+    density_ = density;
+    return (weight_ > 0).any();
+  }
+
+  /// A point on an emitter, by chance.
+  void ask_emitters(const Hit& hit, const Reflection& reflection) {
+    const double pick = random_.uniform();
+    const double root = std::sqrt(random_.uniform());
+    const double along = random_.uniform();
+    if (world_.emitters().empty()) return;
+    const Emitter& emitter = world_.pick_emitter(pick);
+    const Triangle& triangle = world_.triangles()[emitter.triangle];
+    const Hit target = world_.at(emitter.triangle, root * (1 - along), root * along, true);
+    const Vec way = target.point - hit.point;
+    const double distance2 = way.squaredNorm();
+    if (!(distance2 > 0)) return;
+    const Vec out = way / std::sqrt(distance2);
+    const double cos_emitter = -out.dot(triangle.normal);
+    const double cosine = reflection.cosine(out);
+    if (cosine <= 0 || cos_emitter == 0 || (cos_emitter < 0 && !world_.emits_from_back())) return;
+    const Vec origin = world_.leave(hit, out);
+    if (world_.blocked(origin, target.point, hit.triangle, emitter.triangle)) return;
+    const double density = emitter.density * distance2 / std::fabs(cos_emitter);
+    const double share = finding_ == LightFinding::both ? power(density, reflection.density(out)) : 1;
+    light_ += weight_ * radiance_scale_ * reflection.value(out) *
+              world_.emission_at({target.triangle, 0, 0, cos_emitter > 0, target.point}) * (cosine / density * share);
+  }
+
+  /// What the emitter that the path has come upon adds.
+  void meet_emitter(const Hit& hit) {
+    const double light_density = world_.light_density(hit);
+    if (light_density == 0) return;
+    double share = 1;
+    if (density_ > 0) {
+      if (finding_ == LightFinding::emitters_only) return;
+      if (finding_ == LightFinding::both) {
+        const double cosine = std::fabs(direction_.dot(world_.triangles()[hit.triangle].normal));
+        const double distance2 = (hit.point - origin_).squaredNorm();
+        share = power(density_, light_density * distance2 / cosine);
+      }
+    }
+    light_ += weight_ * radiance_scale_ * world_.emission_at(hit) * share;
+  }
+
+  static double power(double mine, double other) {
+    const double ratio = other / mine;
+    return 1 / (1 + ratio * ratio);
+  }
+
+  void go(const Hit& hit, const Vec& direction) {
+    origin_ = world_.leave(hit, direction);
+    direction_ = direction;
+    leaving_ = hit.triangle;
+  }
+
+  /// Russian roulette by the path's weight.
+  bool survives() {
+    constexpr unsigned kSure = 3;
+    if (++turns_ <= kSure) return true;
+    const double chance = std::min(0.97, weight_.maxCoeff());
+    if (random_.uniform() >= chance) return false;
+    weight_ /= chance;
+    return true;
+  }
+
+  const World& world_;
+  LightFinding finding_;
+  Random& random_;
+  Vec origin_ = Vec::Zero();
+  Vec direction_ = Vec::Zero();
+  std::uint32_t leaving_ = kNoTriangle;
+  Colour weight_ = Colour::Ones();
+  double radiance_scale_ = 1;  // square of (index where the eye is / index where the path is)
+  double density_ = 0;         // of the direction that the path came by; 0: the only one, or the camera's
+  unsigned turns_ = 0;
+  Colour light_ = Colour::Zero();
+};
+
+/// The product's pixels: squares, all samples in one of equal weight.
+class Eye {
+ public:
+  Eye(const Camera& camera, const TraceChoice& choice) : choice_(choice), eye_(vec(camera.eye)) {
+    forward_ = (vec(camera.look_at) - eye_).normalized();
+    right_ = forward_.cross(vec(camera.up)).normalized();
+    const double half = std::tan(camera.field_of_view_degrees / 2 * std::numbers::pi / 180);
+    down_ = forward_.cross(right_) * half;
+    right_ *= half * choice.width / choice.height;
+  }
+  const Vec& place() const { return eye_; }
+  /// x rightwards, y downwards, in pixels.
+  Vec direction(double x, double y) const {
+    return (forward_ + (2 * x / choice_.width - 1) * right_ + (2 * y / choice_.height - 1) * down_).normalized();
+  }
+
+ private:
+  TraceChoice choice_;
+  Vec eye_, forward_, right_, down_;
+};
+
+std::array<float, 3> to_pixel(const Colour& sum, double samples) {
+  const Colour mean = sum / samples;
+  return {static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])};
+}
+
+}  // namespace
+
+Colour incident_over_pi(const World& world, const Hit& hit, LightFinding finding, Random& random) {
+  return Path(world, finding, random).from(hit);
+}
+
+TracedPicture trace(const World& world, const Camera& camera, const TraceChoice& choice) {
+  const Eye eye(camera, choice);
+  TracedPicture result;
+  for (Picture* picture : {&result.picture, &result.first_half, &result.second_half}) {
+    *picture = {choice.width, choice.height, {}};
+    picture->pixels.resize(std::size_t{choice.width} * choice.height);
+  }
+  const std::uint32_t half = choice.samples / 2;
+  const auto trace_pixel = [&](std::uint32_t column, std::uint32_t row) {
+    const std::size_t pixel = std::size_t{row} * choice.width + column;
+    Random random(choice.seed, pixel);
+    const auto sum = [&] {
+      Colour light = Colour::Zero();
+      for (std::uint32_t sample = 0; sample < half; ++sample) {
+        const double x = column + random.uniform();
+        const double y = row + random.uniform();
+        light += Path(world, choice.finding, random).along(eye.place(), eye.direction(x, y));
+      }
+      return light;
+    };
+    const Colour first = sum();
+    const Colour second = sum();
+    result.first_half.pixels[pixel] = to_pixel(first, half);
+    result.second_half.pixels[pixel] = to_pixel(second, half);
+    result.picture.pixels[pixel] = to_pixel(first + second, 2.0 * half);
+  };
+  std::atomic<std::uint32_t> next_row = 0;
+  const auto work = [&] {
+    for (std::uint32_t row = next_row++; row < choice.height; row = next_row++) {
+      for (std::uint32_t column = 0; column < choice.width; ++column) trace_pixel(column, row);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  const unsigned threads = choice.threads > 0 ? choice.threads : std::max(1U, std::thread::hardware_concurrency());
+  for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  helpers.clear();
+  return result;
+}
+
+}  // namespace torolux::references

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// See world.hpp.
+#include "tests/references/world.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace torolux::references {
+namespace {
+
+Material read_material(const SceneMaterial& from) {
+  Material material;
+  material.diffuse = colour(from.diffuse);
+  material.emission = colour(from.emission);
+  switch (from.kind) {
+    case SurfaceKind::diffuse:
+      break;
+    case SurfaceKind::mirror:
+      material.model = Model::mirror;
+      material.specular = colour(from.specular);
+      break;
+    case SurfaceKind::glass:
+      material.model = Model::glass;
+      material.transmittance = colour(from.transmittance);
+      material.refractive_index = from.refractive_index;
+      break;
+  }
+  return material;
+}
+
+/// What Embree hands through to the filter.
+struct Query {
+  RTCIntersectContext context;  // first: Embree knows only this
+  std::uint32_t leaving;
+  std::uint32_t target;
+};
+
+void pass_over(const RTCFilterFunctionNArguments* arguments) {
+  const auto* query = reinterpret_cast<const Query*>(arguments->context);
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
+    if (triangle == query->leaving || triangle == query->target) arguments->valid[i] = 0;
+  }
+}
+
+Query query(std::uint32_t leaving, std::uint32_t target) {
+  Query result{};
+  rtcInitIntersectContext(&result.context);
+  result.context.filter = pass_over;
+  result.leaving = leaving;
+  result.target = target;
+  return result;
+}
+
+void set_ray(RTCRay& ray, const Vec& origin, const Vec& direction, float far) {
+  ray.org_x = static_cast<float>(origin.x());
+  ray.org_y = static_cast<float>(origin.y());
+  ray.org_z = static_cast<float>(origin.z());
+  ray.dir_x = static_cast<float>(direction.x());
+  ray.dir_y = static_cast<float>(direction.y());
+  ray.dir_z = static_cast<float>(direction.z());
+  ray.tnear = 0;
+  ray.tfar = far;
+  ray.time = 0;
+  ray.mask = ~0U;
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+}  // namespace
+
+/// Embree's scene, with the middle of the bounding box as origin, where floats are finest.
+struct World::RayCaster {
+  explicit RayCaster(const std::vector<Triangle>& triangles) {
+    if (device == nullptr) throw std::runtime_error("Embree does not start");
+    Vec low = Vec::Constant(HUGE_VAL);
+    Vec high = -low;
+    for (const Triangle& triangle : triangles) {
+      for (const Vec& corner : triangle.corner) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+      }
+    }
+    middle = (low + high) / 2;
+    size = (high - low).maxCoeff();
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
+    auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
+    std::uint32_t next = 0;
+    for (const Triangle& triangle : triangles) {
+      for (const Vec& corner : triangle.corner) {
+        for (int axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(corner[axis] - middle[axis]);
+        *index++ = next++;
+      }
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcCommitScene(scene);
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error("Embree does not take the scene");
+  }
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
+  ~RayCaster() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+
+  RTCDevice device = rtcNewDevice("threads=1");
+  RTCScene scene = rtcNewScene(device);
+  Vec middle = Vec::Zero();
+  double size = 1;  ///< longest edge of the bounding box
+};
+
+World::World(const Scene& scene, bool two_sided_lights) : two_sided_lights_(two_sided_lights) {
+  for (const SceneMaterial& material : scene.materials) materials_.push_back(read_material(material));
+  for (const SceneTriangle& from : scene.triangles) {
+    Triangle& triangle = triangles_.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) triangle.corner[i] = vec(scene.positions[from.position[i]]);
+    const Vec across =
+        (triangle.corner[1] - triangle.corner[0]).cross(triangle.corner[2] - triangle.corner[0]);
+    triangle.area = across.norm() / 2;
+    triangle.normal = across.normalized();
+    triangle.material = from.material;
+    if (from.normal[0] == kNoNormal) continue;
+    auto& normals = triangle.corner_normals.emplace();
+    for (std::size_t i = 0; i < 3; ++i) normals[i] = vec(scene.normals[from.normal[i]]);
+  }
+  caster_ = std::make_unique<RayCaster>(triangles_);
+  // Some 30 units in the last place of the greatest coordinate.
+  offset_ = 4e-6 * caster_->size;
+  collect_emitters();
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::collect_emitters() {
+  density_.assign(triangles_.size(), 0);
+  double total = 0;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    const double power = materials_[triangles_[t].material].emission.mean() * triangles_[t].area;
+    if (!(power > 0)) continue;
+    total += power;
+    emitters_.push_back({t, total, power / triangles_[t].area});
+  }
+  for (Emitter& emitter : emitters_) {
+    emitter.chance_below /= total;
+    emitter.density /= total;
+    density_[emitter.triangle] = emitter.density;
+  }
+}
+
+Colour World::emission_at(const Hit& hit) const {
+  return hit.front || two_sided_lights_ ? material(hit).emission : Colour::Zero();
+}
+
+double World::light_density(const Hit& hit) const {
+  return hit.front || two_sided_lights_ ? density_[hit.triangle] : 0;
+}
+
+const Emitter& World::pick_emitter(double uniform) const {
+  const auto found = std::upper_bound(emitters_.begin(), emitters_.end(), uniform,
+                                      [](double u, const Emitter& emitter) { return u < emitter.chance_below; });
+  return found == emitters_.end() ? emitters_.back() : *found;
+}
+
+Hit World::at(std::uint32_t triangle, double b1, double b2, bool front) const {
+  const auto& corner = triangles_[triangle].corner;
+  return {triangle, b1, b2, front, corner[0] * (1 - b1 - b2) + corner[1] * b1 + corner[2] * b2};
+}
+
+Vec World::shading_normal(const Hit& hit) const {
+  const Triangle& triangle = triangles_[hit.triangle];
+  if (!triangle.corner_normals) return triangle.normal;
+  const auto& normal = *triangle.corner_normals;
+  return (normal[0] * (1 - hit.b1 - hit.b2) + normal[1] * hit.b1 + normal[2] * hit.b2).normalized();
+}
+
+std::optional<Hit> World::closest(const Vec& origin, const Vec& direction, std::uint32_t leaving) const {
+  Query way = query(leaving, kNoTriangle);
+  RTCRayHit ray{};
+  set_ray(ray.ray, origin - caster_->middle, direction, HUGE_VALF);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(caster_->scene, &way.context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const bool front = direction.dot(triangles_[ray.hit.primID].normal) < 0;
+  return at(ray.hit.primID, static_cast<double>(ray.hit.u), static_cast<double>(ray.hit.v), front);
+}
+
+bool World::blocked(const Vec& from, const Vec& to, std::uint32_t leaving, std::uint32_t target) const {
+  Query way = query(leaving, target);
+  RTCRay ray{};
+  // Stops short of the target, where rounding could find its neighbour in the same plane.
+  set_ray(ray, from - caster_->middle, to - from, 1 - 1e-5F);
+  rtcOccluded1(caster_->scene, &way.context, &ray);
+  return ray.tfar < 0;
+}
+
+Vec World::leave(const Hit& hit, const Vec& direction) const {
+  const Vec& normal = triangles_[hit.triangle].normal;
+  return hit.point + normal * (direction.dot(normal) < 0 ? -offset_ : offset_);
+}
+
+}  // namespace torolux::references

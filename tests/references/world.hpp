@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// A scene as the references see it: the product's Scene in; triangles, materials, emitters and closest hits (Embree) out.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "host_tools/scene/scene.hpp"
+
+namespace torolux::references {
+
+using Vec = Eigen::Vector3d;
+using Colour = Eigen::Array3d;
+
+inline Vec vec(const Vec3d& v) {
+  return {v[0], v[1], v[2]};
+}
+inline Colour colour(const Vec3d& v) {
+  return {v[0], v[1], v[2]};
+}
+
+enum class Model : std::uint8_t { diffuse, mirror, glass, glossy };
+
+struct Material {
+  Model model = Model::diffuse;
+  Colour diffuse = Colour::Zero();       ///< Kd, of diffuse and glossy
+  Colour specular = Colour::Zero();      ///< Ks: of a mirror its reflectance, of glossy the lobe's at normal incidence
+  double exponent = 0;                   ///< Ns of glossy, >= 0
+  Colour transmittance = Colour::Ones();  ///< Tf of glass, at each crossing
+  double refractive_index = 1.5;         ///< Ni of glass, inside over outside
+  Colour emission = Colour::Zero();      ///< Ke, radiance [W/(m^2 sr)]
+};
+
+inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
+
+struct Triangle {
+  std::array<Vec, 3> corner;
+  Vec normal;                                        ///< unit, towards the front
+  double area = 0;                                   ///< [user units^2]
+  std::optional<std::array<Vec, 3>> corner_normals;  ///< unit
+  std::uint32_t material = 0;
+};
+
+struct Hit {
+  std::uint32_t triangle;
+  double b1, b2;  ///< weights of corners 1 and 2
+  bool front;     ///< met from the front
+  Vec point;
+};
+
+/// A triangle that emits, and how often light sampling takes it.
+struct Emitter {
+  std::uint32_t triangle;
+  double chance_below;  ///< sum of the chances up to and with this one; the last is 1
+  double density;       ///< of a sampled point [1 / user units^2]
+};
+
+class World {
+ public:
+  /// Materials as in docs/scenes.md. two_sided_lights: emission from both sides.
+  World(const Scene& scene, bool two_sided_lights);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Emitter>& emitters() const { return emitters_; }  ///< chances by power; empty: no light
+  const Material& material(const Hit& hit) const { return materials_[triangles_[hit.triangle].material]; }
+  /// For models that scene files do not name yet.
+  Material& material(std::uint32_t number) { return materials_.at(number); }
+
+  /// Diffuse reflectance at a hit: the place for textures.
+  Colour diffuse_at(const Hit& hit) const { return material(hit).diffuse; }
+  /// Radiance emitted towards the side that was hit.
+  Colour emission_at(const Hit& hit) const;
+  /// Of light sampling, of the hit's point [1 / user units^2]; 0 where that side does not emit.
+  double light_density(const Hit& hit) const;
+  const Emitter& pick_emitter(double uniform) const;
+  bool emits_from_back() const { return two_sided_lights_; }
+
+  /// The hit at (b1, b2) of a triangle.
+  Hit at(std::uint32_t triangle, double b1, double b2, bool front) const;
+  /// Interpolated where the triangle has corner normals, else its own; unit.
+  Vec shading_normal(const Hit& hit) const;
+
+  /// leaving: a triangle that the ray starts on and cannot meet, or kNoTriangle. direction: unit.
+  std::optional<Hit> closest(const Vec& origin, const Vec& direction, std::uint32_t leaving) const;
+  /// Whether anything but these two triangles lies between two points.
+  bool blocked(const Vec& from, const Vec& to, std::uint32_t leaving, std::uint32_t target) const;
+  /// The hit's point, moved off the surface towards `direction` by some rounding errors of the ray caster.
+  Vec leave(const Hit& hit, const Vec& direction) const;
+
+ private:
+  struct RayCaster;
+  void collect_emitters();
+
+  std::vector<Triangle> triangles_;
+  std::vector<Material> materials_;
+  std::vector<Emitter> emitters_;
+  std::vector<double> density_;  // by triangle
+  bool two_sided_lights_;
+  double offset_ = 0;  // of leave()
+  std::unique_ptr<RayCaster> caster_;
+};
+
+}  // namespace torolux::references
