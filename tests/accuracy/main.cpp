@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `accuracy`: how far the product is from its references. Enters: scenes, settings; leaves: tables and plots in a folder.
+// `accuracy`: how far the product is from its references. Enters: scenes, settings; leaves: tables and plots in a
+// folder.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>

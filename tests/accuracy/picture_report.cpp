@@ -70,8 +70,8 @@ void add_row(Table& table, const SceneRun& run, const Setting& setting, const Pi
   const auto& energy = result.figures.energy;
   table.add({run.scene.name, setting.name, length(quality.patch_length), length(quality.element_length),
              std::to_string(quality.hemicube), std::to_string(quality.shot_points), text_of("%g", quality.unshot),
-             std::to_string(quality.samples), text_of("%.2f", 100 * error.plain_mean), text_of("%.2f", 100 * error.mean),
-             text_of("%.2f", 100 * error.rmse), text_of("%.2f", 100 * run.noise),
+             std::to_string(quality.samples), text_of("%.2f", 100 * error.plain_mean),
+             text_of("%.2f", 100 * error.mean), text_of("%.2f", 100 * error.rmse), text_of("%.2f", 100 * run.noise),
              std::to_string(result.figures.radiosity_records), std::to_string(result.figures.rays),
              text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]), text_of("%.1f", seconds)});
   const std::string stem = (choice.output / (run.scene.name + "-" + setting.name)).string();

@@ -55,8 +55,8 @@ std::uint64_t hash_of(const Scene& scene, const View& view, const references::Tr
 
 /// There, and not older than the tracer.
 bool holds(const std::filesystem::path& file) {
-  return std::filesystem::exists(file) && std::filesystem::last_write_time(file) >=
-                                              std::filesystem::last_write_time(TOROLUX_REFERENCES_LIBRARY);
+  return std::filesystem::exists(file) &&
+         std::filesystem::last_write_time(file) >= std::filesystem::last_write_time(TOROLUX_REFERENCES_LIBRARY);
 }
 
 Picture mean_of(const Picture& a, const Picture& b) {
@@ -69,12 +69,10 @@ Picture mean_of(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-references::TracedPicture reference_picture(const Scene& scene, const View& view,
-                                            const references::TraceChoice& choice,
+references::TracedPicture reference_picture(const Scene& scene, const View& view, const references::TraceChoice& choice,
                                             const std::filesystem::path& folder) {
   std::array<char, 17> hash{};
-  std::snprintf(hash.data(), hash.size(), "%016llx",
-                static_cast<unsigned long long>(hash_of(scene, view, choice)));
+  std::snprintf(hash.data(), hash.size(), "%016llx", static_cast<unsigned long long>(hash_of(scene, view, choice)));
   const std::filesystem::path first = folder / (scene.name + "-" + hash.data() + "-1.pfm");
   const std::filesystem::path second = folder / (scene.name + "-" + hash.data() + "-2.pfm");
   if (holds(first) && holds(second)) {

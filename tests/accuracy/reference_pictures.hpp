@@ -14,8 +14,7 @@ struct View {
 };
 
 /// From `folder`, or traced and written there.
-references::TracedPicture reference_picture(const Scene& scene, const View& view,
-                                            const references::TraceChoice& choice,
+references::TracedPicture reference_picture(const Scene& scene, const View& view, const references::TraceChoice& choice,
                                             const std::filesystem::path& folder);
 
 }  // namespace torolux::accuracy

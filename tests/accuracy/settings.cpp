@@ -18,8 +18,7 @@ struct Lengths {
 
 Lengths lengths_of(const Scene& scene, const Quality& quality) {
   Lengths lengths;
-  const Mesh mesh =
-      make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights});
+  const Mesh mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights});
   for (const MeshTriangle& triangle : mesh.triangles) {
     if (triangle.sides == 0) continue;
     double edge = 0;

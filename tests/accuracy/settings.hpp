@@ -10,7 +10,7 @@ namespace torolux::accuracy {
 
 struct Setting {
   const char* name;
-  double length;          ///< of patches and elements
+  double length;  ///< of patches and elements
   std::uint32_t hemicube_percent;
   std::uint32_t shot_points;  ///< 0: as settled
   double unshot;

@@ -17,7 +17,8 @@ namespace {
 /// One light path, followed from the eye.
 class Path {
  public:
-  Path(const World& world, LightFinding finding, Random& random) : world_(world), finding_(finding), random_(random) {}
+  Path(const World& world, LightFinding finding, Samples& samples)
+      : world_(world), finding_(finding), samples_(samples) {}
 
   /// A camera ray.
   Colour along(const Vec& origin, const Vec& direction) {
@@ -30,7 +31,7 @@ class Path {
   /// From a white diffuse surface.
   Colour from(const Hit& hit) {
     direction_ = hit.front ? Vec(-world_.triangles()[hit.triangle].normal) : world_.triangles()[hit.triangle].normal;
-    if (scatter(hit, Colour::Ones(), Colour::Zero(), 0)) follow();
+    if (scatter(hit, Colour::Ones(), Colour::Zero(), 0) && survives()) follow();
     return light_;
   }
 
@@ -69,7 +70,7 @@ class Path {
     const double eta = hit.front ? 1 / material.refractive_index : material.refractive_index;
     const GlassWays ways = glass(direction_, flat, round, eta);
     density_ = 0;
-    if (random_.uniform() < ways.reflectance) {
+    if (samples_.uniform() < ways.reflectance) {
       go(hit, mirror(direction_, flat, round));
       return;
     }
@@ -82,8 +83,10 @@ class Path {
   bool scatter(const Hit& hit, const Colour& diffuse, const Colour& specular, double exponent) {
     const Vec& front = world_.triangles()[hit.triangle].normal;
     const Reflection reflection(hit.front ? front : Vec(-front), -direction_, diffuse, specular, exponent);
-    if (finding_ != LightFinding::directions_only) ask_emitters(hit, reflection);
-    const Vec out = reflection.sample(random_);
+    const unsigned dimension = 1 + 3 * turns_;
+    const auto [emitter, lobe] = samples_.pair(dimension);
+    if (finding_ != LightFinding::directions_only) ask_emitters(hit, reflection, emitter, samples_.pair(dimension + 1));
+    const Vec out = reflection.sample(lobe, samples_.pair(dimension + 2));
     const double cosine = reflection.cosine(out);
     const double density = reflection.density(out);
     if (cosine <= 0 || density <= 0) return false;
@@ -94,10 +97,9 @@ class Path {
   }
 
   /// A point on an emitter, by chance.
-  void ask_emitters(const Hit& hit, const Reflection& reflection) {
-    const double pick = random_.uniform();
-    const double root = std::sqrt(random_.uniform());
-    const double along = random_.uniform();
+  void ask_emitters(const Hit& hit, const Reflection& reflection, double pick, const std::array<double, 2>& place) {
+    const double root = std::sqrt(place[0]);
+    const double along = place[1];
     if (world_.emitters().empty()) return;
     const Emitter& emitter = world_.pick_emitter(pick);
     const Triangle& triangle = world_.triangles()[emitter.triangle];
@@ -149,14 +151,14 @@ class Path {
     constexpr unsigned kSure = 3;
     if (++turns_ <= kSure) return true;
     const double chance = std::min(0.97, weight_.maxCoeff());
-    if (random_.uniform() >= chance) return false;
+    if (samples_.uniform() >= chance) return false;
     weight_ /= chance;
     return true;
   }
 
   const World& world_;
   LightFinding finding_;
-  Random& random_;
+  Samples& samples_;
   Vec origin_ = Vec::Zero();
   Vec direction_ = Vec::Zero();
   std::uint32_t leaving_ = kNoTriangle;
@@ -195,8 +197,8 @@ std::array<float, 3> to_pixel(const Colour& sum, double samples) {
 
 }  // namespace
 
-Colour incident_over_pi(const World& world, const Hit& hit, LightFinding finding, Random& random) {
-  return Path(world, finding, random).from(hit);
+Colour incident_over_pi(const World& world, const Hit& hit, LightFinding finding, Samples& samples) {
+  return Path(world, finding, samples).from(hit);
 }
 
 TracedPicture trace(const World& world, const Camera& camera, const TraceChoice& choice) {
@@ -209,18 +211,19 @@ TracedPicture trace(const World& world, const Camera& camera, const TraceChoice&
   const std::uint32_t half = choice.samples / 2;
   const auto trace_pixel = [&](std::uint32_t column, std::uint32_t row) {
     const std::size_t pixel = std::size_t{row} * choice.width + column;
-    Random random(choice.seed, pixel);
-    const auto sum = [&] {
+    // A stream for each half, so that they are independent.
+    const auto sum = [&](std::uint64_t which) {
+      Samples samples(choice.seed, 2 * pixel + which);
       Colour light = Colour::Zero();
       for (std::uint32_t sample = 0; sample < half; ++sample) {
-        const double x = column + random.uniform();
-        const double y = row + random.uniform();
-        light += Path(world, choice.finding, random).along(eye.place(), eye.direction(x, y));
+        samples.begin(sample);
+        const auto [x, y] = samples.pair(0);
+        light += Path(world, choice.finding, samples).along(eye.place(), eye.direction(column + x, row + y));
       }
       return light;
     };
-    const Colour first = sum();
-    const Colour second = sum();
+    const Colour first = sum(0);
+    const Colour second = sum(1);
     result.first_half.pixels[pixel] = to_pixel(first, half);
     result.second_half.pixels[pixel] = to_pixel(second, half);
     result.picture.pixels[pixel] = to_pixel(first + second, 2.0 * half);

@@ -35,6 +35,6 @@ TracedPicture trace(const World& world, const Camera& camera, const TraceChoice&
 
 /// One sample of the light that falls on the side of a surface that `hit` names, over pi: what white paper there would
 /// show [W/(m^2 sr)]. Multiply by its reflectance and pi for radiosity.
-Colour incident_over_pi(const World& world, const Hit& hit, LightFinding finding, Random& random);
+Colour incident_over_pi(const World& world, const Hit& hit, LightFinding finding, Samples& samples);
 
 }  // namespace torolux::references

@@ -1,20 +1,165 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-#include <cstdio>
-#include <chrono>
+// The path tracer against light that is known exactly, and against itself with other ways to find emitters.
 #include "tests/references/path_tracer.hpp"
-#include "tests/references/picture_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
 #include "host_tools/scene/load_scene.hpp"
-using namespace torolux; using namespace torolux::references;
-TEST(X, Y) {
-  const Scene scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes/cornell_box", {});
-  World world(scene, false);
-  auto t0 = std::chrono::steady_clock::now();
-  auto p = trace(world, *scene.camera, {64,64,256,1,1,LightFinding::both});
-  std::printf("%g s noise %g\n", std::chrono::duration<double>(std::chrono::steady_clock::now()-t0).count(), reference_noise(p));
-  write_picture(p.picture, "/tmp/wtR_x.png", 0);
-  auto q = trace(world, *scene.camera, {64,64,256,1,1,LightFinding::emitters_only});
-  auto r = trace(world, *scene.camera, {64,64,256,1,1,LightFinding::directions_only});
-  auto e = picture_error(q.picture, p.picture); std::printf("nee %g %g\n", e.mean, e.rmse);
-  e = picture_error(r.picture, p.picture); std::printf("bsdf %g %g\n", e.mean, e.rmse);
+#include "tests/support/memory_files.hpp"
+
+namespace torolux::references {
+namespace {
+
+struct Mean {
+  double value;
+  double error;  ///< one standard deviation, from the differences of the halves
+};
+
+/// Of all pixels and channels.
+Mean mean_of(const TracedPicture& traced) {
+  double sum = 0;
+  double square = 0;
+  for (std::size_t i = 0; i < traced.picture.pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum += static_cast<double>(traced.picture.pixels[i][c]);
+      const double half = static_cast<double>(traced.first_half.pixels[i][c] - traced.second_half.pixels[i][c]) / 2;
+      square += 3 * half * half;  // channels are not independent of each other
+    }
+  }
+  const double values = 3.0 * static_cast<double>(traced.picture.pixels.size());
+  return {sum / values, std::sqrt(square) / values};
 }
+
+/// As an OBJ file: an axis-parallel box, fronts outwards or inwards.
+std::string box(const char* material, double low, double high, bool outwards) {
+  std::string text;
+  for (int corner = 0; corner < 8; ++corner) {
+    text += "v";
+    for (int axis = 0; axis < 3; ++axis) text += " " + std::to_string((corner >> axis & 1) != 0 ? high : low);
+    text += "\n";
+  }
+  text += std::string("usemtl ") + material + "\n";
+  for (const char* face : {"-8 -6 -5 -7", "-4 -3 -1 -2", "-8 -7 -3 -4", "-6 -2 -1 -5", "-8 -4 -2 -6", "-7 -5 -1 -3"}) {
+    int corner[4];
+    std::sscanf(face, "%d %d %d %d", &corner[0], &corner[1], &corner[2], &corner[3]);
+    text += "f";
+    for (int i = 0; i < 4; ++i) text += " " + std::to_string(corner[outwards ? i : 3 - i]);
+    text += "\n";
+  }
+  return text;
+}
+
+Scene scene_of(const std::string& obj, const std::string& mtl) {
+  MemoryFiles files({{"s.obj", "mtllib s.mtl\n" + obj}, {"s.mtl", mtl}});
+  return load_scene_from(files, "s.obj", {});
+}
+
+constexpr const char* kFurnace =
+    "newmtl wall\nKd .5 .5 .5\nKe 1 1 1\nnewmtl glass\nillum 7\nNi 1.5\nTf 1 1 1\nnewmtl mirror\nillum 3\nKs .9 .9 "
+    ".9\n";
+
+TraceChoice small(std::uint32_t samples) {
+  return {24, 24, samples, 7, 1, LightFinding::both};
+}
+
+/// A closed box whose walls emit 1 and reflect one half shows 2 everywhere, also through glass that absorbs nothing,
+/// and in a mirror that reflects all.
+TEST(PathTracer, FurnaceShowsTwoThroughGlassAndInMirrors) {
+  const Scene scene =
+      scene_of(box("wall", 0, 1, false) + box("glass", .2, .45, true) + box("mirror", .55, .8, true), kFurnace);
+  auto materials = materials_of(scene);
+  for (Material& material : materials) {
+    if (material.model == Model::mirror) material.specular = Colour::Ones();
+  }
+  const World world(scene, materials, false);
+  const TracedPicture traced = trace(world, {{.1, .5, .95}, {.5, .5, .3}, {0, 1, 0}, 80}, small(256));
+  const Mean mean = mean_of(traced);
+  EXPECT_LT(mean.error, 0.003);
+  EXPECT_NEAR(mean.value, 2, 4 * mean.error);
+  for (const auto& pixel : traced.picture.pixels) EXPECT_NEAR(pixel[0], 2, 0.5);  // noise of a pixel: 0.06
+}
+
+/// Inside glass, radiance is n^2 times as high.
+TEST(PathTracer, FurnaceSeenFromInsideGlassIsBrighter) {
+  const Scene scene = scene_of(box("wall", 0, 1, false) + box("glass", .3, .7, true), kFurnace);
+  const World world(scene, false);
+  const Mean mean = mean_of(trace(world, {{.5, .5, .5}, {.5, .5, 0}, {0, 1, 0}, 60}, small(256)));
+  EXPECT_NEAR(mean.value, 2 * 1.5 * 1.5, 4 * mean.error);
+}
+
+/// A plate of glass before a lamp, square to the view: (1 - R)^2 t^2 / (1 - R^2) of it comes through, R = 0.04.
+TEST(PathTracer, PlateOfGlassLetsThroughWhatTheoryAllows) {
+  const std::string lamp = "v -9 -9 -3\nv 9 -9 -3\nv 9 9 -3\nv -9 9 -3\nusemtl lamp\nf 1 2 3 4\n";
+  const Scene scene = scene_of(lamp + box("glass", -1, 1, true),
+                               "newmtl lamp\nKd 0 0 0\nKe 1 1 1\nnewmtl glass\nillum 7\nNi 1.5\nTf .9 .9 .9\n");
+  const World world(scene, false);
+  // So narrow a view that all rays are square to the plate: cosine above 0.9999.
+  const Mean mean = mean_of(trace(world, {{0, 0, 40}, {0, 0, 0}, {0, 1, 0}, 1}, small(256)));
+  const double through = 0.96 * 0.96 * 0.81 / (1 - 0.04 * 0.04);
+  EXPECT_LT(mean.error, 0.005);
+  EXPECT_NEAR(mean.value, through, 4 * mean.error + 1e-4);
+}
+
+/// Under the centre of a unit square at distance 1: form factor 0.239456470461 (../shared/data/references.md).
+TEST(PathTracer, LightUnderASquareLampIsExact) {
+  const Scene scene = scene_of(
+      "v 0 0 1\nv 0 1 1\nv 1 1 1\nv 1 0 1\nusemtl lamp\nf 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl paper\n"
+      "f 5 6 7 8\n",
+      "newmtl lamp\nKd 0 0 0\nKe 3 3 3\nnewmtl paper\nKd .5 .5 .5\n");
+  const World world(scene, false);
+  ASSERT_EQ(world.triangles().size(), 4U);
+  for (const LightFinding finding : {LightFinding::both, LightFinding::emitters_only, LightFinding::directions_only}) {
+    Samples samples(1, 1);
+    double sum = 0;
+    constexpr std::uint32_t kSamples = 1U << 15U;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+      samples.begin(i);
+      sum += incident_over_pi(world, world.at(2, 0, 0.5, true), finding, samples)[1] / kSamples;
+    }
+    // 32768 well spread samples, 3 * 0.43 the spread of one: independent ones would be within 0.007.
+    EXPECT_NEAR(sum / 3, 0.239456470461, 0.0008) << static_cast<int>(finding);
+  }
+}
+
+/// Emitters met by chance and asked for directly: the same light. All white surfaces emit, so that chance finds them.
+TEST(PathTracer, EitherWayToFindEmittersGivesTheSameLight) {
+  const Scene scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / "cornell_box", {});
+  auto materials = materials_of(scene);
+  for (Material& material : materials) {
+    if (material.diffuse[1] > 0.7) material.emission = {1, 2, 3};
+    if (material.diffuse[1] < 0.1) {
+      material.model = Model::glossy;
+      material.specular = Colour::Constant(0.3);
+      material.exponent = 30;
+    }
+  }
+  const World world(scene, materials, false);
+  const auto mean = [&](LightFinding finding) {
+    TraceChoice choice = small(512);
+    choice.seed += static_cast<std::uint64_t>(finding);
+    choice.finding = finding;
+    return mean_of(trace(world, *scene.camera, choice));
+  };
+  const Mean both = mean(LightFinding::both);
+  for (const LightFinding finding : {LightFinding::emitters_only, LightFinding::directions_only}) {
+    const Mean one = mean(finding);
+    EXPECT_LT(one.error, 0.01 * one.value);
+    EXPECT_NEAR(one.value, both.value, 4 * std::hypot(one.error, both.error));
+  }
+}
+
+TEST(PathTracer, ThreadsDoNotShow) {
+  const Scene scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / "cornell_box", {});
+  const World world(scene, false);
+  TraceChoice choice = small(4);
+  const Picture one = trace(world, *scene.camera, choice).picture;
+  choice.threads = 3;
+  const Picture three = trace(world, *scene.camera, choice).picture;
+  EXPECT_EQ(std::memcmp(one.pixels.data(), three.pixels.data(), one.pixels.size() * sizeof(one.pixels[0])), 0);
+}
+
+}  // namespace
+}  // namespace torolux::references

@@ -68,11 +68,10 @@ double Reflection::density(const Vec& out) const {
   return (1 - specular_chance_) * diffuse + specular_chance_ * lobe;
 }
 
-Vec Reflection::sample(Random& random) const {
-  const bool lobe = specular_chance_ > 0 && random.uniform() < specular_chance_;
-  const double u = 1 - random.uniform();
-  const double turn = random.uniform();
-  return lobe ? around(mirrored_, std::pow(u, 1 / (exponent_ + 1)), turn) : around(normal_, std::sqrt(u), turn);
+Vec Reflection::sample(double choice, const std::array<double, 2>& place) const {
+  const double height = 1 - place[0];
+  return choice < specular_chance_ ? around(mirrored_, std::pow(height, 1 / (exponent_ + 1)), place[1])
+                                   : around(normal_, std::sqrt(height), place[1]);
 }
 
 Vec mirror(const Vec& in, const Vec& geometric, const Vec& shading) {

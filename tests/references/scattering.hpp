@@ -2,7 +2,6 @@
 // What surfaces do with light, for the path tracer: directions in; reflected fractions, densities and directions out.
 #pragma once
 
-#include "tests/references/random.hpp"
 #include "tests/references/world.hpp"
 
 namespace torolux::references {
@@ -19,8 +18,8 @@ class Reflection {
   Colour value(const Vec& out) const;
   /// Of sample(), per solid angle [1/sr].
   double density(const Vec& out) const;
-  /// May point below the surface (glossy): such a path has ended.
-  Vec sample(Random& random) const;
+  /// May point below the surface (glossy): such a path has ended. choice, place: uniform in [0, 1).
+  Vec sample(double choice, const std::array<double, 2>& place) const;
   double cosine(const Vec& out) const { return normal_.dot(out); }
 
  private:
@@ -43,7 +42,8 @@ struct GlassWays {
   Vec refracted;       ///< unit; means nothing at total reflection
 };
 
-/// eta: refractive index of the side that the light comes from over the other's. Born & Wolf, Principles of Optics, 1.5.
+/// eta: refractive index of the side that the light comes from over the other's. Born & Wolf, Principles of
+/// Optics, 1.5.
 GlassWays glass(const Vec& in, const Vec& geometric, const Vec& shading, double eta);
 
 }  // namespace torolux::references

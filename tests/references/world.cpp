@@ -89,8 +89,8 @@ struct World::RayCaster {
     middle = (low + high) / 2;
     size = (high - low).maxCoeff();
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
+    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), 3 * triangles.size()));
     auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
     std::uint32_t next = 0;
@@ -120,13 +120,18 @@ struct World::RayCaster {
   double size = 1;  ///< longest edge of the bounding box
 };
 
-World::World(const Scene& scene, bool two_sided_lights) : two_sided_lights_(two_sided_lights) {
-  for (const SceneMaterial& material : scene.materials) materials_.push_back(read_material(material));
+std::vector<Material> materials_of(const Scene& scene) {
+  std::vector<Material> materials;
+  for (const SceneMaterial& material : scene.materials) materials.push_back(read_material(material));
+  return materials;
+}
+
+World::World(const Scene& scene, std::vector<Material> materials, bool two_sided_lights)
+    : materials_(std::move(materials)), two_sided_lights_(two_sided_lights) {
   for (const SceneTriangle& from : scene.triangles) {
     Triangle& triangle = triangles_.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) triangle.corner[i] = vec(scene.positions[from.position[i]]);
-    const Vec across =
-        (triangle.corner[1] - triangle.corner[0]).cross(triangle.corner[2] - triangle.corner[0]);
+    const Vec across = (triangle.corner[1] - triangle.corner[0]).cross(triangle.corner[2] - triangle.corner[0]);
     triangle.area = across.norm() / 2;
     triangle.normal = across.normalized();
     triangle.material = from.material;

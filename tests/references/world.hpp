@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene as the references see it: the product's Scene in; triangles, materials, emitters and closest hits (Embree) out.
+// A scene as the references see it: the product's Scene in; triangles, materials, emitters and closest hits (Embree)
+// out.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,12 +29,12 @@ enum class Model : std::uint8_t { diffuse, mirror, glass, glossy };
 
 struct Material {
   Model model = Model::diffuse;
-  Colour diffuse = Colour::Zero();       ///< Kd, of diffuse and glossy
-  Colour specular = Colour::Zero();      ///< Ks: of a mirror its reflectance, of glossy the lobe's at normal incidence
-  double exponent = 0;                   ///< Ns of glossy, >= 0
+  Colour diffuse = Colour::Zero();        ///< Kd, of diffuse and glossy
+  Colour specular = Colour::Zero();       ///< Ks: of a mirror its reflectance, of glossy the lobe's at normal incidence
+  double exponent = 0;                    ///< Ns of glossy, >= 0
   Colour transmittance = Colour::Ones();  ///< Tf of glass, at each crossing
-  double refractive_index = 1.5;         ///< Ni of glass, inside over outside
-  Colour emission = Colour::Zero();      ///< Ke, radiance [W/(m^2 sr)]
+  double refractive_index = 1.5;          ///< Ni of glass, inside over outside
+  Colour emission = Colour::Zero();       ///< Ke, radiance [W/(m^2 sr)]
 };
 
 inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
@@ -60,10 +61,15 @@ struct Emitter {
   double density;       ///< of a sampled point [1 / user units^2]
 };
 
+/// The scene's, by number, as docs/scenes.md has them.
+std::vector<Material> materials_of(const Scene& scene);
+
 class World {
  public:
-  /// Materials as in docs/scenes.md. two_sided_lights: emission from both sides.
-  World(const Scene& scene, bool two_sided_lights);
+  /// two_sided_lights: emission from both sides.
+  World(const Scene& scene, bool two_sided_lights) : World(scene, materials_of(scene), two_sided_lights) {}
+  /// With other materials in place of the scene's, by number: for models that scene files do not name yet.
+  World(const Scene& scene, std::vector<Material> materials, bool two_sided_lights);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -73,8 +79,6 @@ class World {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<Emitter>& emitters() const { return emitters_; }  ///< chances by power; empty: no light
   const Material& material(const Hit& hit) const { return materials_[triangles_[hit.triangle].material]; }
-  /// For models that scene files do not name yet.
-  Material& material(std::uint32_t number) { return materials_.at(number); }
 
   /// Diffuse reflectance at a hit: the place for textures.
   Colour diffuse_at(const Hit& hit) const { return material(hit).diffuse; }
