@@ -11,7 +11,6 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/settle.hpp"
 #include "host_tools/mesh/mesh.hpp"
-#include "tests/accuracy/reference_pictures.hpp"
 #include "tests/accuracy/settings.hpp"
 #include "tests/accuracy/table.hpp"
 #include "tests/references/picture_error.hpp"
@@ -87,13 +86,10 @@ void add_scene(Table& table, const std::filesystem::path& path, const PictureRep
   // One PE and many records: no time in hand-overs. The picture is the same on any machine.
   run.settled.machine.columns = run.settled.machine.rows = 1;
   run.settled.machine.description.records.credits_per_pe = 2048;
-  references::TraceChoice trace;
-  trace.width = run.settled.quality.width;
-  trace.height = run.settled.quality.height;
-  trace.samples = choice.reference_samples;
-  trace.threads = choice.threads;
-  run.reference = reference_picture(scene, {run.settled.camera, run.settled.quality.two_sided_lights}, trace,
-                                    choice.output / "references");
+  const Quality& quality = run.settled.quality;
+  run.reference =
+      reference_picture(scene, {run.settled.camera, quality.two_sided_lights}, {quality.width, quality.height},
+                        choice.reference, choice.threads, choice.output / "references");
   run.noise = references::reference_noise(run.reference);
   write_picture(run.reference.picture, choice.output / (scene.name + "-reference.png"), run.settled.exposure_ev);
   for (const Setting& setting : kSettings) {

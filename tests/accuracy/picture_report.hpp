@@ -6,15 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "tests/accuracy/reference_pictures.hpp"
+
 namespace torolux::accuracy {
 
 struct PictureReportChoice {
   std::vector<std::filesystem::path> scenes;
   std::vector<std::string> settings;  ///< names of kSettings; empty: all
   std::string engine = "native";
-  std::uint32_t reference_samples = 1024;  ///< per pixel
-  unsigned threads = 0;                    ///< of this computer
-  std::filesystem::path output;            ///< folder
+  ReferenceEffort reference;
+  unsigned threads = 0;          ///< of this computer
+  std::filesystem::path output;  ///< folder
 };
 
 /// Renders every scene at every setting; writes pictures.csv, pictures.md and, for each scene, its reference, the

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "host_tools/scene/vec.hpp"
-#include "tests/accuracy/table.hpp"
+#include "tests/references/picture_error.hpp"
 
 namespace torolux::accuracy {
 namespace {
@@ -29,7 +29,8 @@ class Hash {
   std::uint64_t state_ = 0xCBF29CE484222325U;
 };
 
-std::uint64_t hash_of(const Scene& scene, const View& view, const references::TraceChoice& choice) {
+std::uint64_t hash_of(const Scene& scene, const View& view, const std::array<std::uint32_t, 2>& size,
+                      const ReferenceEffort& effort) {
   Hash hash;
   for (const Vec3d& position : scene.positions) hash.add(position);
   for (const Vec3d& normal : scene.normals) hash.add(normal);
@@ -47,9 +48,9 @@ std::uint64_t hash_of(const Scene& scene, const View& view, const references::Tr
   hash.add(view.camera.up);
   hash.add(view.camera.field_of_view_degrees);
   hash.add(std::uint64_t{view.two_sided_lights});
-  hash.add(std::uint64_t{choice.width} << 32U | choice.height);
-  hash.add(std::uint64_t{choice.samples});
-  hash.add(choice.seed);
+  hash.add(std::uint64_t{size[0]} << 32U | size[1]);
+  hash.add(std::uint64_t{effort.first_samples} << 32U | effort.most_samples);
+  hash.add(effort.noise);
   return hash.value();
 }
 
@@ -62,17 +63,38 @@ bool holds(const std::filesystem::path& file) {
 Picture mean_of(const Picture& a, const Picture& b) {
   Picture mean = a;
   for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) mean.pixels[i][c] = (a.pixels[i][c] + b.pixels[i][c]) / 2;
+    for (std::size_t c = 0; c < 3; ++c) {
+      mean.pixels[i][c] = (a.pixels[i][c] + b.pixels[i][c]) / 2;
+    }
   }
   return mean;
 }
 
+references::TracedPicture trace_until_smooth(const references::World& world, const Camera& camera,
+                                             references::TraceChoice choice, const ReferenceEffort& effort) {
+  references::TracedPicture sum = references::trace(world, camera, choice);
+  std::uint32_t done = choice.samples;
+  while (references::reference_noise(sum) > effort.noise && done < effort.most_samples) {
+    choice.samples = done;  // as many again
+    ++choice.seed;
+    const references::TracedPicture more = references::trace(world, camera, choice);
+    sum = {mean_of(sum.picture, more.picture), mean_of(sum.first_half, more.first_half),
+           mean_of(sum.second_half, more.second_half)};
+    done *= 2;
+    std::printf("%u paths per pixel: noise %.2f %%\n", done, 100 * references::reference_noise(sum));
+    std::fflush(stdout);
+  }
+  return sum;
+}
+
 }  // namespace
 
-references::TracedPicture reference_picture(const Scene& scene, const View& view, const references::TraceChoice& choice,
-                                            const std::filesystem::path& folder) {
+references::TracedPicture reference_picture(const Scene& scene, const View& view,
+                                            const std::array<std::uint32_t, 2>& size, const ReferenceEffort& effort,
+                                            unsigned threads, const std::filesystem::path& folder) {
   std::array<char, 17> hash{};
-  std::snprintf(hash.data(), hash.size(), "%016llx", static_cast<unsigned long long>(hash_of(scene, view, choice)));
+  std::snprintf(hash.data(), hash.size(), "%016llx",
+                static_cast<unsigned long long>(hash_of(scene, view, size, effort)));
   const std::filesystem::path first = folder / (scene.name + "-" + hash.data() + "-1.pfm");
   const std::filesystem::path second = folder / (scene.name + "-" + hash.data() + "-2.pfm");
   if (holds(first) && holds(second)) {
@@ -81,8 +103,13 @@ references::TracedPicture reference_picture(const Scene& scene, const View& view
     return kept;
   }
   std::filesystem::create_directories(folder);
-  references::TracedPicture traced =
-      references::trace(references::World(scene, view.two_sided_lights), view.camera, choice);
+  references::TraceChoice choice;
+  choice.width = size[0];
+  choice.height = size[1];
+  choice.samples = effort.first_samples;
+  choice.threads = threads;
+  const references::World world(scene, view.two_sided_lights);
+  references::TracedPicture traced = trace_until_smooth(world, view.camera, choice, effort);
   write_picture(traced.first_half, first, 0);
   write_picture(traced.second_half, second, 0);
   return traced;

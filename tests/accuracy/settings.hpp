@@ -21,7 +21,7 @@ inline constexpr std::array<Setting, 4> kSettings = {{
     {"coarse", 2, 50, 1, 3, 100},
     {"default", 1, 100, 0, 1, 100},
     {"fine", 0.5, 100, 0, 0.3, 400},
-    {"finer", 0.5, 200, 4, 0.1, 400},
+    {"finer", 0.5, 100, 4, 0.1, 400},
 }};
 
 /// `settled`: as for the command line; lengths that are chosen by themselves are looked up first.

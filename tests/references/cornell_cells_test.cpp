@@ -58,7 +58,8 @@ TEST(CornellCells, AreThoseOfAnIndependentPathTracer) {
   const double error = test::cell_error(reference, [&](std::size_t q, int cu, int cv) {
     return traced[q].radiance[static_cast<std::size_t>(cv)][static_cast<std::size_t>(cu)];
   });
-  // The noise of 1024 paths a cell: it was 5.9 % with 64, 1.4 % with 1024, and is 0.46 % with 16384, with that of the file in it.
+  // The noise of 1024 paths a cell: it was 5.9 % with 64, 1.4 % with 1024, and is 0.46 % with 16384, with that of the
+  // file in it.
   EXPECT_LT(error, 0.018);
 }
 

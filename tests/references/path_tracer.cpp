@@ -100,8 +100,8 @@ class Path {
   void ask_emitters(const Hit& hit, const Reflection& reflection, double pick, const std::array<double, 2>& place) {
     const double root = std::sqrt(place[0]);
     const double along = place[1];
-    if (world_.emitters().empty()) return;
-    const Emitter& emitter = world_.pick_emitter(pick);
+    const EmitterChoice emitter = world_.pick_emitter(hit.point, pick);
+    if (emitter.density == 0) return;
     const Triangle& triangle = world_.triangles()[emitter.triangle];
     const Hit target = world_.at(emitter.triangle, root * (1 - along), root * along, true);
     const Vec way = target.point - hit.point;
@@ -121,15 +121,14 @@ class Path {
 
   /// What the emitter that the path has come upon adds.
   void meet_emitter(const Hit& hit) {
-    const double light_density = world_.light_density(hit);
-    if (light_density == 0) return;
+    if ((world_.emission_at(hit) == 0).all()) return;
     double share = 1;
     if (density_ > 0) {
-      if (finding_ == LightFinding::emitters_only) return;
+      if (finding_ == LightFinding::emitters_only) return;  // asked for where the path was turned
       if (finding_ == LightFinding::both) {
         const double cosine = std::fabs(direction_.dot(world_.triangles()[hit.triangle].normal));
-        const double distance2 = (hit.point - origin_).squaredNorm();
-        share = power(density_, light_density * distance2 / cosine);
+        const double distance2 = (hit.point - vertex_).squaredNorm();
+        share = power(density_, world_.light_density(vertex_, hit) * distance2 / cosine);
       }
     }
     light_ += weight_ * radiance_scale_ * world_.emission_at(hit) * share;
@@ -141,6 +140,7 @@ class Path {
   }
 
   void go(const Hit& hit, const Vec& direction) {
+    vertex_ = hit.point;
     origin_ = world_.leave(hit, direction);
     direction_ = direction;
     leaving_ = hit.triangle;
@@ -159,7 +159,8 @@ class Path {
   const World& world_;
   LightFinding finding_;
   Samples& samples_;
-  Vec origin_ = Vec::Zero();
+  Vec vertex_ = Vec::Zero();  // where the path was last turned
+  Vec origin_ = Vec::Zero();  // the same, off the surface
   Vec direction_ = Vec::Zero();
   std::uint32_t leaving_ = kNoTriangle;
   Colour weight_ = Colour::Ones();

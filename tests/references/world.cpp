@@ -5,7 +5,6 @@
 #include <embree3/rtcore.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -150,33 +149,49 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::collect_emitters() {
-  density_.assign(triangles_.size(), 0);
-  double total = 0;
+  emitter_of_.assign(triangles_.size(), kNoTriangle);
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    const double power = materials_[triangles_[t].material].emission.mean() * triangles_[t].area;
+    const Triangle& triangle = triangles_[t];
+    const double power = materials_[triangle.material].emission.mean() * triangle.area;
     if (!(power > 0)) continue;
-    total += power;
-    emitters_.push_back({t, total, power / triangles_[t].area});
+    emitter_of_[t] = static_cast<std::uint32_t>(emitters_.size());
+    emitters_.push_back({t, power, (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3});
   }
-  for (Emitter& emitter : emitters_) {
-    emitter.chance_below /= total;
-    emitter.density /= total;
-    density_[emitter.triangle] = emitter.density;
-  }
+}
+
+/// By the square of the distance, as if nothing were between; no more than that close by, where that would overrate it.
+double World::expected_light(const Emitter& emitter, const Vec& point) const {
+  const Triangle& triangle = triangles_[emitter.triangle];
+  const Vec way = point - emitter.centre;
+  if (!two_sided_lights_ && way.dot(triangle.normal) <= 0) return 0;
+  return emitter.power / (way.squaredNorm() + triangle.area);
 }
 
 Colour World::emission_at(const Hit& hit) const {
   return hit.front || two_sided_lights_ ? material(hit).emission : Colour::Zero();
 }
 
-double World::light_density(const Hit& hit) const {
-  return hit.front || two_sided_lights_ ? density_[hit.triangle] : 0;
+double World::light_density(const Vec& point, const Hit& hit) const {
+  if ((!hit.front && !two_sided_lights_) || emitter_of_[hit.triangle] == kNoTriangle) return 0;
+  double all = 0;
+  for (const Emitter& emitter : emitters_) all += expected_light(emitter, point);
+  if (!(all > 0)) return 0;
+  return expected_light(emitters_[emitter_of_[hit.triangle]], point) / (all * triangles_[hit.triangle].area);
 }
 
-const Emitter& World::pick_emitter(double uniform) const {
-  const auto found = std::upper_bound(emitters_.begin(), emitters_.end(), uniform,
-                                      [](double u, const Emitter& emitter) { return u < emitter.chance_below; });
-  return found == emitters_.end() ? emitters_.back() : *found;
+EmitterChoice World::pick_emitter(const Vec& point, double uniform) const {
+  double all = 0;
+  for (const Emitter& emitter : emitters_) all += expected_light(emitter, point);
+  double rest = uniform * all;
+  EmitterChoice choice{kNoTriangle, 0};
+  for (const Emitter& emitter : emitters_) {
+    const double expected = expected_light(emitter, point);
+    if (!(expected > 0)) continue;
+    choice = {emitter.triangle, expected / (all * triangles_[emitter.triangle].area)};
+    rest -= expected;
+    if (rest < 0) break;
+  }
+  return choice;
 }
 
 Hit World::at(std::uint32_t triangle, double b1, double b2, bool front) const {

@@ -54,11 +54,17 @@ struct Hit {
   Vec point;
 };
 
-/// A triangle that emits, and how often light sampling takes it.
+/// A triangle that emits.
 struct Emitter {
   std::uint32_t triangle;
-  double chance_below;  ///< sum of the chances up to and with this one; the last is 1
-  double density;       ///< of a sampled point [1 / user units^2]
+  double power;  ///< radiance * area, mean of the channels
+  Vec centre;
+};
+
+/// One of them, chosen by chance.
+struct EmitterChoice {
+  std::uint32_t triangle;
+  double density;  ///< of a point that is then taken evenly on it [1 / user units^2]; 0: no emitter sheds light there
 };
 
 /// The scene's, by number, as docs/scenes.md has them.
@@ -77,16 +83,17 @@ class World {
   World& operator=(const World&) = delete;
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  const std::vector<Emitter>& emitters() const { return emitters_; }  ///< chances by power; empty: no light
   const Material& material(const Hit& hit) const { return materials_[triangles_[hit.triangle].material]; }
 
   /// Diffuse reflectance at a hit: the place for textures.
   Colour diffuse_at(const Hit& hit) const { return material(hit).diffuse; }
   /// Radiance emitted towards the side that was hit.
   Colour emission_at(const Hit& hit) const;
-  /// Of light sampling, of the hit's point [1 / user units^2]; 0 where that side does not emit.
-  double light_density(const Hit& hit) const;
-  const Emitter& pick_emitter(double uniform) const;
+  /// An emitter for the light at a point: near and strong ones more often, none whose back is towards it.
+  /// uniform: in [0, 1).
+  EmitterChoice pick_emitter(const Vec& point, double uniform) const;
+  /// What pick_emitter(point) has for the triangle of a hit; 0 where it never takes that.
+  double light_density(const Vec& point, const Hit& hit) const;
   bool emits_from_back() const { return two_sided_lights_; }
 
   /// The hit at (b1, b2) of a triangle.
@@ -104,11 +111,12 @@ class World {
  private:
   struct RayCaster;
   void collect_emitters();
+  double expected_light(const Emitter& emitter, const Vec& point) const;
 
   std::vector<Triangle> triangles_;
   std::vector<Material> materials_;
   std::vector<Emitter> emitters_;
-  std::vector<double> density_;  // by triangle
+  std::vector<std::uint32_t> emitter_of_;  // by triangle; kNoTriangle: none
   bool two_sided_lights_;
   double offset_ = 0;  // of leave()
   std::unique_ptr<RayCaster> caster_;
