@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "tests/accuracy/picture_report.hpp"
+#include "tests/accuracy/surface_report.hpp"
 #include "tests/support/render_support.hpp"
 
 namespace {
@@ -30,7 +31,7 @@ std::vector<std::filesystem::path> all_scenes() {
 
 int main(int argc, char** argv) {
   CLI::App app("Compares pictures with the path tracer. TOROLUX_MORE_SCENES: a folder with further .obj files.");
-  accuracy::PictureReportChoice choice;
+  accuracy::ReportChoice choice;
   choice.output = "accuracy";
   app.add_option("--scene", choice.scenes, "folder, .toml or .obj; absent: all of scenes/ and TOROLUX_MORE_SCENES");
   app.add_option("--setting", choice.settings, "coarse, default, fine, finer; absent: all");
@@ -40,10 +41,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--threads", choice.threads, "0: all cores")->capture_default_str();
   app.add_option("--output", choice.output, "folder")->capture_default_str();
+  std::vector<std::string> reports;
+  app.add_option("reports", reports, "pictures, surfaces; absent: all")->check(CLI::IsMember({"pictures", "surfaces"}));
   CLI11_PARSE(app, argc, argv);
   try {
     if (choice.scenes.empty()) choice.scenes = all_scenes();
-    report_pictures(choice);
+    const auto wanted = [&](const char* name) {
+      return reports.empty() || std::find(reports.begin(), reports.end(), name) != reports.end();
+    };
+    if (wanted("surfaces")) report_surfaces(choice);
+    if (wanted("pictures")) report_pictures(choice);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "accuracy: %s\n", error.what());
     return 1;

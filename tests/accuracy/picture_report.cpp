@@ -2,16 +2,11 @@
 // See picture_report.hpp.
 #include "tests/accuracy/picture_report.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "emulator/errors.hpp"
-#include "host_tools/cli/settle.hpp"
-#include "host_tools/mesh/mesh.hpp"
-#include "tests/accuracy/settings.hpp"
 #include "tests/accuracy/table.hpp"
 #include "tests/references/picture_error.hpp"
 #include "tests/support/render_support.hpp"
@@ -19,25 +14,7 @@
 namespace torolux::accuracy {
 namespace {
 
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-Scene load(const std::filesystem::path& path) {
-  Scene scene = load_scene(path, {});
-  const bool lit = std::ranges::any_of(scene.materials, emits);
-  if (lit) return scene;
-  SceneOptions options;
-  options.studio = true;
-  return load_scene(path, options);
-}
-
-/// The difference as a picture: brighter than the reference is red, darker is blue, tenths of the clamp are one unit.
+/// The difference as a picture: brighter than the reference is red, darker is blue.
 Picture signed_difference(const Picture& picture, const Picture& reference, double clamp) {
   Picture result = reference;
   const auto most = static_cast<float>(clamp);
@@ -51,56 +28,48 @@ Picture signed_difference(const Picture& picture, const Picture& reference, doub
   return result;
 }
 
-struct SceneRun {
-  const Scene& scene;
-  Settled settled;
-  references::TracedPicture reference;
+struct Reference {
+  references::TracedPicture traced;
   double noise;
 };
 
-void add_row(Table& table, const SceneRun& run, const Setting& setting, const PictureReportChoice& choice) {
+void add_row(Table& table, const SceneRun& run, const Reference& reference, const Setting& setting,
+             const ReportChoice& choice) {
   const Quality quality = quality_at(setting, run.settled.quality, run.scene);
   const double before = cpu_seconds();
   const RenderResult result =
       render(run.scene, run.settled.camera, quality, run.settled.machine, {}, test::pe_image(), {});
   const double seconds = cpu_seconds() - before;
-  const references::PictureError error = references::picture_error(result.picture, run.reference.picture);
+  const references::PictureError error = references::picture_error(result.picture, reference.traced.picture);
   const auto length = [](const std::optional<double>& value) { return value ? text_of("%.4g", *value) : "auto"; };
   const auto& energy = result.figures.energy;
   table.add({run.scene.name, setting.name, length(quality.patch_length), length(quality.element_length),
              std::to_string(quality.hemicube), std::to_string(quality.shot_points), text_of("%g", quality.unshot),
              std::to_string(quality.samples), text_of("%.2f", 100 * error.plain_mean),
-             text_of("%.2f", 100 * error.mean), text_of("%.2f", 100 * error.rmse), text_of("%.2f", 100 * run.noise),
-             std::to_string(result.figures.radiosity_records), std::to_string(result.figures.rays),
-             text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]), text_of("%.1f", seconds)});
+             text_of("%.2f", 100 * error.mean), text_of("%.2f", 100 * error.rmse),
+             text_of("%.2f", 100 * reference.noise), std::to_string(result.figures.radiosity_records),
+             std::to_string(result.figures.rays), text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]),
+             text_of("%.1f", seconds)});
   const std::string stem = (choice.output / (run.scene.name + "-" + setting.name)).string();
   write_picture(result.picture, stem + ".exr", 0);
-  write_picture(signed_difference(result.picture, run.reference.picture, error.clamp), stem + "-difference.png", 0);
+  write_picture(signed_difference(result.picture, reference.traced.picture, error.clamp), stem + "-difference.png", 0);
 }
 
-void add_scene(Table& table, const std::filesystem::path& path, const PictureReportChoice& choice) {
-  const Scene scene = load(path);
-  SceneRun run{scene, settle({}, scene), {}, 0};
-  run.settled.machine.engine = choice.engine;
-  run.settled.machine.threads = choice.threads;
-  // One PE and many records: no time in hand-overs. The picture is the same on any machine.
-  run.settled.machine.columns = run.settled.machine.rows = 1;
-  run.settled.machine.description.records.credits_per_pe = 2048;
+void add_scene(Table& table, const std::filesystem::path& path, const ReportChoice& choice) {
+  const SceneRun run = settle_scene(path, choice);
   const Quality& quality = run.settled.quality;
-  run.reference =
-      reference_picture(scene, {run.settled.camera, quality.two_sided_lights}, {quality.width, quality.height},
-                        choice.reference, choice.threads, choice.output / "references");
-  run.noise = references::reference_noise(run.reference);
-  write_picture(run.reference.picture, choice.output / (scene.name + "-reference.png"), run.settled.exposure_ev);
-  for (const Setting& setting : kSettings) {
-    if (!choice.settings.empty() && std::ranges::find(choice.settings, setting.name) == choice.settings.end()) continue;
-    add_row(table, run, setting, choice);
-  }
+  Reference reference{
+      reference_picture(run.scene, {run.settled.camera, quality.two_sided_lights}, {quality.width, quality.height},
+                        choice.reference, choice.threads, choice.output / "references"),
+      0};
+  reference.noise = references::reference_noise(reference.traced);
+  write_picture(reference.traced.picture, choice.output / (run.scene.name + "-reference.png"), run.settled.exposure_ev);
+  for (const Setting& setting : chosen_settings(choice)) add_row(table, run, reference, setting, choice);
 }
 
 }  // namespace
 
-void report_pictures(const PictureReportChoice& choice) {
+void report_pictures(const ReportChoice& choice) {
   std::filesystem::create_directories(choice.output);
   Table table({"scene", "setting", "patches", "elements", "hemicube", "shot points", "unshot", "samples",
                "mean error [%]", "clamped mean error [%]", "rel. RMSE [%]", "noise of the reference [%]", "records",
