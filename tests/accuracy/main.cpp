@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tests/accuracy/element_report.hpp"
 #include "tests/accuracy/picture_report.hpp"
 #include "tests/accuracy/surface_report.hpp"
 #include "tests/support/render_support.hpp"
@@ -42,13 +43,16 @@ int main(int argc, char** argv) {
   app.add_option("--threads", choice.threads, "0: all cores")->capture_default_str();
   app.add_option("--output", choice.output, "folder")->capture_default_str();
   std::vector<std::string> reports;
-  app.add_option("reports", reports, "pictures, surfaces; absent: all")->check(CLI::IsMember({"pictures", "surfaces"}));
+  app.add_option("reports", reports, "form-factors, dense, surfaces, pictures; absent: all")
+      ->check(CLI::IsMember({"form-factors", "dense", "surfaces", "pictures"}));
   CLI11_PARSE(app, argc, argv);
   try {
     if (choice.scenes.empty()) choice.scenes = all_scenes();
     const auto wanted = [&](const char* name) {
       return reports.empty() || std::find(reports.begin(), reports.end(), name) != reports.end();
     };
+    if (wanted("form-factors")) report_form_factors(choice);
+    if (wanted("dense")) report_dense(choice);
     if (wanted("surfaces")) report_surfaces(choice);
     if (wanted("pictures")) report_pictures(choice);
   } catch (const std::exception& error) {

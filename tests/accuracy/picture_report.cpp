@@ -43,13 +43,14 @@ void add_row(Table& table, const SceneRun& run, const Reference& reference, cons
   const references::PictureError error = references::picture_error(result.picture, reference.traced.picture);
   const auto length = [](const std::optional<double>& value) { return value ? text_of("%.4g", *value) : "auto"; };
   const auto& energy = result.figures.energy;
-  table.add({run.scene.name, setting.name, length(quality.patch_length), length(quality.element_length),
-             std::to_string(quality.hemicube), std::to_string(quality.shot_points), text_of("%g", quality.unshot),
-             std::to_string(quality.samples), text_of("%.2f", 100 * error.plain_mean),
-             text_of("%.2f", 100 * error.mean), text_of("%.2f", 100 * error.rmse),
-             text_of("%.2f", 100 * reference.noise), std::to_string(result.figures.radiosity_records),
-             std::to_string(result.figures.rays), text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]),
-             text_of("%.1f", seconds)});
+  table.add(
+      {run.scene.name, setting.name, length(quality.patch_length), length(quality.element_length),
+       std::to_string(quality.hemicube), std::to_string(quality.shot_points), text_of("%g", quality.unshot),
+       std::to_string(quality.samples), text_of("%.2f", 100 * error.plain_mean), text_of("%.2f", 100 * error.mean),
+       text_of("%.2f", 100 * error.rmse), text_of("%.2f", 100 * reference.noise),
+       text_of("%.2f", 100 * std::sqrt(std::fmax(0, error.rmse * error.rmse - reference.noise * reference.noise))),
+       std::to_string(result.figures.radiosity_records), std::to_string(result.figures.rays),
+       text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]), text_of("%.1f", seconds)});
   const std::string stem = (choice.output / (run.scene.name + "-" + setting.name)).string();
   write_picture(result.picture, stem + ".exr", 0);
   write_picture(signed_difference(result.picture, reference.traced.picture, error.clamp), stem + "-difference.png", 0);
@@ -72,8 +73,8 @@ void add_scene(Table& table, const std::filesystem::path& path, const ReportChoi
 void report_pictures(const ReportChoice& choice) {
   std::filesystem::create_directories(choice.output);
   Table table({"scene", "setting", "patches", "elements", "hemicube", "shot points", "unshot", "samples",
-               "mean error [%]", "clamped mean error [%]", "rel. RMSE [%]", "noise of the reference [%]", "records",
-               "camera rays", "unshot at the end [%]", "CPU [s]"});
+               "mean error [%]", "clamped mean error [%]", "rel. RMSE [%]", "noise of the reference [%]",
+               "RMSE without it [%]", "records", "camera rays", "unshot at the end [%]", "CPU [s]"});
   for (const auto& scene : choice.scenes) {
     try {
       add_scene(table, scene, choice);
