@@ -48,7 +48,7 @@ std::vector<WeightedPoint> points_of(const DenseElement& element, unsigned cells
   for (unsigned row = 0; row < cells; ++row) {
     for (unsigned column = 0; column < 2 * (cells - row) - 1; ++column) {
       const bool inverted = column % 2 == 1;
-      const double b1 = (column / 2 + (inverted ? 1 : 0)) * unit;
+      const double b1 = ((column + 1) >> 1U) * unit;
       const double b2 = (row + (inverted ? 1 : 0)) * unit;
       for (const RulePoint& rule : kRule) {
         const double u = b1 + (inverted ? -rule.a : rule.a) * unit;

@@ -39,8 +39,10 @@ double mean_factor(const Rectangle& from, std::span<const Vec> to, int cells) {
     for (int j = 0; j < 5 * cells; ++j) {
       const auto a = static_cast<std::size_t>(i % 5);
       const auto b = static_cast<std::size_t>(j % 5);
-      const double u = (i / 5 + (kPlace[a] + 1) / 2) / cells;
-      const double v = (j / 5 + (kPlace[b] + 1) / 2) / cells;
+      const int column = i / 5;
+      const int row = j / 5;
+      const double u = (column + (kPlace[a] + 1) / 2) / cells;
+      const double v = (row + (kPlace[b] + 1) / 2) / cells;
       const Vec point(from.x0 + u * (from.x1 - from.x0), from.y0 + v * (from.y1 - from.y0), 0);
       sum += kWeight[a] * kWeight[b] / 4 * point_to_polygon(point, {0, 0, 1}, to);
     }
