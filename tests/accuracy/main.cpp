@@ -37,6 +37,9 @@ int main(int argc, char** argv) {
   app.add_option("--scene", choice.scenes, "folder, .toml or .obj; absent: all of scenes/ and TOROLUX_MORE_SCENES");
   app.add_option("--setting", choice.settings, "coarse, default, fine, finer; absent: all");
   app.add_option("--engine", choice.engine, "of the product")->capture_default_str();
+  app.add_option("--shrink", choice.shrink, "pictures are so many times less wide and high than the scene's own")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   app.add_option("--noise", choice.reference.noise, "of the path traced references")->capture_default_str();
   app.add_option("--most-samples", choice.reference.most_samples, "of the references, per pixel")
       ->capture_default_str();

@@ -24,6 +24,8 @@ Scene load(const std::filesystem::path& path) {
 SceneRun settle_scene(const std::filesystem::path& path, const ReportChoice& choice) {
   SceneRun run{load(path), {}};
   run.settled = settle({}, run.scene);
+  run.settled.quality.width = std::max(1U, run.settled.quality.width / choice.shrink);
+  run.settled.quality.height = std::max(1U, run.settled.quality.height / choice.shrink);
   MachineChoice& machine = run.settled.machine;
   machine.engine = choice.engine;
   machine.threads = choice.threads;

@@ -16,6 +16,7 @@ struct ReportChoice {
   std::vector<std::filesystem::path> scenes;
   std::vector<std::string> settings;  ///< names of kSettings; empty: all
   std::string engine = "native";
+  std::uint32_t shrink = 2;  ///< pictures are this many times less wide and high than the scene's own
   ReferenceEffort reference;
   std::uint32_t surface_paths = 1U << 21U;  ///< of the path tracer, on all surfaces of a scene
   unsigned threads = 0;                     ///< of this computer; 0: all cores

@@ -84,7 +84,7 @@ GlassWays glass(const Vec& in, const Vec& geometric, const Vec& shading, double 
   const Vec flat = facing(geometric, in);
   Vec round = shading.dot(flat) < 0 ? Vec(-shading) : shading;
   if (in.dot(round) >= 0) round = flat;
-  const GlassWays ways = at_interface(in, round, eta);
+  GlassWays ways = at_interface(in, round, eta);
   if (ways.reflectance < 1 && ways.refracted.dot(flat) >= 0) return at_interface(in, flat, eta);
   return ways;
 }
