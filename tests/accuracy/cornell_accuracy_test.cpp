@@ -17,8 +17,10 @@ std::array<double, 3> cell_mean(const CornellSolution& cornell, const ReferenceQ
   constexpr int kPoints = 12;
   std::array<double, 3> sum{};
   for (int i = 0; i < kPoints * kPoints; ++i) {
-    const double u = (cu + (i % kPoints + 0.5) / kPoints) / kCells;
-    const double v = (cv + (i / kPoints + 0.5) / kPoints) / kCells;
+    const int column = i % kPoints;
+    const int row = i / kPoints;
+    const double u = (cu + (column + 0.5) / kPoints) / kCells;
+    const double v = (cv + (row + 0.5) / kPoints) / kCells;
     const PlaceOnQuad place = place_on_quad(cornell.scene, reference, quad, u, v);
     const MeshTriangle& triangle = cornell.mesh.triangles[place.triangle];
     const std::uint32_t path =

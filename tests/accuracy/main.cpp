@@ -28,9 +28,7 @@ std::vector<std::filesystem::path> all_scenes() {
   return scenes;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Compares pictures with the path tracer. TOROLUX_MORE_SCENES: a folder with further .obj files.");
   accuracy::ReportChoice choice;
   choice.output = "accuracy";
@@ -49,18 +47,24 @@ int main(int argc, char** argv) {
   app.add_option("reports", reports, "form-factors, dense, surfaces, pictures; absent: all")
       ->check(CLI::IsMember({"form-factors", "dense", "surfaces", "pictures"}));
   CLI11_PARSE(app, argc, argv);
+  if (choice.scenes.empty()) choice.scenes = all_scenes();
+  const auto wanted = [&](const char* name) {
+    return reports.empty() || std::find(reports.begin(), reports.end(), name) != reports.end();
+  };
+  if (wanted("form-factors")) report_form_factors(choice);
+  if (wanted("dense")) report_dense(choice);
+  if (wanted("surfaces")) report_surfaces(choice);
+  if (wanted("pictures")) report_pictures(choice);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    if (choice.scenes.empty()) choice.scenes = all_scenes();
-    const auto wanted = [&](const char* name) {
-      return reports.empty() || std::find(reports.begin(), reports.end(), name) != reports.end();
-    };
-    if (wanted("form-factors")) report_form_factors(choice);
-    if (wanted("dense")) report_dense(choice);
-    if (wanted("surfaces")) report_surfaces(choice);
-    if (wanted("pictures")) report_pictures(choice);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "accuracy: %s\n", error.what());
     return 1;
   }
-  return 0;
 }
