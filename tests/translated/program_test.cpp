@@ -14,5 +14,26 @@ TEST(TranslatedProgram, HelloIsTheSame) {
   EXPECT_GT(outcome.instructions, 100U) << outcome.clock << " " << outcome.word(0x80000000 + 0) << outcome.failure;
 }
 
+constexpr Reg kLog = 20, kT0 = 5;
+
+/// A NaN from memory keeps its bits; one that was computed is RISC-V's. Here one register may hold either.
+TEST(TranslatedProgram, ANanFromMemoryKeepsItsBitsWhereWaysMeet) {
+  constexpr Word kNan = 0xFFC1'2345U;
+  Code code;
+  code.li(kT0, 0x2000) << csrrs(0, csr::kMstatus, kT0);  // floating point on
+  code.li(kLog, kData).li(kT0, kNan) << sw(kT0, kLog, 0);
+  for (Word computed = 0; computed < 2; ++computed) {
+    code << flw(1, kLog, 0) << flw(2, kLog, 0) << addi(kT0, 0, static_cast<std::int32_t>(1 - computed));
+    code << bne(kT0, 0, 8) << 0x0021'70D3U;                                             // fadd.s f1, f2, f2
+    code << 0x2010'81D3U << fsw(3, kLog, static_cast<std::int32_t>(4 + 8 * computed));  // fsgnj.s f3, f1, f1
+    code << fsw(1, kLog, static_cast<std::int32_t>(8 + 8 * computed));
+  }
+  code << hint(protocol::Hint::halt);
+  const Outcome outcome = run_on_all(image_of(code), "NaN");
+  ASSERT_TRUE(outcome.halted);
+  for (const Word offset : {4U, 8U}) EXPECT_EQ(outcome.word(kData + offset), kNan);
+  for (const Word offset : {12U, 16U}) EXPECT_EQ(outcome.word(kData + offset), 0x7FC0'0000U);
+}
+
 }  // namespace
 }  // namespace torolux::test

@@ -124,6 +124,12 @@ std::string BlockWriter::exact_f(unsigned n) {
   return f(n);
 }
 
+void BlockWriter::settle(RegisterSet registers) {
+  for (unsigned n = 0; n < 32; ++n) {
+    if ((registers & f_register(n)) != 0) static_cast<void>(exact_f(n));
+  }
+}
+
 std::string BlockWriter::assign_f(unsigned n, bool settled) {
   unsettled_ = settled ? unsettled_ & ~f_register(n) : unsettled_ | f_register(n);
   return f(n) + " = ";

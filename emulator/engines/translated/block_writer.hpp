@@ -27,6 +27,7 @@ class BlockWriter {
   std::string condition(const Instruction& i);
   /// Those that may hold a NaN that is not RISC-V's, as after `begin`.
   RegisterSet unsettled() const { return unsettled_; }
+  void settle(RegisterSet registers);
 
   /// Statements that leave with these registers saved. at: an expression, the address and why.
   std::string leave(RegisterSet save, const std::string& at) const;

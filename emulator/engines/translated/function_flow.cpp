@@ -25,7 +25,10 @@ FunctionFlow::FunctionFlow(const CodeMap& code, const Blocks& blocks, const Live
   };
   repeat(&FunctionFlow::update_dirty);
   repeat(&FunctionFlow::update_needed);
-  if (!blocks.observed()) repeat(&FunctionFlow::update_unsettled);
+  if (blocks.observed()) return;
+  for (auto& [address, sets] : at_) sets.unsettled = kFloatRegisters;
+  for (const std::uint32_t address : entered()) at_[address].unsettled = 0;
+  repeat(&FunctionFlow::update_unsettled);
 }
 
 std::vector<std::uint32_t> FunctionFlow::successors(const Block& block) const {
@@ -42,15 +45,19 @@ std::vector<std::uint32_t> FunctionFlow::successors(const Block& block) const {
 
 AccessFlow FunctionFlow::access_flow() const {
   AccessFlow::Successors all;
+  for (const auto& [address, sets] : at_) all[address] = successors(blocks_.all().at(address));
+  return {code_, blocks_, all, entered()};
+}
+
+std::vector<std::uint32_t> FunctionFlow::entered() const {
   std::vector<std::uint32_t> entered;
   for (const auto& [address, sets] : at_) {
     const Block& block = blocks_.all().at(address);
-    all[address] = successors(block);
     if (is_entry(block)) entered.push_back(address);
     const bool calls = block.ending == Ending::jump && code_.at(block.last)->instruction.rd != 0;
     if (calls && inside(block.end)) entered.push_back(block.end);
   }
-  return {code_, blocks_, all, entered};
+  return entered;
 }
 
 std::vector<RegisterSet> FunctionFlow::saved(const Block& block) const {
@@ -111,10 +118,16 @@ bool FunctionFlow::update_unsettled(const Block& block) {
   bool changed = false;
   for (const std::uint32_t next : successors(block)) {
     RegisterSet& set = at_[next].unsettled;
-    changed |= (writer.unsettled() & ~set) != 0;
-    set |= writer.unsettled();
+    changed |= (set & ~writer.unsettled()) != 0;
+    set &= writer.unsettled();
   }
   return changed;
+}
+
+RegisterSet FunctionFlow::to_settle(const Block& block, RegisterSet unsettled) const {
+  RegisterSet expected = 0;
+  for (const std::uint32_t next : successors(block)) expected |= needed(next) & ~this->unsettled(next);
+  return unsettled & expected;
 }
 
 }  // namespace torolux::translated

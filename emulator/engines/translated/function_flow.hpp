@@ -30,8 +30,11 @@ class FunctionFlow {
   RegisterSet dirty(std::uint32_t block) const { return at_.at(block).dirty; }
   /// Variables that are used before they are written, as the block begins.
   RegisterSet needed(std::uint32_t block) const { return at_.at(block).needed; }
-  /// f registers that may hold another NaN than RISC-V's, as the block begins.
+  /// f registers that were computed, on every way to the block, and so may hold another NaN than RISC-V's. What came
+  /// from memory on some way is none of these: its bits stay as they are, whatever they mean.
   RegisterSet unsettled(std::uint32_t block) const { return at_.at(block).unsettled; }
+  /// Of these at its end, those that must be settled there, as some way on takes them for settled.
+  RegisterSet to_settle(const Block& block, RegisterSet unsettled) const;
   /// To be saved if the interpreter goes on before each instruction of the block, then behind its last.
   std::vector<RegisterSet> saved(const Block& block) const;
 
@@ -47,6 +50,8 @@ class FunctionFlow {
   bool update_dirty(const Block& block);
   bool update_needed(const Block& block);
   bool update_unsettled(const Block& block);
+  /// Where variables come from memory: blocks reached from outside, and those behind calls.
+  std::vector<std::uint32_t> entered() const;
 
   const CodeMap& code_;
   const Blocks& blocks_;

@@ -167,6 +167,7 @@ void FunctionWriter::write_block(const Block& block) {
     if (addresses[n] == block.last && has_jump) break;
     writer_.write(placed.instruction, addresses[n], behind, saves[n]);
   }
+  writer_.settle(flow_.to_settle(block, writer_.unsettled()));
   write_ending(block, saves.back());
   body_ += "}\n";
 }

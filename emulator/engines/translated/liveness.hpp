@@ -22,6 +22,7 @@ constexpr RegisterSet f_register(unsigned n) {
   return RegisterSet{1} << (32U + n);
 }
 
+inline constexpr RegisterSet kFloatRegisters = ~RegisterSet{0} << 32U;
 RegisterSet reads_of(const Instruction& i);
 RegisterSet writes_of(const Instruction& i);
 /// Whether it may trap, so that a handler sees the registers.
