@@ -36,6 +36,7 @@ constexpr Gathering gathering(std::uint64_t time, std::uint32_t cycles) {
 
 /// Size of the rings between the two sides. The more there is room, the further a processor runs ahead of the network.
 inline constexpr std::uint32_t kMostRingBytes = 128U << 10U;
+inline constexpr std::uint32_t kHereRingBytes = 32U << 10U;   ///< of processors in this process: caches hold more of it
 inline constexpr std::uint32_t kLeastRingBytes = 16U << 10U;  ///< in a machine of many PEs
 inline constexpr unsigned kManyPes = 64;
 /// From the end of a HINT to the moment when the network side sees what it did [cycles]: the lookahead of this edge.
