@@ -94,12 +94,13 @@ TEST(SceneToml, LightByCentreFacesAsSaid) {
 }
 
 TEST(SceneToml, CameraAndDefaults) {
-  const Scene scene = with(
-      "name = 'x'\n" + kMesh +
-      "[camera]\neye = [1, 2, 3]\nlook_at = [0, 0, 0]\nup = [0, 0, 1]\nfov = 30\n"
-      "[defaults]\nwidth = 64\nheight = 32\nsamples = 9\nhemicube = 32\nshot_points = 3\nemission_records = 6\nmax_shots = 7\nbounces = 8\n"
-      "exposure = -1.5\npatches = 0.5\nelements = 0.25\nunshot = 0.05\nsubspaces = '2x2x2'\nallocation = 'block'\n"
-      "two_sided_lights = true\nseed = 5\n");
+  const Scene scene =
+      with("name = 'x'\n" + kMesh +
+           "[camera]\neye = [1, 2, 3]\nlook_at = [0, 0, 0]\nup = [0, 0, 1]\nfov = 30\n"
+           "[defaults]\nwidth = 64\nheight = 32\nsamples = 9\nhemicube = 32\nshot_points = 3\nemission_records = "
+           "6\nmax_shots = 7\nbounces = 8\n"
+           "exposure = -1.5\npatches = 0.5\nelements = 0.25\nunshot = 0.05\nsubspaces = '2x2x2'\nallocation = 'block'\n"
+           "two_sided_lights = true\nseed = 5\n");
   EXPECT_EQ(scene.name, "x");
   const Camera camera = scene.camera.value_or(Camera{});
   EXPECT_EQ(camera.eye, (Vec3d{1, 2, 3}));
