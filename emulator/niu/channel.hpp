@@ -36,8 +36,8 @@ constexpr Gathering gathering(std::uint64_t time, std::uint32_t cycles) {
 
 /// Size of the rings between the two sides. The more there is room, the further a processor runs ahead of the network.
 inline constexpr std::uint32_t kMostRingBytes = 128U << 10U;
-inline constexpr std::uint32_t kHereRingBytes = 32U << 10U;   ///< of processors in this process: caches hold more of it
-inline constexpr std::uint32_t kLeastRingBytes = 16U << 10U;  ///< in a machine of many PEs
+/// In a machine of many PEs; and for processors in this process, whose data the host's caches then hold.
+inline constexpr std::uint32_t kLeastRingBytes = 16U << 10U;
 inline constexpr unsigned kManyPes = 64;
 /// From the end of a HINT to the moment when the network side sees what it did [cycles]: the lookahead of this edge.
 inline constexpr std::uint64_t kCommandCycles = 1;
@@ -189,6 +189,6 @@ struct NiuChannel {
   ByteRing<Command, kMostRingBytes> commands;
   ByteRing<Arrival, kMostRingBytes> arrivals;
 };
-static_assert(sizeof(NiuChannel) - 2 * (kMostRingBytes - kLeastRingBytes) <= 65536);
+static_assert(sizeof(NiuChannel) - 2 * (kMostRingBytes - kLeastRingBytes) <= 62U * 1024U);
 
 }  // namespace torolux

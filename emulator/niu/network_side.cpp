@@ -23,8 +23,7 @@ NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, c
   channel.bus_queue = machine.bus.send_queue_messages;
   channel.pes = pes;
   channel.most_cycles_between_hints = machine.processor.most_cycles_between_hints;
-  const std::uint32_t few_pes = waker != nullptr ? kHereRingBytes : kMostRingBytes;
-  const std::uint32_t ring_bytes = pes > kManyPes ? kLeastRingBytes : few_pes;
+  const std::uint32_t ring_bytes = waker != nullptr || pes > kManyPes ? kLeastRingBytes : kMostRingBytes;
   channel.commands.set_bytes(ring_bytes);
   channel.arrivals.set_bytes(ring_bytes);
   channel.processor.first_free = kNoSlot;
