@@ -139,6 +139,20 @@ TEST(TranslatedControl, ChecksThatCoverOtherAccessesLetNothingThrough) {
   finish(code, "checks", Counts::ignored);
 }
 
+/// What a check says of a register says less of one that has moved on from it. Nothing else of the loop is outside, as
+/// the interpreter would go on behind it.
+TEST(TranslatedControl, AChecksReachMovesWithTheRegister) {
+  Code code = begin_with_handler();
+  lock_memory(code);
+  constexpr Reg kMoved = 23, kEnd = 24;
+  code.li(kAddress, kDataEnd - 128).li(kEnd, kDataEnd);
+  const std::int32_t begin = code.here();
+  code << lw(kT0, kAddress, 0) << addi(kMoved, kAddress, 24) << lw(kT1, kMoved, 0);
+  code << sw(kT0, kLog, 0) << sw(kT1, kLog, 4) << addi(kLog, kLog, 8) << addi(kAddress, kAddress, 4);
+  code << bne(kAddress, kEnd, begin - code.here());
+  finish(code, "moved", Counts::ignored);
+}
+
 TEST(TranslatedControl, AtomicsTrapWhereTheyCannotWork) {
   Code code = begin_with_handler();
   lock_memory(code);
