@@ -5,18 +5,12 @@
 #include <array>
 #include <string_view>
 
+#include "emulator/hexadecimal.hpp"
 #include "firmware/protocol/messages.hpp"
 
 namespace torolux {
 
 namespace {
-
-std::string hexadecimal(std::uint32_t value) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "0x";
-  for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[value >> static_cast<unsigned>(shift) & 15U];
-  return text;
-}
 
 /// RISC-V privileged architecture, table of mcause values.
 std::string cause_in_words(std::uint32_t mcause) {

@@ -137,6 +137,12 @@ Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::ma
 
 Machine::~Machine() = default;
 
+std::uint64_t MachineFigures::instructions() const {
+  std::uint64_t sum = 0;
+  for (const PeFigures& pe : pes) sum += pe.instructions;
+  return sum;
+}
+
 void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress) {
   Parts& p = *parts_;
   if (p.emulation) throw MachineFailure("a machine runs once");

@@ -53,6 +53,8 @@ struct MachineFigures {
   std::uint64_t pixels_added = 0;
   double scheduler_seconds = 0;  ///< host CPU time that the emulator itself used
   double engine_seconds = 0;     ///< host CPU time of the engine (all its processes or threads)
+
+  std::uint64_t instructions() const;  ///< of all PEs
 };
 
 class Machine {

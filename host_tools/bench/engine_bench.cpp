@@ -14,12 +14,6 @@ unsigned all_threads() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-std::uint64_t instructions_of(const MachineFigures& figures) {
-  std::uint64_t sum = 0;
-  for (const PeFigures& pe : figures.pes) sum += pe.instructions;
-  return sum;
-}
-
 RenderFigures render_on(const std::string& engine, const RenderBenchJob& job,
                         const std::function<bool(const RenderProgress&)>& progress) {
   MachineChoice machine = job.machine;
@@ -31,7 +25,7 @@ RenderFigures render_on(const std::string& engine, const RenderBenchJob& job,
 void measure(const char* engine, const RenderBenchJob& job, const std::function<bool(const RenderProgress&)>& progress,
              MachineSpeed& fastest) {
   const RenderFigures figures = render_on(engine, job, progress);
-  MachineSpeed speed{{instructions_of(figures.machine), figures.wall_seconds, figures.machine.engine_seconds},
+  MachineSpeed speed{{figures.machine.instructions(), figures.wall_seconds, figures.machine.engine_seconds},
                      figures.machine.scheduler_seconds};
   if (speed.pes.instructions_per_second() > fastest.pes.instructions_per_second()) fastest = speed;
 }
@@ -57,13 +51,13 @@ RenderBenchResult bench_render(const RenderBenchJob& job, const BenchStep& step,
   Recording recording = record(load_image(job.pe_image), job.machine.description,
                                std::size_t{job.machine.columns} * job.machine.rows, [&](const std::string& engine) {
                                  const RenderFigures figures = render_on(engine, job, progress);
-                                 return RecordedFigures{figures.local_memory_bytes, instructions_of(figures.machine)};
+                                 return RecordedFigures{figures.local_memory_bytes, figures.machine.instructions()};
                                });
   result.whole = recording.whole;
   for (unsigned i = 0; i < job.repetitions; ++i) {
     step("renders on each engine, and measures");
     measure("translated", job, progress, result.translated);
-    measure("qemu", job, progress, result.qemu);
+    measure(kQemuEngine, job, progress, result.qemu);
     step("replays the records to the PEs alone, on each engine");
     replay(recording, job.machine.threads != 0 ? job.machine.threads : all_threads(), result.bare);
   }
@@ -80,7 +74,7 @@ BareSpeeds bench_image(const std::filesystem::path& image, unsigned repetitions,
     setup.engine = engine;
     const MachineFigures figures = run_image(
         setup, loaded, [](const PeText&) {}, progress);
-    return RecordedFigures{setup.local_memory_bytes, instructions_of(figures)};
+    return RecordedFigures{setup.local_memory_bytes, figures.instructions()};
   });
   BareSpeeds result;
   for (unsigned i = 0; i < repetitions; ++i) replay(recording, 1, result);

@@ -191,7 +191,7 @@ Prediction predict(const Scene& scene, const RenderSetup& setup, const Quality& 
   Rounds(scene, setup, quality, light).run(prediction);
   predict_rays(quality, light.reflected, prediction);
   const unsigned cores = machine.threads != 0 ? machine.threads : std::max(1U, std::thread::hardware_concurrency());
-  const HostSpeed& speed = machine.engine == "qemu" ? kQemuSpeed : kTranslatedSpeed;
+  const HostSpeed& speed = machine.engine == kQemuEngine ? kQemuSpeed : kTranslatedSpeed;
   prediction.wall_seconds =
       prediction.instructions / (speed.instructions_per_second * std::min(cores, setup.placement.torus.pes())) +
       prediction.packets * speed.seconds_per_packet;

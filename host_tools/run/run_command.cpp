@@ -60,15 +60,11 @@ MachineSetup setup_from(const RunOptions& options) {
 }
 
 void print_summary(const MachineSetup& setup, const MachineFigures& figures, double wall_seconds) {
-  std::uint64_t instructions = 0;
   std::uint64_t packets = 0;
-  for (const PeFigures& pe : figures.pes) {
-    instructions += pe.instructions;
-    packets += pe.packets_delivered;
-  }
+  for (const PeFigures& pe : figures.pes) packets += pe.packets_delivered;
   std::cerr << "torolux: " << figures.pes.size() << " PEs halted at cycle " << grouped(figures.now) << " ("
             << significant(1e3 * static_cast<double>(figures.now) / setup.description.processor.clock_hertz, 4)
-            << " ms of virtual time); " << grouped(instructions) << " instructions, " << grouped(packets)
+            << " ms of virtual time); " << grouped(figures.instructions()) << " instructions, " << grouped(packets)
             << " packets; " << duration(wall_seconds) << "\n";
 }
 

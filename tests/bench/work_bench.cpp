@@ -24,9 +24,7 @@ Recording record_scene(const std::string& name) {
                 [&](const std::string& engine) {
                   machine.engine = engine;
                   const auto figures = render(scene, scene.camera.value(), quality, machine, {}, pe_image, {}).figures;
-                  RecordedFigures recorded{figures.local_memory_bytes, 0};
-                  for (const PeFigures& pe : figures.machine.pes) recorded.instructions += pe.instructions;
-                  return recorded;
+                  return RecordedFigures{figures.local_memory_bytes, figures.machine.instructions()};
                 });
 }
 

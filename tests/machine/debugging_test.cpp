@@ -6,8 +6,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -28,21 +26,6 @@ using Arguments = std::vector<std::string>;
 
 std::string image(const std::string& name) {
   return (std::filesystem::path(TOROLUX_FIRMWARE_DIR) / (name + ".elf")).string();
-}
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  EXPECT_TRUE(stream) << file;
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-/// Statistics without what depends on the computer.
-nlohmann::json statistics(const std::filesystem::path& file) {
-  nlohmann::json json = nlohmann::json::parse(contents(file));
-  json.erase("engine");
-  json.erase("wall_seconds");
-  json.erase("host");
-  return json;
 }
 
 Arguments joined(Arguments first, const Arguments& second) {

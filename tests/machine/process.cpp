@@ -2,6 +2,7 @@
 // fork, exec, wait; output into memory files.
 #include "tests/machine/process.hpp"
 
+#include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
 namespace torolux::test {
@@ -111,6 +113,20 @@ bool all_gone(const std::vector<pid_t>& processes) {
     std::this_thread::sleep_for(5ms);
   }
   return true;
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+nlohmann::json statistics(const std::filesystem::path& file) {
+  nlohmann::json json = nlohmann::json::parse(contents(file));
+  json.erase("engine");
+  json.erase("wall_seconds");
+  json.erase("host");
+  return json;
 }
 
 }  // namespace torolux::test

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,5 +50,10 @@ Finished run_torolux(const std::vector<std::string>& arguments);
 bool runs(pid_t process);
 /// Waits up to two seconds until none of them runs.
 bool all_gone(const std::vector<pid_t>& processes);
+
+/// Of a whole file.
+std::string contents(const std::filesystem::path& file);
+/// Of a file that --stats wrote, without what depends on the computer.
+nlohmann::json statistics(const std::filesystem::path& file);
 
 }  // namespace torolux::test

@@ -6,8 +6,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -35,21 +33,6 @@ Arguments small_render(const Arguments& more) {
                          "--shot-points", "1"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
-}
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  EXPECT_TRUE(stream) << file;
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-/// Statistics without what depends on the computer.
-nlohmann::json statistics(const std::filesystem::path& file) {
-  nlohmann::json json = nlohmann::json::parse(contents(file));
-  json.erase("engine");
-  json.erase("wall_seconds");
-  json.erase("host");
-  return json;
 }
 
 TEST(Render, WritesAllThatWasAskedFor) {

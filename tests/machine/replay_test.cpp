@@ -23,9 +23,7 @@ Recording record_cornell() {
   return record(load_image(pe_image()), cornell.machine.description, 4, [&](const std::string& engine) {
     cornell.machine.engine = engine;
     const RenderFigures figures = run_case(cornell).figures;
-    std::uint64_t instructions = 0;
-    for (const PeFigures& pe : figures.machine.pes) instructions += pe.instructions;
-    return RecordedFigures{figures.local_memory_bytes, instructions};
+    return RecordedFigures{figures.local_memory_bytes, figures.machine.instructions()};
   });
 }
 

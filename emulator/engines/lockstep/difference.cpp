@@ -10,6 +10,7 @@
 #include "emulator/engines/lockstep/disassembly.hpp"
 #include "emulator/engines/lockstep/parting.hpp"
 #include "emulator/engines/lockstep/trace.hpp"
+#include "emulator/hexadecimal.hpp"
 
 namespace torolux::lockstep {
 namespace {
@@ -65,12 +66,6 @@ std::string what_differs(const HintMeeting& qemu, Shadow& shadow, TranslatedImag
   if (counts && pe.cycles != qemu.clock) return "the clocks differ";
   if (counts && pe.instructions != qemu.instructions) return "the numbers of instructions differ";
   return memory_differs ? "local memory differs" : "";
-}
-
-std::string hexadecimal(std::uint32_t value) {
-  std::ostringstream text;
-  text << "0x" << std::hex << std::setw(8) << std::setfill('0') << value;
-  return text.str();
 }
 
 std::uint32_t word_at(std::span<const std::byte> memory, std::uint32_t address) {
@@ -167,7 +162,7 @@ std::optional<Difference> find_difference(const HintMeeting& qemu, Shadow& shado
   const auto offset = shadow.memories().first_difference();
   std::string what = what_differs(qemu, shadow, stop, offset.has_value());
   if (what.empty()) return std::nullopt;
-  Difference difference{std::move(what), std::nullopt};
+  Difference difference{std::move(what), stop == TranslatedImage::Stop::hint, std::nullopt};
   if (offset) difference.word = (translated::kMemoryBase + *offset) & ~3U;
   return difference;
 }
@@ -184,8 +179,7 @@ std::string report(const PeInQuestion& pe, const Difference& difference, const H
   };
   const Party of_qemu{name_of_hint(qemu.immediate), std::to_string(qemu.clock), std::to_string(qemu.instructions),
                       word_in(qemu_memory)};
-  const bool had_hint = difference.what.find("alone") == std::string::npos;
-  const Party of_translated = party(shadow.pe(), had_hint);
+  const Party of_translated = party(shadow.pe(), difference.at_hint);
   shadow.go_back();
   Way way(pe, shadow, qemu.instructions - shadow.pe().instructions + kMostMore);
   const auto parting = way.parting(qemu.clock + kMostMore);

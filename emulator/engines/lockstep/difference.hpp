@@ -19,6 +19,7 @@ using translated::TranslatedImage;
 
 struct Difference {
   std::string what;                   ///< "its clock", in the order of a sentence: "... differs"
+  bool at_hint;                       ///< the translated engine has met a HINT, too
   std::optional<std::uint32_t> word;  ///< address of the first word of local memory that differs, whatever else does
 };
 

@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "emulator/hexadecimal.hpp"
+
 namespace torolux::translated {
 namespace {
 
@@ -94,10 +96,7 @@ std::string_view type_of_load(Op op) {
 }  // namespace
 
 std::string hexadecimal(std::uint32_t value) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "0x";
-  for (unsigned shift = 32; shift != 0; shift -= 4) text += kDigits[(value >> (shift - 4)) & 15U];
-  return text + "u";
+  return torolux::hexadecimal(value) + "u";
 }
 
 void BlockWriter::line(const std::string& text) {
