@@ -27,6 +27,7 @@ enum class LayoutField : std::uint32_t {
   elements,
   hemicube,
   lattice,
+  emitters,
   stage,
   cells,
   own_slots,
@@ -42,7 +43,7 @@ struct Extent {
   Store store;
   std::uint32_t element_bytes;
 };
-constexpr std::uint32_t kStores = 12;
+constexpr std::uint32_t kStores = 13;
 
 std::array<Extent, kStores> extents(const StageLayout& l) {
   return {{
@@ -58,6 +59,7 @@ std::array<Extent, kStores> extents(const StageLayout& l) {
       {l.elements, sizeof(protocol::Element)},
       {l.hemicube, sizeof(std::uint32_t)},
       {l.lattice, sizeof(protocol::LatticeValue)},
+      {l.emitters, sizeof(protocol::Emitter)},
   }};
 }
 

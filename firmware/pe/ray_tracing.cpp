@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray records: one sample's light path, followed from the eye. Enters: a record that arrived; leaves: light for a
 // pixel, or the record for another PE.
+#include "firmware/pe/emitters.hpp"
 #include "firmware/pe/follow.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
@@ -32,6 +33,34 @@ void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
   glm::vec3 radiance = to_vector(material.diffuse) * interpolated_irradiance(pe.scene, polygon, hit);
   if (hit.front || material.emits_from_back != 0) radiance += to_vector(material.emission);
   pe.homecoming.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
+}
+
+/// From a diffuse surface on towards an emitter, if shadow rays are asked for. False: no light comes that way.
+bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
+  if (pe.scene.emitters.empty()) return false;
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const glm::vec3 to_side = hit.front ? glm::vec3(1.0F) : glm::vec3(-1.0F);
+  const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + to_vector(record.direction) * hit.t);
+  EmitterSample sample;
+  if (!sample_emitter(pe.scene, record.key, origin, shading_normal(pe.scene, polygon, hit) * to_side,
+                      unit_normal(polygon) * to_side, sample)) {
+    return false;
+  }
+  const glm::vec3 diffuse = to_vector(pe.scene.materials[polygon.material].diffuse);
+  const glm::vec3 weight = to_vector(record.weight) * diffuse * sample.irradiance_over_pi;
+  if (!worth_following(pe, weight)) return false;
+  record.weight = to_array(weight);
+  record.target = sample.polygon;
+  turn(record, origin, sample.direction, polygon.number);
+  record.flags |= protocol::kShadow;
+  return true;
+}
+
+/// A shadow ray has met something: the emitter, or what is before it. Glass and mirrors cast shadows: the light that
+/// comes by way of them is no emitter's own, and is in the lattice.
+void end_shadow(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
+  if (pe.scene.polygons[hit.polygon].number != record.target) return;
+  pe.homecoming.add_pixel(niu, record.pixel, to_vector(record.weight) * pe.scene.layout.pixel_scale);
 }
 
 /// Glass's two ways, each with what it weighs.
@@ -144,8 +173,11 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
     if (way.end == WayEnd::hit) {
       const PhaseMark<Phase::shade> mark(niu);
       const Polygon& polygon = pe.scene.polygons[way.hit.polygon];
-      if (pe.scene.materials[polygon.material].kind == MaterialKind::diffuse) {
+      if ((record.flags & protocol::kShadow) != 0) {
+        end_shadow(pe, niu, record, way.hit);
+      } else if (pe.scene.materials[polygon.material].kind == MaterialKind::diffuse) {
         see_surface(pe, niu, record, way.hit);
+        goes_on = aim_at_emitter(pe, record, way.hit);
       } else {
         goes_on = turn_ray(pe, niu.pe(), record, way.hit);
       }

@@ -25,6 +25,7 @@ struct Scene {
   std::span<const std::uint32_t> hemicube;
   // Ray tracing stage.
   std::span<const protocol::LatticeValue> lattice;
+  std::span<const protocol::Emitter> emitters;
 
   void set(const Memory& memory, const protocol::StageLayout& from) {
     layout = from;
@@ -39,6 +40,7 @@ struct Scene {
     elements = memory.store<protocol::Element>(layout.elements);
     hemicube = memory.store<const std::uint32_t>(layout.hemicube);
     lattice = memory.store<const protocol::LatticeValue>(layout.lattice);
+    emitters = memory.store<const protocol::Emitter>(layout.emitters);
   }
 
   /// Elements of one patch of a polygon.

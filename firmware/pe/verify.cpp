@@ -39,6 +39,8 @@ enum class Index : std::uint32_t {
   first_element,
   hemicube_sum,
   refractive_index,
+  emitter_corner,
+  emitter_chance,
 };
 
 class Verifier {
@@ -49,6 +51,7 @@ class Verifier {
     for (const Subspace& subspace : scene_.subspaces) check(subspace);
     for (const Polygon& polygon : scene_.polygons) check(polygon);
     for (const protocol::Material& material : scene_.materials) check(material);
+    check_emitters();
     if (scene_.layout.stage != Stage::radiosity) return;
     for (const protocol::Patch& patch : scene_.patches) check(patch);
     for (const protocol::PatchReference& reference : scene_.patch_references) check(reference);
@@ -92,12 +95,26 @@ class Verifier {
     }
   }
 
-  void check(const Polygon& p) {
-    for (const protocol::Vec3f& corner : p.corner) {
-      for (const float x : corner) {  // inside the unit cube but for rounding; not a number fails, too
-        require(x >= -0x1p-20F && x <= 1.0F + 0x1p-20F, Index::corner, p.number, 1);
-      }
+  /// Inside the unit cube but for rounding; not a number fails, too.
+  void check_corners(const std::array<protocol::Vec3f, 3>& corners, Index index, std::uint32_t number) {
+    for (const protocol::Vec3f& corner : corners) {
+      for (const float x : corner) require(x >= -0x1p-20F && x <= 1.0F + 0x1p-20F, index, number, 1);
     }
+  }
+
+  /// Whatever the random bits are, one of them is chosen.
+  void check_emitters() {
+    std::uint32_t before = 0;
+    for (const protocol::Emitter& emitter : scene_.emitters) {
+      check_corners(emitter.corner, Index::emitter_corner, emitter.polygon);
+      require(emitter.chosen_to >= before, Index::emitter_chance, emitter.chosen_to, before);
+      before = emitter.chosen_to;
+    }
+    require(scene_.emitters.empty() || before == 0xFFFF'FFFFU, Index::emitter_chance, before, 0xFFFF'FFFFU);
+  }
+
+  void check(const Polygon& p) {
+    check_corners(p.corner, Index::corner, p.number);
     below(Index::material, p.material, scene_.materials.size());
     if (p.normals != protocol::kNoPolygon) range(Index::normals, p.normals, 3, scene_.normals.size());
     const bool levels = p.element_level <= protocol::kMostLevels && p.patch_level <= p.element_level;

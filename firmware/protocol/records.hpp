@@ -27,6 +27,7 @@ enum class RecordKind : std::uint8_t {
 inline constexpr std::uint8_t kDirect = 1;    ///< straight from an emitter, no specular event yet
 inline constexpr std::uint8_t kFirst = 2;     ///< still in the subspace where the path segment began
 inline constexpr std::uint8_t kBackSide = 4;  ///< deposit: on the back of the element
+inline constexpr std::uint8_t kShadow = 8;    ///< ray tracing: on its way from a diffuse surface to an emitter
 /// light, without kFirst: the axis (0..2) of the face through which it entered its subspace. The interval of the
 /// subspace begins at exactly that plane, so the next PE must know which one it was.
 inline constexpr std::uint32_t kEntryAxisShift = 4;
@@ -70,14 +71,15 @@ struct RayRecord {
   Vec3f weight;     ///< of what it sees, R G B, divided by the number of samples per pixel
   std::uint32_t subspace;
   std::uint32_t polygon;
-  std::uint32_t key;    ///< random numbers: hash of (seed, pixel, sample, branches taken)
-  std::uint32_t pixel;  ///< row * width + column
+  std::uint32_t key;     ///< random numbers: hash of (seed, pixel, sample, branches taken)
+  std::uint32_t pixel;   ///< row * width + column
+  std::uint32_t target;  ///< kShadow: global number of the emitter; `weight` is the light if nothing is before it
   RecordKind kind;
   std::uint8_t bounce;  ///< segments ended so far
   std::uint8_t flags;
   std::uint8_t waiting;  ///< branches in use, 0..kMostBranches
   std::array<Branch, kMostBranches> branches;
 };
-static_assert(sizeof(RayRecord) == 160);
+static_assert(sizeof(RayRecord) == 164);
 
 }  // namespace torolux::protocol

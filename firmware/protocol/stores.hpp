@@ -132,6 +132,17 @@ struct LatticeValue {
 };
 static_assert(sizeof(LatticeValue) == 12);
 
+/// Something that emits, for shadow rays. All PEs have all emitters, or none where no shadow rays are asked for.
+struct Emitter {
+  std::array<Vec3f, 3> corner;
+  Vec3f emission;            ///< radiance from the front, in units of the scene's greatest
+  float area_over_chance;    ///< area / (pi * the chance that it is chosen)
+  std::uint32_t chosen_to;   ///< chosen by 32 random bits up to this, and beyond the one before; the last: all ones
+  std::uint32_t polygon;     ///< global number
+  std::uint32_t both_sides;  ///< 0 or 1: emits from the back, too
+};
+static_assert(sizeof(Emitter) == 64);
+
 // ---- Layout ----
 
 struct Store {
@@ -192,9 +203,10 @@ struct StageLayout {
   std::uint32_t emission_points;  ///< k for emitted light
   // Ray tracing stage.
   Store lattice;       ///< LatticeValue[]
+  Store emitters;      ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
   float pixel_scale;   ///< quanta per unit of radiance
   float least_weight;  ///< a ray whose weights are all below dies
 };
-static_assert(sizeof(StageLayout) == 164);
+static_assert(sizeof(StageLayout) == 172);
 
 }  // namespace torolux::protocol

@@ -187,4 +187,11 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
   return *value;
 }
 
+bool parse_direct(const std::string& text) {
+  if (text != "radiosity" && text != "shadow-rays") {
+    throw UsageError("\"" + text + "\" is no way; there are: radiosity, shadow-rays");
+  }
+  return text == "shadow-rays";
+}
+
 }  // namespace torolux

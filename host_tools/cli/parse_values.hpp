@@ -46,4 +46,7 @@ std::vector<unsigned> parse_pe_list(const std::string& text);
 /// "PE:PORT", each within its range of all machines.
 GdbPort parse_gdb_port(const std::string& text);
 
+/// "radiosity" or "shadow-rays". True: shadow rays.
+bool parse_direct(const std::string& text);
+
 }  // namespace torolux

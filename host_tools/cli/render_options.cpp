@@ -169,6 +169,13 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
             "Path segments after which light is cut off, 1 to " + std::to_string(protocol::kMostBounces),
             options.bounces, 1, protocol::kMostBounces, built_in.bounces)
       ->group(group);
+  add_value(
+      command, "--direct", "HOW",
+      "Light straight from emitters, at diffuse surfaces: radiosity (from the elements), or shadow-rays (one from "
+      "each point that is seen: sharp shadows; with few samples, noise)",
+      [&options](const std::string& text) { options.shadow_rays = parse_direct(text); })
+      ->default_str("radiosity")
+      ->group(group);
   command.add_flag("--two-sided-lights", options.two_sided_lights, "Emitters emit from both sides")->group(group);
   add_count(command, "--seed", "Seed of all random numbers", options.seed, 0, ~std::uint64_t{0}, built_in.seed)
       ->group(group);

@@ -47,6 +47,7 @@ struct RenderOptions {
   std::optional<double> unshot;
   std::optional<std::uint64_t> seed;
   bool two_sided_lights = false;
+  std::optional<bool> shadow_rays;
 
   // The machine.
   std::optional<std::array<std::uint32_t, 2>> pes;

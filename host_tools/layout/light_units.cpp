@@ -48,6 +48,40 @@ protocol::Flux patch_emission(const Scene& scene, const MeshTriangle& triangle, 
   return flux;
 }
 
+std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, const LightUnits& units) {
+  std::vector<protocol::Emitter> all;
+  std::vector<double> flux;
+  double sum = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const MeshTriangle& triangle = mesh.triangles[t];
+    const SceneMaterial& material = scene.materials[triangle.material];
+    if (!emits(material)) continue;
+    const Vec3d radiance = vec::scale(material.emission, 1 / units.unit_radiance);
+    const double area = triangle.area * mesh.space.scale * mesh.space.scale;
+    all.push_back({triangle.corner, to_float(radiance), static_cast<float>(area / std::numbers::pi), 0, t,
+                   units.two_sided_lights ? 1U : 0U});
+    flux.push_back(area * (radiance[0] + radiance[1] + radiance[2]));
+    sum += flux.back();
+  }
+  // The chance that counts is the one that whole numbers of 2^-32 give it.
+  constexpr std::uint64_t one = std::uint64_t{1} << 32U;
+  double until = 0;
+  std::uint64_t before = 0;
+  std::vector<protocol::Emitter> chosen;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    until += flux[i];
+    const auto next =
+        i + 1 == all.size() ? one : static_cast<std::uint64_t>(std::ldexp(std::min(until / sum, 1.0), 32));
+    if (next <= before) continue;  // emits less than 2^-32 of all light
+    const double chance = std::ldexp(static_cast<double>(next - before), -32);
+    all[i].area_over_chance = static_cast<float>(all[i].area_over_chance / chance);
+    all[i].chosen_to = static_cast<std::uint32_t>(next - 1);
+    chosen.push_back(all[i]);
+    before = next;
+  }
+  return chosen;
+}
+
 protocol::Material machine_material(const SceneMaterial& material, const LightUnits& units) {
   protocol::Material machine{};
   const auto set = [](const Vec3d& from, protocol::Vec3f& to, std::array<protocol::Fraction, 3>& fraction) {

@@ -41,6 +41,7 @@ class ImageWriter {
   std::vector<std::byte> ray_tracing(const Lattice& lattice) {
     write_subspaces();
     write_polygons(&lattice);
+    if (layout_.emitters.count > 0) put_all(layout_.emitters, emitters(scene_, mesh_, units_));
     return std::move(bytes_);
   }
 

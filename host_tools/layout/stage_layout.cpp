@@ -106,6 +106,8 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));
   layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(std::uint32_t));
   layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeValue));
+  const std::uint32_t emitters = stage == Stage::ray_tracing ? parameters.emitters : 0;
+  layout.emitters = allocator.place("emitters", emitters, sizeof(protocol::Emitter));
   result.load_end = allocator.next();
   layout.own_slots = protocol::own_slots(stage);
   layout.record_slots =

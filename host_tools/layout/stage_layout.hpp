@@ -22,6 +22,7 @@ struct StageParameters {
   std::uint32_t emission_points = 2;
   float pixel_scale = 0x1p40F;
   float least_weight = 1e-4F;
+  std::uint32_t emitters = 0;  ///< that shadow rays aim at; 0: no shadow rays
 };
 
 /// The machine's side of the layout.

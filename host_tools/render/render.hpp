@@ -30,6 +30,8 @@ struct Quality {
   double unshot = 0.01;         ///< fraction of the emitted flux at which the radiosity stage ends
   std::uint32_t max_shots = 0;  ///< patches shot in all; 0: no limit
   std::uint32_t bounces = 32;   ///< path segments
+  /// Light straight from emitters comes by a shadow ray from each diffuse point that is seen, not from the elements.
+  bool shadow_rays = false;
   bool two_sided_lights = false;
   std::uint64_t seed = 1;
 };

@@ -71,6 +71,9 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
   setup.parameters.shot_points = quality.shot_points;
   setup.parameters.emission_points = emission_points(scene, setup.mesh, quality);
   setup.parameters.pixel_scale = kPixelScale;
+  if (quality.shadow_rays) {
+    setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
+  }
   setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.samples);
   PlacementChoice placement;
   placement.torus = {machine.columns, machine.rows};

@@ -60,6 +60,7 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"unshot", quality.unshot},
           {"max_shots", quality.max_shots},
           {"bounces", quality.bounces},
+          {"direct", quality.shadow_rays ? "shadow-rays" : "radiosity"},
           {"two_sided_lights", quality.two_sided_lights},
           {"seed", quality.seed},
           {"pes", {machine.columns, machine.rows}},

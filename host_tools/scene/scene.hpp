@@ -44,7 +44,7 @@ struct SceneDefaults {
   std::optional<double> exposure_ev, patch_length, element_length, unshot;
   std::optional<std::string> subspaces, allocation;
   std::string subspaces_place, allocation_place;  ///< FILE:LINE of these two, for messages
-  std::optional<bool> two_sided_lights;
+  std::optional<bool> two_sided_lights, shadow_rays;
   std::optional<std::uint64_t> seed;
 };
 

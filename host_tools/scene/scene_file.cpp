@@ -124,6 +124,7 @@ SceneDefaults read_defaults(TomlTable table) {
   if (d.subspaces) d.subspaces_place = table.place("subspaces").text();
   if (d.allocation) d.allocation_place = table.place("allocation").text();
   d.two_sided_lights = table.flag("two_sided_lights");
+  d.shadow_rays = table.flag("shadow_rays");
   d.seed = table.integer("seed", 0, 0x7FFF'FFFF'FFFF'FFFFU);
   table.finish();
   return d;

@@ -84,10 +84,13 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   return energy;
 }
 
-std::vector<Flux> incident_flux(const Solution& solution) {
+std::vector<Flux> incident_flux(const Solution& solution, bool without_direct) {
   std::vector<Flux> flux;
   flux.reserve(solution.elements.size());
-  for (const protocol::Element& element : solution.elements) flux.push_back(element.flux);
+  for (const protocol::Element& element : solution.elements) {
+    Flux& sum = flux.emplace_back(element.flux);
+    for (std::size_t c = 0; without_direct && c < 3; ++c) sum[c] -= element.direct[c];
+  }
   return flux;
 }
 

@@ -62,6 +62,7 @@ void RayTracingPhase::make_ray(HostPort& port) {
       first_subspace(placement_.grid, ray.origin, ray.direction, settings_.skip_empty_subspaces ? &filled_ : nullptr);
   if (!start) return;
   RayRecord record{};
+  record.target = protocol::kNoPolygon;
   record.origin = ray.origin;
   record.direction = ray.direction;
   const float weight = 1.0F / static_cast<float>(settings_.samples);

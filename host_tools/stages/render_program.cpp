@@ -54,8 +54,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
       return std::make_unique<ReadPhase>(setup.mesh, setup.placement, std::move(layouts));
     }
     case Step::load_ray_tracing:
-      lattice_ = make_lattice(setup.mesh, incident_flux(*job_.solution), setup.units.watts_per_quantum,
-                              setup.units.unit_radiance);
+      lattice_ = make_lattice(setup.mesh, incident_flux(*job_.solution, setup.parameters.emitters > 0),
+                              setup.units.watts_per_quantum, setup.units.unit_radiance);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
       return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Shadow rays: a point of an emitter chosen by chance, and the light that comes from it if nothing is before it.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/pe/scene.hpp"
+#include "firmware/pe/vectors.hpp"
+
+namespace torolux::pe {
+
+struct EmitterSample {
+  glm::vec3 direction;           ///< unit length, towards the point
+  glm::vec3 irradiance_over_pi;  ///< its mean over all samples is that of all emitters in sight
+  std::uint32_t polygon;         ///< global number of the emitter
+};
+
+/// key: of the random numbers. normal: unit length, of the side from which the surface is seen; flat: likewise, of the
+/// polygon without its corner normals. The scene has emitters. False: no light comes that way.
+bool sample_emitter(const Scene& scene, std::uint32_t key, const glm::vec3& point, const glm::vec3& normal,
+                    const glm::vec3& flat, EmitterSample& sample);
+
+}  // namespace torolux::pe
