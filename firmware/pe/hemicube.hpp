@@ -14,21 +14,27 @@ namespace torolux::pe {
 /// One pixel of a hemi-cube of n pixels across the top, seen along the axes of its frame.
 struct HemicubePixel {
   std::uint32_t weight;  ///< index into the table of weights
-  float x, y, z;         ///< centre of the pixel, on the cube of half-width 1
+  float x, y, z;         ///< a point of the pixel, on the cube of half-width 1
+};
+
+/// Where in its pixel, from edge to edge; 0: in the middle.
+struct PixelPoint {
+  float along = 0.0F, across = 0.0F;  ///< -1..1
 };
 
 /// n even, number in 0..hemicube_pixels(n)-1.
-inline HemicubePixel hemicube_pixel(std::uint32_t n, std::uint32_t number) {
+inline HemicubePixel hemicube_pixel(std::uint32_t n, std::uint32_t number, PixelPoint at = {}) {
   const std::uint32_t half = n / 2U;
   const float unit = 1.0F / static_cast<float>(n);
   const auto outwards = [half](std::uint32_t i) { return i >= half ? i - half : half - 1U - i; };
-  const auto centre = [n, unit](std::uint32_t i) {
-    return static_cast<float>(static_cast<std::int32_t>(2U * i + 1U) - static_cast<std::int32_t>(n)) * unit;
+  const auto place = [n, unit](std::uint32_t i, float offset) {
+    const auto middle = static_cast<float>(static_cast<std::int32_t>(2U * i + 1U) - static_cast<std::int32_t>(n));
+    return (middle + offset) * unit;
   };
   if (number < n * n) {
     const std::uint32_t row = number / n;
     const std::uint32_t column = number - row * n;
-    return {outwards(row) * half + outwards(column), centre(column), centre(row), 1.0F};
+    return {outwards(row) * half + outwards(column), place(column, at.along), place(row, at.across), 1.0F};
   }
   number -= n * n;
   const std::uint32_t side = number / (n * half);
@@ -36,8 +42,8 @@ inline HemicubePixel hemicube_pixel(std::uint32_t n, std::uint32_t number) {
   const std::uint32_t row = number / n;
   const std::uint32_t column = number - row * n;
   const std::uint32_t weight = half * half + row * half + outwards(column);
-  const float along = centre(column);
-  const float up = static_cast<float>(2U * row + 1U) * unit;
+  const float along = place(column, at.along);
+  const float up = (static_cast<float>(2U * row + 1U) + at.across) * unit;
   switch (side) {
     case 0:
       return {weight, 1.0F, along, up};

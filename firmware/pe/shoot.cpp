@@ -12,6 +12,7 @@
 namespace torolux::pe {
 namespace {
 
+using protocol::Dimension;
 using protocol::Flux;
 using protocol::Patch;
 using protocol::Polygon;
@@ -80,7 +81,7 @@ void begin_point(Pe& pe) {
   const glm::vec3 front = unit_normal(polygon);
   const glm::vec3 away = shot.command.side == 0 ? front : -front;
   const glm::vec3 across = glm::normalize(to_vector(polygon.corner[1]) - to_vector(polygon.corner[0]));
-  shot.frame = spun({across, glm::cross(away, across), away}, protocol::uniform(shot.key, protocol::Dimension::spin));
+  shot.frame = spun({across, glm::cross(away, across), away}, protocol::uniform(shot.key, Dimension::spin));
 }
 
 /// Moves on to the next pixel that gets any flux. False: the shot is over. Differences of one rising sum, so that
@@ -109,7 +110,13 @@ bool next_pixel(Pe& pe) {
 void create_record(Pe& pe, Niu& niu) {
   const Shot& shot = pe.shot;
   const Patch& patch = pe.scene.patches[shot.command.patch];
-  const glm::vec3 direction = pixel_direction(shot.frame, hemicube_pixel(pe.scene.layout.hemicube_size, shot.pixel));
+  const std::uint32_t key = protocol::hash_combine(shot.key, shot.pixel);
+  // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
+  // hemi-cubes there are.
+  const PixelPoint at{2.0F * protocol::uniform(key, Dimension::along) - 1.0F,
+                      2.0F * protocol::uniform(key, Dimension::across) - 1.0F};
+  const glm::vec3 direction =
+      pixel_direction(shot.frame, hemicube_pixel(pe.scene.layout.hemicube_size, shot.pixel, at));
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
   record.origin = to_array(shot.origin);
@@ -117,7 +124,7 @@ void create_record(Pe& pe, Niu& niu) {
   record.flux = shot.pixel_flux;
   record.subspace = patch.subspace;
   record.polygon = pe.scene.polygons[patch.polygon].number;
-  record.key = protocol::hash_combine(shot.key, shot.pixel);
+  record.key = key;
   record.kind = shot.seeks ? protocol::RecordKind::seek : protocol::RecordKind::light;
   record.bounce = 0;
   record.flags =
