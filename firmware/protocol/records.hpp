@@ -79,7 +79,8 @@ struct RayRecord {
   std::uint8_t flags;
   std::uint8_t waiting;  ///< branches in use, 0..kMostBranches
   std::array<Branch, kMostBranches> branches;
+  std::uint32_t unused;
 };
-static_assert(sizeof(RayRecord) == 164);
+static_assert(sizeof(RayRecord) == 168);
 
 }  // namespace torolux::protocol
