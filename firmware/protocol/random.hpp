@@ -23,7 +23,18 @@ constexpr float uniform_float(std::uint32_t hash) {
 }
 
 /// What a random number is for: the last word of every chain.
-enum class Dimension : std::uint32_t { spin = 1, pixel_x, pixel_y, fresnel, branch, emitter, emitter_a, emitter_b, along, across };
+enum class Dimension : std::uint32_t {
+  spin = 1,
+  pixel_x,
+  pixel_y,
+  fresnel,
+  branch,
+  emitter,
+  emitter_a,
+  emitter_b,
+  along,
+  across
+};
 
 constexpr float uniform(std::uint32_t key, Dimension dimension) {
   return uniform_float(hash_combine(key, static_cast<std::uint32_t>(dimension)));
