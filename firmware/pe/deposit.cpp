@@ -24,10 +24,10 @@ void deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
     end_record(pe, niu, slot);
     return;
   }
-  const std::uint32_t path = protocol::path_of_point(hit.b1, hit.b2, polygon.element_level);
-  const std::uint32_t levels = std::uint32_t{polygon.element_level} - polygon.patch_level;
-  const std::uint32_t element = path & (protocol::triangles_of_level(levels) - 1U);
-  const auto& owner = pe.scene.patch_references[polygon.surface + (path >> (2U * levels))];
+  protocol::Weights at{(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
+  const std::uint32_t path = protocol::enter_level(at, polygon.patch_level);
+  const protocol::PatchReference& owner = pe.scene.patch_references[polygon.surface + path];
+  const std::uint32_t element = protocol::find_leaf(pe.scene.nodes.data(), owner.tree, at);
   if (owner.pe == niu.pe()) {
     add_to_element(pe, owner.patch, element, hit.front ? 0 : 1, (record.flags & protocol::kDirect) != 0, record.flux);
     end_record(pe, niu, slot);

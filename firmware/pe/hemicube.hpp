@@ -2,6 +2,7 @@
 // The hemi-cube: a pixel's number in, its weight and direction out. Numbering and table: firmware/protocol/stores.hpp.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -11,53 +12,87 @@
 
 namespace torolux::pe {
 
-/// One pixel of a hemi-cube of n pixels across the top, seen along the axes of its frame.
+/// Where a pixel lies. On the top, row and column run along the frame's y and x; on a side, the row from the surface
+/// up.
 struct HemicubePixel {
-  std::uint32_t weight;  ///< index into the table of weights
-  float x, y, z;         ///< a point of the pixel, on the cube of half-width 1
+  static constexpr std::uint32_t kTop = 4;
+  std::uint32_t face;  ///< kTop, or a side: 0..3, those of +x, +y, -x, -y
+  std::uint32_t row, column;
 };
 
-/// Where in its pixel, from edge to edge; 0: in the middle.
-struct PixelPoint {
-  float along = 0.0F, across = 0.0F;  ///< -1..1
-};
-
-/// n even, number in 0..hemicube_pixels(n)-1.
-inline HemicubePixel hemicube_pixel(std::uint32_t n, std::uint32_t number, PixelPoint at = {}) {
-  const std::uint32_t half = n / 2U;
-  const float unit = 1.0F / static_cast<float>(n);
-  const auto outwards = [half](std::uint32_t i) { return i >= half ? i - half : half - 1U - i; };
-  const auto place = [n, unit](std::uint32_t i, float offset) {
-    const auto middle = static_cast<float>(static_cast<std::int32_t>(2U * i + 1U) - static_cast<std::int32_t>(n));
-    return (middle + offset) * unit;
-  };
-  if (number < n * n) {
-    const std::uint32_t row = number / n;
-    const std::uint32_t column = number - row * n;
-    return {outwards(row) * half + outwards(column), place(column, at.along), place(row, at.across), 1.0F};
+/// n: pixels across the top, even. number in 0..hemicube_pixels(n)-1.
+inline HemicubePixel hemicube_pixel(std::uint32_t n, std::uint32_t number) {
+  std::uint32_t face = HemicubePixel::kTop;
+  if (number >= n * n) {
+    number -= n * n;
+    face = number / (n * (n / 2U));
+    number -= face * n * (n / 2U);
   }
-  number -= n * n;
-  const std::uint32_t side = number / (n * half);
-  number -= side * n * half;
   const std::uint32_t row = number / n;
-  const std::uint32_t column = number - row * n;
-  const std::uint32_t weight = half * half + row * half + outwards(column);
-  const float along = place(column, at.along);
-  const float up = (static_cast<float>(2U * row + 1U) + at.across) * unit;
-  switch (side) {
-    case 0:
-      return {weight, 1.0F, along, up};
-    case 1:
-      return {weight, -along, 1.0F, up};
-    case 2:
-      return {weight, -1.0F, -along, up};
-    default:
-      return {weight, along, -1.0F, up};
-  }
+  return {face, row, number - row * n};
 }
 
-inline glm::vec3 pixel_direction(const Frame& frame, const HemicubePixel& pixel) {
-  return glm::normalize((frame.x * pixel.x + frame.y * pixel.y) + frame.z * pixel.z);
+/// Index into the table of weights.
+inline std::uint32_t weight_of(std::uint32_t n, const HemicubePixel& pixel) {
+  const std::uint32_t half = n / 2U;
+  const auto outwards = [half](std::uint32_t i) { return i >= half ? i - half : half - 1U - i; };
+  if (pixel.face == HemicubePixel::kTop) return outwards(pixel.row) * half + outwards(pixel.column);
+  return half * half + pixel.row * half + outwards(pixel.column);
+}
+
+/// Two random numbers in [0, 1): where in its pixel.
+struct PixelPoint {
+  float along = 0.5F, across = 0.5F;
+};
+
+/// A number in [0, 1] whose density goes from w0 to w1 as straight as a line; u uniform in [0, 1).
+inline float on_slope(float u, float w0, float w1) {
+  const float root = std::sqrt(w0 * w0 + (w1 * w1 - w0 * w0) * u);
+  return root > 0.0F ? u * (w0 + w1) / (w0 + root) : 0.0F;
+}
+
+/// A pixel on its face: its lower edges, and its length.
+struct PixelBox {
+  float along, across, size;
+};
+
+/// Where light goes through the pixel. weight(a, b): delta form factor per area there; between the pixel's corners
+/// taken as bilinear, whose error falls with the square of the pixel's size. Were light spread evenly instead, pixels
+/// at the foot of the side faces would send too much of it along the surface, into the nearest corner.
+template <class Weight>
+PixelPoint through(const PixelBox& box, PixelPoint at, const Weight& weight) {
+  const float a1 = box.along + box.size;
+  const float b1 = box.across + box.size;
+  const float w00 = weight(box.along, box.across);
+  const float w10 = weight(a1, box.across);
+  const float w01 = weight(box.along, b1);
+  const float w11 = weight(a1, b1);
+  const float across = on_slope(at.across, w00 + w10, w01 + w11);
+  const float along = on_slope(at.along, w00 + (w01 - w00) * across, w10 + (w11 - w10) * across);
+  return {box.along + along * box.size, box.across + across * box.size};
+}
+
+/// Unit length. at: where in the pixel.
+inline glm::vec3 pixel_direction(const Frame& frame, std::uint32_t n, const HemicubePixel& pixel, PixelPoint at) {
+  const float size = 2.0F / static_cast<float>(n);
+  const float column = static_cast<float>(pixel.column) * size - 1.0F;
+  const float row = static_cast<float>(pixel.row) * size;
+  if (pixel.face == HemicubePixel::kTop) {
+    const PixelPoint top = through({column, row - 1.0F, size}, at, [](float x, float y) {
+      const float square = 1.0F / (1.0F + (x * x + y * y));
+      return square * square;
+    });
+    return glm::normalize((frame.x * top.along + frame.y * top.across) + frame.z);
+  }
+  const PixelPoint side = through({column, row, size}, at, [](float y, float z) {
+    const float square = 1.0F / (1.0F + (y * y + z * z));
+    return z * square * square;
+  });
+  const bool odd = (pixel.face & 1U) != 0;
+  const glm::vec3 to_face = odd ? frame.y : frame.x;
+  const glm::vec3 along = odd ? -frame.x : frame.y;
+  const glm::vec3 on_face = to_face + along * side.along;
+  return glm::normalize((pixel.face < 2U ? on_face : -on_face) + frame.z * side.across);
 }
 
 /// Turns a frame about its z by turn * 90 degrees - 45 degrees, turn in [0, 1): a hemi-cube looks the same after a
@@ -69,25 +104,6 @@ inline Frame spun(const Frame& frame, float turn) {
       a * (1.0F - q * (1.0F / 6.0F - q * (1.0F / 120.0F - q * (1.0F / 5040.0F - q * (1.0F / 362880.0F)))));
   const float cosine = 1.0F - q * (0.5F - q * (1.0F / 24.0F - q * (1.0F / 720.0F - q * (1.0F / 40320.0F))));
   return {frame.x * cosine + frame.y * sine, frame.y * cosine - frame.x * sine, frame.z};
-}
-
-/// Weights of a patch's corners at point `point` of k * k: the centroids of the small triangles of a uniform grid,
-/// those that stand upright first.
-struct PatchPoint {
-  float a, b;  ///< of corners 1 and 2; corner 0 has the rest
-};
-inline PatchPoint patch_point(std::uint32_t k, std::uint32_t point) {
-  const std::uint32_t upright = k * (k + 1U) / 2U;
-  const bool inverted = point >= upright;
-  if (inverted) point -= upright;
-  std::uint32_t row = 0;
-  for (std::uint32_t length = inverted ? k - 1U : k; point >= length; --length) {
-    point -= length;
-    ++row;
-  }
-  const std::uint32_t thirds = inverted ? 2U : 1U;
-  const float unit = 1.0F / static_cast<float>(3U * k);
-  return {static_cast<float>(3U * point + thirds) * unit, static_cast<float>(3U * row + thirds) * unit};
 }
 
 }  // namespace torolux::pe

@@ -20,11 +20,13 @@ enum class LayoutField : std::uint32_t {
   polygons,
   materials,
   normals,
+  nodes,
   record_slots,
   patch_references,
   patches,
   patch_sides,
   elements,
+  facets,
   hemicube,
   lattice,
   emitters,
@@ -43,7 +45,7 @@ struct Extent {
   Store store;
   std::uint32_t element_bytes;
 };
-constexpr std::uint32_t kStores = 13;
+constexpr std::uint32_t kStores = 15;
 
 std::array<Extent, kStores> extents(const StageLayout& l) {
   return {{
@@ -52,13 +54,15 @@ std::array<Extent, kStores> extents(const StageLayout& l) {
       {l.polygons, sizeof(protocol::Polygon)},
       {l.materials, sizeof(protocol::Material)},
       {l.normals, sizeof(protocol::Vec3f)},
+      {l.nodes, sizeof(std::uint32_t)},
       {l.record_slots, protocol::slot_bytes(l.stage)},
       {l.patch_references, sizeof(protocol::PatchReference)},
       {l.patches, sizeof(protocol::Patch)},
       {l.patch_sides, sizeof(protocol::PatchSide)},
       {l.elements, sizeof(protocol::Element)},
+      {l.facets, sizeof(protocol::Facet)},
       {l.hemicube, sizeof(std::uint32_t)},
-      {l.lattice, sizeof(protocol::LatticeValue)},
+      {l.lattice, sizeof(protocol::LatticeTriangle)},
       {l.emitters, sizeof(protocol::Emitter)},
   }};
 }

@@ -71,8 +71,7 @@ void check_deposit(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
   const protocol::Patch& patch = scene.patches[record.subspace];
   const std::uint32_t side = (record.flags & protocol::kBackSide) != 0 ? 1U : 0U;
   require(niu, patch.side[side] != protocol::kNoSide, RecordField::side, side);
-  require(niu, record.polygon < Scene::elements_per_patch(scene.polygons[patch.polygon]), RecordField::element,
-          record.polygon);
+  require(niu, record.polygon < patch.elements, RecordField::element, record.polygon);
 }
 
 void check_record(const Pe& pe, Niu& niu, const RadiosityRecord& record) {

@@ -17,14 +17,16 @@ struct Scene {
   std::span<const protocol::Polygon> polygons;
   std::span<const protocol::Material> materials;
   std::span<const protocol::Vec3f> normals;
+  std::span<const std::uint32_t> nodes;
   // Radiosity stage.
   std::span<const protocol::PatchReference> patch_references;
   std::span<const protocol::Patch> patches;
   std::span<protocol::PatchSide> patch_sides;
   std::span<protocol::Element> elements;
+  std::span<const protocol::Facet> facets;
   std::span<const std::uint32_t> hemicube;
   // Ray tracing stage.
-  std::span<const protocol::LatticeValue> lattice;
+  std::span<const protocol::LatticeTriangle> lattice;
   std::span<const protocol::Emitter> emitters;
 
   void set(const Memory& memory, const protocol::StageLayout& from) {
@@ -34,18 +36,15 @@ struct Scene {
     polygons = memory.store<const protocol::Polygon>(layout.polygons);
     materials = memory.store<const protocol::Material>(layout.materials);
     normals = memory.store<const protocol::Vec3f>(layout.normals);
+    nodes = memory.store<const std::uint32_t>(layout.nodes);
     patch_references = memory.store<const protocol::PatchReference>(layout.patch_references);
     patches = memory.store<const protocol::Patch>(layout.patches);
     patch_sides = memory.store<protocol::PatchSide>(layout.patch_sides);
     elements = memory.store<protocol::Element>(layout.elements);
+    facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const std::uint32_t>(layout.hemicube);
-    lattice = memory.store<const protocol::LatticeValue>(layout.lattice);
+    lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
     emitters = memory.store<const protocol::Emitter>(layout.emitters);
-  }
-
-  /// Elements of one patch of a polygon.
-  static std::uint32_t elements_per_patch(const protocol::Polygon& polygon) {
-    return 1U << (2U * (std::uint32_t{polygon.element_level} - polygon.patch_level));
   }
 };
 

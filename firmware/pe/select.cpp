@@ -33,9 +33,21 @@ Flux amount_of(const protocol::PatchSide& side, ShotKind kind) {
 Flux flux_of(const Scene& scene, const protocol::Patch& patch, std::uint32_t side, ShotKind kind) {
   Flux flux = amount_of(scene.patch_sides[patch.side[side]], kind);
   if (kind == ShotKind::emitted) return flux;
-  const protocol::Material& material = scene.materials[scene.polygons[patch.polygon].material];
+  const protocol::Material& material = scene.materials[patch.material];
   for (std::size_t c = 0; c < 3; ++c) flux[c] = protocol::scale_down(flux[c], material.diffuse_fraction[c]);
   return flux;
+}
+
+/// What each element of a side has that was not shot. Flux that comes while the round lasts must not count: when it
+/// comes depends on the machine.
+void note_unshot(const Scene& scene, const protocol::Patch& patch, std::uint32_t side) {
+  const std::uint32_t first = scene.patch_sides[patch.side[side]].first_element;
+  for (protocol::Element& element : scene.elements.subspan(first, patch.elements)) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float left = static_cast<float>(element.flux[c]) - element.shot[c];
+      element.unshot[c] = left > 0.0F ? left : 0.0F;
+    }
+  }
 }
 
 /// The best so far: a heap with the worst of them on top, so that a better one takes its place.
@@ -103,7 +115,9 @@ void select_shooters(Pe& pe, Niu& niu, const protocol::Select& select) {
         const Flux flux = flux_of(pe.scene, patch, side, kind);
         add_flux(unshot, flux);
         const std::int64_t sum = flux[0] + flux[1] + flux[2];
-        if (sum > threshold) best.offer({sum, patch.number, p, side, kind});
+        if (sum <= threshold) continue;
+        best.offer({sum, patch.number, p, side, kind});
+        if (kind == ShotKind::reflected) note_unshot(pe.scene, patch, side);
       }
     }
   }

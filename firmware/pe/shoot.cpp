@@ -3,11 +3,11 @@
 // records, each of which is followed at once, and `shot_done`.
 #include "firmware/pe/hemicube.hpp"
 #include "firmware/pe/pe.hpp"
+#include "firmware/pe/shot_points.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/pe/walk.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
-#include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux::pe {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 using protocol::Dimension;
 using protocol::Flux;
 using protocol::Patch;
-using protocol::Polygon;
 using protocol::Shoot;
 using protocol::ShotKind;
 
@@ -33,7 +32,7 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
   const Patch& patch = pe.scene.patches[shoot.patch];
   require(niu, patch.side[shoot.side] != protocol::kNoSide, ShootField::side, shoot.side);
   protocol::PatchSide& side = pe.scene.patch_sides[patch.side[shoot.side]];
-  const protocol::Material& material = pe.scene.materials[pe.scene.polygons[patch.polygon].material];
+  const protocol::Material& material = pe.scene.materials[patch.material];
   Flux flux{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int64_t there = shoot.kind == ShotKind::emitted ? side.emission[c] : side.incident[c] - side.shot[c];
@@ -52,32 +51,18 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
 /// Sets up the current point: its share of the flux, its place, its spin.
 void begin_point(Pe& pe) {
   Shot& shot = pe.shot;
-  const Patch& patch = pe.scene.patches[shot.command.patch];
-  const Polygon& polygon = pe.scene.polygons[patch.polygon];
-  for (std::size_t c = 0; c < 3; ++c) {
-    shot.share[c] = protocol::equal_share(shot.flux[c], shot.point, shot.grid * shot.grid);
-  }
   shot.passed = {};
   shot.weight = 0;
   shot.next_pixel = 0;
-
-  const protocol::GridTriangle grid = protocol::grid_triangle(patch.path, polygon.patch_level);
-  const PatchPoint at = patch_point(shot.grid, shot.point);
-  const float rest = (1.0F - at.a) - at.b;
-  glm::vec3 origin(0.0F);
-  for (int i = 0; i < 3; ++i) {
-    constexpr float unit = 1.0F / static_cast<float>(1 << protocol::kMostLevels);
-    const float weight = (rest * static_cast<float>(grid.corner[0][i]) + at.a * static_cast<float>(grid.corner[1][i])) +
-                         at.b * static_cast<float>(grid.corner[2][i]);
-    origin += to_vector(polygon.corner[static_cast<std::size_t>(i)]) * (weight * unit);
-  }
-  shot.origin = origin;
-  shot.seeks = seek_face(pe.scene.layout, origin, pe.scene.subspaces[patch.subspace].cell) != protocol::kFaces;
-
+  const Patch& patch = pe.scene.patches[shot.command.patch];
   std::uint32_t key = protocol::hash_combine(pe.scene.layout.seed, patch.number);
   key = protocol::hash_combine(key, shot.command.side * 2U + static_cast<std::uint32_t>(shot.command.kind));
   key = protocol::hash_combine(key, shot.command.number);
   shot.key = protocol::hash_combine(key, shot.point);
+  place_point(pe.scene, shot);
+  shot.seeks = seek_face(pe.scene.layout, shot.origin, pe.scene.subspaces[patch.subspace].cell) != protocol::kFaces;
+
+  const protocol::Polygon& polygon = pe.scene.polygons[shot.polygon];
   const glm::vec3 front = unit_normal(polygon);
   const glm::vec3 away = shot.command.side == 0 ? front : -front;
   const glm::vec3 across = glm::normalize(to_vector(polygon.corner[1]) - to_vector(polygon.corner[0]));
@@ -95,7 +80,7 @@ bool next_pixel(Pe& pe) {
       begin_point(pe);
     }
     shot.pixel = shot.next_pixel++;
-    shot.weight += pe.scene.hemicube[hemicube_pixel(n, shot.pixel).weight];
+    shot.weight += pe.scene.hemicube[weight_of(n, hemicube_pixel(n, shot.pixel))];
     bool any = false;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::int64_t passed = protocol::scale_down(shot.share[c], shot.weight);
@@ -113,17 +98,16 @@ void create_record(Pe& pe, Niu& niu) {
   const std::uint32_t key = protocol::hash_combine(shot.key, shot.pixel);
   // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
   // hemi-cubes there are.
-  const PixelPoint at{2.0F * protocol::uniform(key, Dimension::along) - 1.0F,
-                      2.0F * protocol::uniform(key, Dimension::across) - 1.0F};
-  const glm::vec3 direction =
-      pixel_direction(shot.frame, hemicube_pixel(pe.scene.layout.hemicube_size, shot.pixel, at));
+  const PixelPoint at{protocol::uniform(key, Dimension::along), protocol::uniform(key, Dimension::across)};
+  const std::uint32_t n = pe.scene.layout.hemicube_size;
+  const glm::vec3 direction = pixel_direction(shot.frame, n, hemicube_pixel(n, shot.pixel), at);
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
   record.origin = to_array(shot.origin);
   record.direction = to_array(direction);
   record.flux = shot.pixel_flux;
   record.subspace = patch.subspace;
-  record.polygon = pe.scene.polygons[patch.polygon].number;
+  record.polygon = pe.scene.polygons[shot.polygon].number;
   record.key = key;
   record.kind = shot.seeks ? protocol::RecordKind::seek : protocol::RecordKind::light;
   record.bounce = 0;
@@ -154,6 +138,7 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   shot.active = true;
   shot.point = 0;
   shot.credits = 0;
+  begin_points(pe.scene, shot);
   begin_point(pe);
   if (!next_pixel(pe)) end_shot(pe, niu);
 }

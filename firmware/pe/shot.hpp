@@ -15,16 +15,28 @@ struct Frame {
   glm::vec3 x, y, z;
 };
 
+/// How far a walk over the facets of a patch, in their order, has come.
+struct FacetWalk {
+  std::uint32_t facet = 0;  ///< of the patch
+  glm::vec3 before{};       ///< what the facets before it would send, R G B; any unit
+};
+
 struct Shot {
   bool active = false;
   protocol::Shoot command{};
   protocol::Flux flux{};      ///< of the whole shot [quanta]
   std::uint32_t grid = 0;     ///< k: k * k points
   std::uint32_t credits = 0;  ///< granted and not used yet
+  // Of the points: each stands for an equal part of what the facets would send, one behind the other.
+  bool by_area = false;    ///< facets send by their area alone
+  glm::vec3 all{};         ///< what all of them would send
+  FacetWalk walk{};        ///< at the end of the current point's part
+  protocol::Flux given{};  ///< of the flux, to the points up to the current one
   // Of the current point.
   std::uint32_t point = 0;
+  std::uint32_t polygon = 0;  ///< index
   glm::vec3 origin{};
-  bool seeks = false;  ///< the point lies outside the subspace of the patch's centre
+  bool seeks = false;  ///< the point lies outside the subspace that holds the patch's centre
   Frame frame{};       ///< spun
   std::uint32_t key = 0;
   protocol::Flux share{};  ///< of the flux

@@ -3,6 +3,7 @@
 #include "firmware/pe/surface.hpp"
 
 #include "firmware/pe/traverse.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux::pe {
 
@@ -16,16 +17,11 @@ glm::vec3 shading_normal(const Scene& scene, const protocol::Polygon& polygon, c
 glm::vec3 interpolated_irradiance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit) {
   const std::uint8_t side = hit.front ? protocol::kFrontPresent : protocol::kBackPresent;
   if ((polygon.sides & side) == 0) return glm::vec3(0.0F);
-  std::uint32_t first = polygon.surface;
-  if (!hit.front && (polygon.sides & protocol::kFrontPresent) != 0) {
-    first += protocol::lattice_size(polygon.element_level);
-  }
-  const LatticeWeights at = lattice_weights(hit.b1, hit.b2, polygon.element_level);
-  glm::vec3 sum(0.0F);
-  for (int i = 0; i < 3; ++i) {
-    sum += to_vector(scene.lattice[first + at.index[i]].irradiance_over_pi) * at.weight[i];
-  }
-  return sum;
+  protocol::Weights at{(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
+  std::uint32_t leaf = protocol::find_leaf(scene.nodes.data(), polygon.surface, at);
+  if (!hit.front && (polygon.sides & protocol::kFrontPresent) != 0) ++leaf;
+  const auto& corner = scene.lattice[leaf].irradiance_over_pi;
+  return (to_vector(corner[0]) * at.b0 + to_vector(corner[1]) * at.b1) + to_vector(corner[2]) * at.b2;
 }
 
 }  // namespace torolux::pe

@@ -7,7 +7,6 @@
 #include "firmware/pe/scene.hpp"
 #include "firmware/pe/vectors.hpp"
 #include "firmware/protocol/stores.hpp"
-#include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux::pe {
 
@@ -31,34 +30,7 @@ inline glm::vec3 leaving_point(const protocol::Polygon& polygon, const glm::vec3
 /// The normal with which a specular surface reflects: interpolated where the polygon has corner normals.
 glm::vec3 shading_normal(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
 
-/// Irradiance / pi at a hit, interpolated over the lattice of the side that was hit; zero where it has none.
+/// Irradiance / pi at a hit, interpolated over the element of the side that was hit; zero where it has none.
 glm::vec3 interpolated_irradiance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
-
-/// The three lattice vertices around a point and their weights, which add up to one.
-struct LatticeWeights {
-  std::uint32_t index[3];
-  float weight[3];
-};
-inline LatticeWeights lattice_weights(float b1, float b2, std::uint32_t level) {
-  const auto n = static_cast<std::int32_t>(1U << level);
-  const float x = b1 * static_cast<float>(n);
-  const float y = b2 * static_cast<float>(n);
-  const auto below = [](float value, std::int32_t most) -> std::int32_t {  // rounding may leave the triangle a little
-    if (!(value > 0.0F)) return 0;
-    return value < static_cast<float>(most) ? static_cast<std::int32_t>(value) : most;
-  };
-  const std::int32_t i = below(x, n - 1);
-  const std::int32_t j = below(y, n - 1 - i);
-  const float fx = x - static_cast<float>(i);
-  const float fy = y - static_cast<float>(j);
-  const auto ui = static_cast<std::uint32_t>(i);
-  const auto uj = static_cast<std::uint32_t>(j);
-  const std::uint32_t right = protocol::lattice_index(ui + 1U, uj, level);
-  const std::uint32_t up = protocol::lattice_index(ui, uj + 1U, level);
-  if (fx + fy > 1.0F && i + j < n - 1) {
-    return {{protocol::lattice_index(ui + 1U, uj + 1U, level), up, right}, {(fx + fy) - 1.0F, 1.0F - fx, 1.0F - fy}};
-  }
-  return {{protocol::lattice_index(ui, uj, level), right, up}, {(1.0F - fx) - fy, fx, fy}};
-}
 
 }  // namespace torolux::pe

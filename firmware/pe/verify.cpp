@@ -27,14 +27,21 @@ enum class Index : std::uint32_t {
   material,
   material_kind,
   normals,
-  levels,
+  level,
   surface,
+  tree_depth,
+  node,
+  leaf,
   reference_pe,
   reference_patch,
   reference_side,
-  patch_polygon,
-  patch_path,
   patch_subspace,
+  patch_material,
+  facet,
+  facet_polygon,
+  facet_code,
+  facet_element,
+  facet_share,
   patch_side,
   first_element,
   hemicube_sum,
@@ -54,7 +61,6 @@ class Verifier {
     check_emitters();
     if (scene_.layout.stage != Stage::radiosity) return;
     for (const protocol::Patch& patch : scene_.patches) check(patch);
-    for (const protocol::PatchReference& reference : scene_.patch_references) check(reference);
     check_hemicube();
   }
 
@@ -117,36 +123,44 @@ class Verifier {
     check_corners(p.corner, Index::corner, p.number);
     below(Index::material, p.material, scene_.materials.size());
     if (p.normals != protocol::kNoPolygon) range(Index::normals, p.normals, 3, scene_.normals.size());
-    const bool levels = p.element_level <= protocol::kMostLevels && p.patch_level <= p.element_level;
-    require(levels, Index::levels, p.patch_level, p.element_level);
+    require(p.patch_level <= protocol::kMostLevels, Index::level, p.patch_level, protocol::kMostLevels);
     if (p.sides == 0) return;
     require(p.sides <= (protocol::kFrontPresent | protocol::kBackPresent), Index::surface, p.sides, 3);
     if (scene_.layout.stage == Stage::radiosity) {
       const std::uint32_t patches = protocol::triangles_of_level(p.patch_level);
       range(Index::surface, p.surface, patches, scene_.patch_references.size());
-      check_references(p, patches);
+      for (std::uint32_t i = 0; i < patches; ++i) check(p, scene_.patch_references[p.surface + i]);
     } else {
-      const std::uint32_t lattices = p.sides == 3U ? 2U : 1U;
-      range(Index::surface, p.surface, lattices * protocol::lattice_size(p.element_level), scene_.lattice.size());
+      const std::size_t behind = p.sides == 3U ? 1 : 0;  // the back's lattice triangle lies behind the front's
+      const std::size_t count = scene_.lattice.size();
+      check_tree(p.surface, count > behind ? count - behind : 0, 0);
     }
   }
-  /// Where this PE owns a patch of the polygon, the patch has the sides and elements that the polygon promises.
-  void check_references(const Polygon& p, std::uint32_t patches) {
-    for (std::uint32_t i = 0; i < patches; ++i) {
-      const protocol::PatchReference& reference = scene_.patch_references[p.surface + i];
-      if (reference.pe != niu_.pe()) continue;
+  /// Every leaf below `limit`, and no deeper than a polygon is ever cut.
+  void check_tree(std::uint32_t node, std::size_t limit, std::uint32_t depth) {
+    if ((node & protocol::kLeaf) != 0) {
+      below(Index::leaf, node & ~protocol::kLeaf, limit);
+      return;
+    }
+    require(depth < protocol::kMostLevels, Index::tree_depth, node, protocol::kMostLevels);
+    range(Index::node, node, 4, scene_.nodes.size());
+    for (std::uint32_t child = 0; child < 4; ++child) check_tree(scene_.nodes[node + child], limit, depth + 1U);
+  }
+  /// Where this PE owns the patch, it has the sides and elements that the polygon promises. Of another PE's patch only
+  /// that PE knows.
+  void check(const Polygon& p, const protocol::PatchReference& reference) {
+    below(Index::reference_pe, reference.pe, niu_.pes());
+    std::size_t elements = protocol::kLeaf;
+    if (reference.pe == niu_.pe()) {
       below(Index::reference_patch, reference.patch, scene_.patches.size());
       const protocol::Patch& patch = scene_.patches[reference.patch];
-      below(Index::patch_polygon, patch.polygon, scene_.polygons.size());
-      const Polygon& q = scene_.polygons[patch.polygon];
-      const bool same = q.number == p.number && q.patch_level == p.patch_level && q.element_level == p.element_level &&
-                        patch.path == i;
-      require(same, Index::reference_patch, reference.patch, i);
+      elements = patch.elements;
       for (std::uint32_t side = 0; side < 2; ++side) {
         const bool promised = (p.sides & (1U << side)) != 0;
         require(!promised || patch.side[side] != protocol::kNoSide, Index::reference_side, reference.patch, side);
       }
     }
+    check_tree(reference.tree, elements, p.patch_level);
   }
 
   void check(const protocol::Material& material) {
@@ -156,21 +170,26 @@ class Verifier {
     require(bends, Index::refractive_index, 0, 0);
   }
 
-  void check(const protocol::PatchReference& reference) {
-    below(Index::reference_pe, reference.pe, niu_.pes());
-    if (reference.pe == niu_.pe()) below(Index::reference_patch, reference.patch, scene_.patches.size());
-  }
-
   void check(const protocol::Patch& patch) {
-    below(Index::patch_polygon, patch.polygon, scene_.polygons.size());
-    const Polygon& polygon = scene_.polygons[patch.polygon];
-    below(Index::patch_path, patch.path, protocol::triangles_of_level(polygon.patch_level));
     below(Index::patch_subspace, patch.subspace, scene_.subspaces.size());
+    below(Index::patch_material, patch.material, scene_.materials.size());
+    require(patch.facets > 0, Index::facet, patch.number, 0);
+    range(Index::facet, patch.first_facet, patch.facets, scene_.facets.size());
+    for (const protocol::Facet& facet : scene_.facets.subspan(patch.first_facet, patch.facets)) check(patch, facet);
     for (const std::uint32_t side : patch.side) {
       if (side == protocol::kNoSide) continue;
       below(Index::patch_side, side, scene_.patch_sides.size());
-      range(Index::first_element, scene_.patch_sides[side].first_element, Scene::elements_per_patch(polygon),
-            scene_.elements.size());
+      range(Index::first_element, scene_.patch_sides[side].first_element, patch.elements, scene_.elements.size());
+    }
+  }
+  void check(const protocol::Patch& patch, const protocol::Facet& facet) {
+    below(Index::facet_polygon, facet.polygon, scene_.polygons.size());
+    const bool code = facet.code >= 1U && facet.code < 2U * protocol::triangles_of_level(protocol::kMostLevels) &&
+                      facet.code < 2U * protocol::triangles_of_level(protocol::level_of_code(facet.code));
+    require(code, Index::facet_code, facet.code, protocol::kMostLevels);
+    below(Index::facet_element, facet.element, patch.elements);
+    for (const float share : {facet.of_patch, facet.of_element}) {
+      require(share > 0.0F && share <= 1.0F, Index::facet_share, facet.polygon, 1);
     }
   }
 

@@ -28,12 +28,4 @@ constexpr Fraction to_fraction(double value) {
   return static_cast<Fraction>(value * 4294967296.0 + 0.5);
 }
 
-/// The share of part `index` of `parts` equal ones, so that the shares add up to `amount` exactly.
-/// amount >= 0, parts in 1..2^16.
-constexpr std::int64_t equal_share(std::int64_t amount, std::uint32_t index, std::uint32_t parts) {
-  const std::int64_t quotient = amount / parts;
-  const std::int64_t rest = amount % parts;
-  return quotient + (rest * (index + 1) / parts - rest * index / parts);
-}
-
 }  // namespace torolux::protocol

@@ -33,7 +33,8 @@ enum class Dimension : std::uint32_t {
   emitter_a,
   emitter_b,
   along,
-  across
+  across,
+  place,
 };
 
 constexpr float uniform(std::uint32_t key, Dimension dimension) {

@@ -36,14 +36,13 @@ inline constexpr std::uint8_t kBackPresent = 2;
 struct Polygon {
   std::array<Vec3f, 3> corner;  ///< counter-clockwise seen from the front
   std::uint32_t number;         ///< global
-  std::uint32_t surface;  ///< radiosity: index of its first PatchReference. Ray tracing: of its first lattice value
-                          ///< (front lattice first, then back, as present)
+  std::uint32_t surface;  ///< radiosity: index of its first PatchReference. Ray tracing: node (triangle_grid.hpp) whose
+                          ///< leaves are indices of lattice triangles (the front's first, then the back's, as present)
   std::uint32_t normals;  ///< index of its first of three corner normals, or kNoPolygon: flat
   std::uint16_t material;
-  std::uint8_t sides;          ///< kFrontPresent | kBackPresent
-  std::uint8_t patch_level;    ///< 4^patch_level patches
-  std::uint8_t element_level;  ///< 4^element_level elements, >= patch_level; lattice of this level
-  std::uint8_t unused[3];
+  std::uint8_t sides;        ///< kFrontPresent | kBackPresent
+  std::uint8_t patch_level;  ///< it has part in 4^patch_level patches; radiosity only
+  std::uint8_t unused[4];
 };
 static_assert(sizeof(Polygon) == 56);
 
@@ -66,40 +65,58 @@ static_assert(sizeof(Material) == 136);
 
 // ---- Radiosity stage only ----
 
-/// Where the owner keeps a patch.
+/// The patch that a level-patch_level triangle of a polygon belongs to, and how it is cut into the patch's elements.
 struct PatchReference {
   std::uint32_t patch;  ///< local number at `pe`
   PeNumber pe;
   std::uint16_t unused;
+  std::uint32_t tree;  ///< node (triangle_grid.hpp) whose leaves are elements of the patch
 };
-static_assert(sizeof(PatchReference) == 8);
+static_assert(sizeof(PatchReference) == 12);
 
 inline constexpr std::uint32_t kNoSide = 0xFFFF'FFFFU;
 
+/// A patch at its owner. It has at least one facet and one element.
 struct Patch {
-  std::uint32_t number;               ///< global: ties are broken by it
-  std::uint32_t polygon;              ///< index into the PE's polygons
-  std::uint32_t path;                 ///< of level patch_level
+  std::uint32_t number;       ///< global: ties are broken by it
+  std::uint32_t first_facet;  ///< index into the facets
+  std::uint32_t facets;
+  std::uint32_t elements;             ///< of each side
   std::uint32_t subspace;             ///< local number of the subspace that holds its centre
   std::array<std::uint32_t, 2> side;  ///< front, back: index into the patch sides, or kNoSide
+  std::uint32_t material;             ///< index into the PE's materials
 };
-static_assert(sizeof(Patch) == 24);
+static_assert(sizeof(Patch) == 32);
+
+/// A flat part of one element: the whole of it where a polygon is cut into elements, one of many where an element is a
+/// cluster of small triangles. Facets of a patch follow its elements' order, so that those near each other lie
+/// together.
+struct Facet {
+  std::uint32_t polygon;  ///< index into the PE's polygons
+  std::uint32_t code;     ///< which triangle of its grid: location_code (triangle_grid.hpp)
+  std::uint32_t element;  ///< of the patch
+  float of_patch;         ///< its share of the patch's area, 0..1
+  float of_element;       ///< its share of the element's area, 0..1
+};
+static_assert(sizeof(Facet) == 20);
 
 /// One lit side of a patch.
 struct PatchSide {
   Flux incident;                ///< all that has come, emitters' light included
   Flux shot;                    ///< the part of `incident` that has been turned into shots
   Flux emission;                ///< emitted flux that has not been shot
-  std::uint32_t first_element;  ///< index into the elements; 4^(element_level - patch_level) of them
+  std::uint32_t first_element;  ///< index into the elements; Patch::elements of them
   std::uint32_t unused;
 };
 static_assert(sizeof(PatchSide) == 80);
 
 struct Element {
-  Flux flux;    ///< incident, `direct` included
-  Flux direct;  ///< incident straight from emitters: apart, so that shadow rays can take its place
+  Flux flux;     ///< incident, `direct` included
+  Flux direct;   ///< incident straight from emitters: apart, so that shadow rays can take its place
+  Vec3f shot;    ///< the part of `flux` that has been turned into shots, rounded: where light leaves, not how much
+  Vec3f unshot;  ///< what of `flux` was not, at the last selection: while a round lasts, `flux` depends on the time
 };
-static_assert(sizeof(Element) == 48);
+static_assert(sizeof(Element) == 72);
 
 /// Sums of one PE over the radiosity stage.
 struct Tally {
@@ -125,12 +142,12 @@ constexpr std::uint32_t hemicube_pixels(std::uint32_t n) {
 
 // ---- Ray tracing stage only ----
 
-/// Irradiance / pi at a lattice vertex, in units of the scene's greatest emitted radiance; times reflectance =
-/// radiance.
-struct LatticeValue {
-  Vec3f irradiance_over_pi;
+/// Irradiance / pi at the corners of one side of an element, in units of the scene's greatest emitted radiance; times
+/// reflectance = radiance.
+struct LatticeTriangle {
+  std::array<Vec3f, 3> irradiance_over_pi;  ///< by corner
 };
-static_assert(sizeof(LatticeValue) == 12);
+static_assert(sizeof(LatticeTriangle) == 36);
 
 /// Something that emits, for shadow rays. All PEs have all emitters, or none where no shadow rays are asked for.
 struct Emitter {
@@ -188,6 +205,7 @@ struct StageLayout {
   Store polygons;                      ///< Polygon[]
   Store materials;                     ///< Material[]
   Store normals;                       ///< Vec3f[]
+  Store nodes;                         ///< uint32_t[]: trees over polygons, see triangle_grid.hpp
   Store record_slots;                  ///< RadiosityRecord[] or RayRecord[]: own_slots, then the NIU's
   std::uint32_t own_slots;
   std::uint32_t gather_cycles, gather_records;  ///< NiuWindow::gather
@@ -197,16 +215,17 @@ struct StageLayout {
   Store patches;                  ///< Patch[]
   Store patch_sides;              ///< PatchSide[]
   Store elements;                 ///< Element[]
+  Store facets;                   ///< Facet[]
   Store hemicube;                 ///< uint32_t[hemicube_weights(hemicube_size)]
   std::uint32_t hemicube_size;    ///< N, even
   std::uint32_t shot_points;      ///< k: k * k points per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light
   // Ray tracing stage.
-  Store lattice;       ///< LatticeValue[]
+  Store lattice;       ///< LatticeTriangle[]
   Store emitters;      ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
   float pixel_scale;   ///< quanta per unit of radiance
   float least_weight;  ///< a ray whose weights are all below dies
 };
-static_assert(sizeof(StageLayout) == 172);
+static_assert(sizeof(StageLayout) == 188);
 
 }  // namespace torolux::protocol

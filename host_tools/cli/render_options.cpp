@@ -137,6 +137,11 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
   };
   length("--patches", "Longest edge of a patch (which shoots light), scene units", options.patches);
   length("--elements", "Longest edge of an element (which receives light), scene units", options.elements);
+  add_value(command, "--refine", "FACTOR",
+            "Elements added where a draft of the light asks for it, as a multiple of those without; 0: no draft",
+            [&options](const std::string& text) { options.refine = parse_number(text, 0, 100); })
+      ->default_str(significant(built_in.refine, 6))
+      ->group(group);
   add_value(command, "--hemicube", "N",
             "Pixels across the top of a hemi-cube, even, 4 to " + std::to_string(protocol::kMostHemicubeSize),
             [&options](const std::string& text) {

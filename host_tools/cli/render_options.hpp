@@ -44,7 +44,7 @@ struct RenderOptions {
   // The light.
   std::optional<LengthOption> patches, elements;
   std::optional<std::uint32_t> hemicube, shot_points, emission_records, max_shots, bounces;
-  std::optional<double> unshot;
+  std::optional<double> refine, unshot;
   std::optional<std::uint64_t> seed;
   bool two_sided_lights = false;
   std::optional<bool> shadow_rays;
@@ -67,7 +67,7 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);
-/// --patches, --elements, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights, --seed.
+/// --patches, --elements, --refine, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights, --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
 /// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);

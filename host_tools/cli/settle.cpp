@@ -46,6 +46,7 @@ Quality settle_quality(const RenderOptions& options, const SceneDefaults& defaul
   pick(quality.samples, options.samples, defaults.samples);
   quality.patch_length = options.patches ? options.patches->length : defaults.patch_length;
   quality.element_length = options.elements ? options.elements->length : defaults.element_length;
+  pick(quality.refine, options.refine, defaults.refine);
   pick(quality.hemicube, options.hemicube, defaults.hemicube);
   pick(quality.shot_points, options.shot_points, defaults.shot_points);
   pick(quality.emission_records, options.emission_records, defaults.emission_records);

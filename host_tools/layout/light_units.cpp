@@ -36,14 +36,12 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
   return units;
 }
 
-protocol::Flux patch_emission(const Scene& scene, const MeshTriangle& triangle, std::uint32_t side,
-                              const LightUnits& units) {
-  const SceneMaterial& material = scene.materials[triangle.material];
+protocol::Flux patch_emission(const Scene& scene, const MeshPatch& patch, std::uint32_t side, const LightUnits& units) {
+  const SceneMaterial& material = scene.materials[patch.material];
   protocol::Flux flux{};
   if (!emits(material) || (side == 1 && !units.two_sided_lights)) return flux;
-  const double area = triangle.area / protocol::triangles_of_level(triangle.patch_level);
   for (std::size_t c = 0; c < 3; ++c) {
-    flux[c] = std::llround(std::numbers::pi * material.emission[c] * area / units.watts_per_quantum);
+    flux[c] = std::llround(std::numbers::pi * material.emission[c] * patch.area / units.watts_per_quantum);
   }
   return flux;
 }

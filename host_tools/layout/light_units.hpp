@@ -21,8 +21,7 @@ struct LightUnits {
 LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_lights);
 
 /// Emitted flux of one side (0 front, 1 back) of one patch of the triangle, pi * Ke * area, in quanta, rounded.
-protocol::Flux patch_emission(const Scene& scene, const MeshTriangle& triangle, std::uint32_t side,
-                              const LightUnits& units);
+protocol::Flux patch_emission(const Scene& scene, const MeshPatch& patch, std::uint32_t side, const LightUnits& units);
 
 /// All emitters, chosen by the flux that they emit. In the order of the mesh.
 std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, const LightUnits& units);

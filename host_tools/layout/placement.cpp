@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "firmware/protocol/stores.hpp"
-#include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux {
 namespace {
@@ -19,13 +18,8 @@ constexpr double kCyclesPerRecordMade = 400;
 
 std::vector<CellIndex> cells_of_patches(const Mesh& mesh, const Grid& grid) {
   std::vector<CellIndex> cells;
-  cells.reserve(mesh.patches);
-  for (const MeshTriangle& triangle : mesh.triangles) {
-    if (triangle.sides == 0) continue;
-    for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
-      cells.push_back(grid.index(grid.cell_of(to_float(patch_centre(triangle, path)))));
-    }
-  }
+  cells.reserve(mesh.patches.size());
+  for (const MeshPatch& patch : mesh.patches) cells.push_back(grid.index(grid.cell_of(to_float(patch.centre))));
   return cells;
 }
 
@@ -33,7 +27,7 @@ std::vector<CellIndex> cells_of_patches(const Mesh& mesh, const Grid& grid) {
 std::vector<CellCost> predict(const Mesh& mesh, const Placement& placement, const std::vector<CellIndex>& patch_cell,
                               double records_per_patch) {
   const Grid& grid = placement.grid;
-  const double records = records_per_patch * mesh.patches;
+  const double records = records_per_patch * static_cast<double>(mesh.patches.size());
   const double crossed = 0.75 * (grid.cells[0] + grid.cells[1] + grid.cells[2]) / 1.5;
   const double visits = records * crossed / grid.count();
   std::vector<CellCost> costs(grid.count());
@@ -43,19 +37,19 @@ std::vector<CellCost> predict(const Mesh& mesh, const Placement& placement, cons
     costs[cell].bytes = sizeof(protocol::Subspace);
     for (const std::uint32_t t : placement.polygons_of_cell[cell]) {
       const MeshTriangle& triangle = mesh.triangles[t];
-      costs[cell].bytes += sizeof(protocol::Polygon) + sizeof(std::uint32_t) +
-                           protocol::lattice_size(triangle.element_level) * sizeof(protocol::LatticeValue);
+      costs[cell].bytes +=
+          sizeof(protocol::Polygon) + sizeof(std::uint32_t) + triangle.facets * sizeof(protocol::LatticeTriangle);
     }
   }
-  for (std::uint32_t patch = 0; patch < mesh.patches; ++patch) {
-    const MeshTriangle& triangle = mesh.triangles[mesh.triangle_of_patch[patch]];
-    const std::uint64_t sides = triangle.sides == (protocol::kFrontPresent | protocol::kBackPresent) ? 2 : 1;
-    CellCost& cost = costs[patch_cell[patch]];
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const MeshPatch& patch = mesh.patches[p];
+    CellCost& cost = costs[patch_cell[p]];
     cost.cycles += static_cast<std::uint64_t>(records_per_patch * kCyclesPerRecordMade);
-    cost.bytes += sizeof(protocol::Patch) +
-                  sides * (sizeof(protocol::PatchSide) +
-                           protocol::triangles_of_level(std::uint32_t{triangle.element_level} - triangle.patch_level) *
-                               sizeof(protocol::Element));
+    cost.bytes += sizeof(protocol::Patch) + patch.facets * sizeof(protocol::Facet);
+    for (const std::uint32_t side : patch.side) {
+      if (side == protocol::kNoSide) continue;
+      cost.bytes += sizeof(protocol::PatchSide) + patch.elements * sizeof(protocol::Element);
+    }
   }
   return costs;
 }
@@ -74,15 +68,19 @@ void spread(const Mesh& mesh, const std::vector<CellIndex>& patch_cell, Placemen
     if (!polygons.empty()) ++placement.filled_cells;
     placement.polygons_of_pe[pe].insert(placement.polygons_of_pe[pe].end(), polygons.begin(), polygons.end());
   }
-  for (auto& polygons : placement.polygons_of_pe) {
-    std::sort(polygons.begin(), polygons.end());
-    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
-  }
-  for (std::uint32_t patch = 0; patch < mesh.patches; ++patch) {
+  for (std::uint32_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const CellIndex cell = patch_cell[patch];
     const PeNumber pe = placement.pe_of_cell[cell];
     placement.patch_home.push_back({pe, static_cast<std::uint32_t>(placement.patches_of_pe[pe].size()), cell});
     placement.patches_of_pe[pe].push_back(patch);
+    // Its owner shoots from all of a patch, though a cluster's triangles may lie beyond the owner's subspaces.
+    for (std::uint32_t f = 0; f < mesh.patches[patch].facets; ++f) {
+      placement.polygons_of_pe[pe].push_back(mesh.facets[mesh.patches[patch].first_facet + f].triangle);
+    }
+  }
+  for (auto& polygons : placement.polygons_of_pe) {
+    std::sort(polygons.begin(), polygons.end());
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
   }
 }
 

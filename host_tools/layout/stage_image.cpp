@@ -107,14 +107,13 @@ class ImageWriter {
       put(layout_.materials, m, machine_material(scene_.materials[used[m]], units_));
     }
     std::uint32_t normals = 0;
-    std::uint32_t surface = 0;
+    std::uint32_t references = 0;
     for (std::size_t local = 0; local < placement_.polygons_of_pe[pe_].size(); ++local) {
       const std::uint32_t t = placement_.polygons_of_pe[pe_][local];
       const MeshTriangle& triangle = mesh_.triangles[t];
       protocol::Polygon polygon{};
       polygon.corner = triangle.corner;
       polygon.number = t;
-      polygon.surface = surface;
       polygon.normals = protocol::kNoPolygon;
       if (triangle.normals != protocol::kNoPolygon) {
         polygon.normals = normals;
@@ -124,24 +123,53 @@ class ImageWriter {
           static_cast<std::uint16_t>(std::lower_bound(used.begin(), used.end(), triangle.material) - used.begin());
       polygon.sides = triangle.sides;
       polygon.patch_level = triangle.patch_level;
-      polygon.element_level = triangle.element_level;
-      if (lattice != nullptr) {
-        surface += write_lattice(*lattice, t, surface);
-      } else if (triangle.sides != 0) {
-        surface += protocol::triangles_of_level(triangle.patch_level);
-      }
+      if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_lattice(*lattice, t) : references;
+      if (triangle.sides != 0) references += protocol::triangles_of_level(triangle.patch_level);
       put(layout_.polygons, local, polygon);
     }
   }
 
-  std::uint32_t write_lattice(const Lattice& lattice, std::uint32_t t, std::uint32_t first) {
-    std::uint32_t next = first;
-    for (const std::uint32_t from : lattice.first[t]) {
-      if (from == protocol::kNoSide) continue;
-      const std::uint32_t size = protocol::lattice_size(mesh_.triangles[t].element_level);
-      for (std::uint32_t i = 0; i < size; ++i) put(layout_.lattice, next++, lattice.values[from + i]);
+  /// Returns the node of the polygon's tree.
+  std::uint32_t write_lattice(const Lattice& lattice, std::uint32_t t) {
+    const MeshTriangle& triangle = mesh_.triangles[t];
+    const std::uint32_t first_facet = mesh_.parts[triangle.first_part].facet;
+    const auto sides = static_cast<std::uint32_t>((triangle.sides & protocol::kFrontPresent ? 1 : 0) +
+                                                  (triangle.sides & protocol::kBackPresent ? 1 : 0));
+    const std::uint32_t first = next_lattice_;
+    for (std::uint32_t i = 0; i < triangle.facets * sides; ++i) {
+      put(layout_.lattice, next_lattice_++, lattice.triangles[lattice.first[first_facet] + i]);
     }
-    return next - first;
+    std::uint32_t leaf = first;
+    return write_polygon_tree(triangle, 0, 0, [&](std::uint32_t) {
+      const std::uint32_t here = leaf;
+      leaf += sides;
+      return here;
+    });
+  }
+
+  /// Nodes above the parts, then those of each part. number: of a leaf, in their order.
+  template <typename Number>
+  std::uint32_t write_polygon_tree(const MeshTriangle& triangle, std::uint32_t path, std::uint32_t level,
+                                   const Number& number) {
+    if (level == triangle.patch_level) return write_tree(mesh_.parts[triangle.first_part + path].tree, number);
+    const std::uint32_t first = next_node_;
+    next_node_ += 4;
+    for (std::uint32_t child = 0; child < 4; ++child) {
+      put(layout_.nodes, first + child, write_polygon_tree(triangle, path << 2U | child, level + 1, number));
+    }
+    return first;
+  }
+
+  /// number: of a leaf, from its element.
+  template <typename Number>
+  std::uint32_t write_tree(std::uint32_t node, const Number& number) {
+    if ((node & protocol::kLeaf) != 0) return protocol::kLeaf | number(node & ~protocol::kLeaf);
+    const std::uint32_t first = next_node_;
+    next_node_ += 4;
+    for (std::uint32_t child = 0; child < 4; ++child) {
+      put(layout_.nodes, first + child, write_tree(mesh_.nodes[node + child], number));
+    }
+    return first;
   }
 
   void write_patch_references() {
@@ -150,8 +178,10 @@ class ImageWriter {
       const MeshTriangle& triangle = mesh_.triangles[t];
       if (triangle.sides == 0) continue;
       for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
-        const PatchHome& home = placement_.patch_home[triangle.first_patch + path];
-        put(layout_.patch_references, next++, protocol::PatchReference{home.local, home.pe, 0});
+        const MeshPart& part = mesh_.parts[triangle.first_part + path];
+        const PatchHome& home = placement_.patch_home[part.patch];
+        const std::uint32_t tree = write_tree(part.tree, [](std::uint32_t element) { return element; });
+        put(layout_.patch_references, next++, protocol::PatchReference{home.local, home.pe, 0, tree});
       }
     }
   }
@@ -159,27 +189,43 @@ class ImageWriter {
   void write_patches() {
     std::uint32_t sides = 0;
     std::uint32_t elements = 0;
+    std::uint32_t facets = 0;
+    const std::vector<std::uint32_t> used = materials();
     for (std::size_t local = 0; local < placement_.patches_of_pe[pe_].size(); ++local) {
       const std::uint32_t number = placement_.patches_of_pe[pe_][local];
-      const std::uint32_t t = mesh_.triangle_of_patch[number];
-      const MeshTriangle& triangle = mesh_.triangles[t];
+      const MeshPatch& from = mesh_.patches[number];
       protocol::Patch patch{};
       patch.number = number;
-      patch.polygon = local_polygon(t);
-      patch.path = number - triangle.first_patch;
+      patch.first_facet = facets;
+      patch.facets = from.facets;
+      patch.elements = from.elements;
       patch.subspace = placement_.local_of_cell[placement_.patch_home[number].cell];
+      patch.material =
+          static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), from.material) - used.begin());
+      for (std::uint32_t f = 0; f < from.facets; ++f) write_facet(from, mesh_.facets[from.first_facet + f], facets++);
       for (std::uint32_t side = 0; side < 2; ++side) {
         patch.side[side] = protocol::kNoSide;
-        if (triangle.first_side[side] == protocol::kNoSide) continue;
+        if (from.side[side] == protocol::kNoSide) continue;
         protocol::PatchSide patch_side{};
-        patch_side.emission = patch_emission(scene_, triangle, side, units_);
+        patch_side.emission = patch_emission(scene_, from, side, units_);
         patch_side.first_element = elements;
-        elements += protocol::triangles_of_level(std::uint32_t{triangle.element_level} - triangle.patch_level);
+        elements += from.elements;
         patch.side[side] = sides;
         put(layout_.patch_sides, sides++, patch_side);
       }
       put(layout_.patches, local, patch);
     }
+  }
+
+  void write_facet(const MeshPatch& patch, const MeshFacet& facet, std::uint32_t index) {
+    const double area = mesh_.facet_area(facet);
+    const bool whole = patch.facets == patch.elements;
+    const double of_element = whole ? 1 : area / mesh_.element_area(patch, facet.element);
+    // Never nothing, however small: a PE takes that for a mistake.
+    const auto share = [](double value) { return std::max(static_cast<float>(value), 0x1p-100F); };
+    put(layout_.facets, index,
+        protocol::Facet{local_polygon(facet.triangle), facet.code, facet.element,
+                        std::min(share(area / patch.area), 1.0F), std::min(share(of_element), 1.0F)});
   }
 
   const Scene& scene_;
@@ -188,6 +234,8 @@ class ImageWriter {
   PeNumber pe_;
   const LightUnits& units_;
   const protocol::StageLayout& layout_;
+  std::uint32_t next_node_ = 0;
+  std::uint32_t next_lattice_ = 0;
   std::vector<std::byte> bytes_;  ///< elements stay zero, and are loaded as such
 };
 

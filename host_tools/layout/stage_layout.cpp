@@ -16,7 +16,8 @@ using protocol::Store;
 
 struct Counts {
   std::uint64_t subspaces = 0, polygon_list = 0, polygons = 0, materials = 0, normals = 0;
-  std::uint64_t patch_references = 0, patches = 0, patch_sides = 0, elements = 0, hemicube = 0, lattice = 0;
+  std::uint64_t nodes = 0, patch_references = 0, patches = 0, patch_sides = 0, elements = 0, facets = 0, hemicube = 0,
+                lattice = 0;
 };
 
 std::uint64_t sides_of(const MeshTriangle& triangle) {
@@ -36,21 +37,26 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
     materials.push_back(triangle.material);
     if (triangle.normals != protocol::kNoPolygon) counts.normals += 3;
     if (triangle.sides == 0) continue;
-    counts.patch_references += protocol::triangles_of_level(triangle.patch_level);
-    counts.lattice += sides_of(triangle) * protocol::lattice_size(triangle.element_level);
+    const std::uint32_t parts = protocol::triangles_of_level(triangle.patch_level);
+    // Every four children add three leaves.
+    counts.nodes += (triangle.facets - (stage == Stage::radiosity ? parts : 1U)) / 3 * 4;
+    if (stage == Stage::radiosity) {
+      counts.patch_references += parts;
+    } else {
+      counts.lattice += sides_of(triangle) * triangle.facets;
+    }
   }
   std::sort(materials.begin(), materials.end());
   counts.materials = static_cast<std::uint64_t>(std::unique(materials.begin(), materials.end()) - materials.begin());
-  if (stage == Stage::ray_tracing) {
-    counts.patch_references = 0;
-    return counts;
-  }
-  counts.lattice = 0;
-  for (const std::uint32_t patch : placement.patches_of_pe[pe]) {
-    const MeshTriangle& triangle = mesh.triangles[mesh.triangle_of_patch[patch]];
-    counts.patch_sides += sides_of(triangle);
-    counts.elements +=
-        sides_of(triangle) * protocol::triangles_of_level(std::uint32_t{triangle.element_level} - triangle.patch_level);
+  if (stage == Stage::ray_tracing) return counts;
+  for (const std::uint32_t number : placement.patches_of_pe[pe]) {
+    const MeshPatch& patch = mesh.patches[number];
+    counts.facets += patch.facets;
+    for (const std::uint32_t side : patch.side) {
+      if (side == protocol::kNoSide) continue;
+      ++counts.patch_sides;
+      counts.elements += patch.elements;
+    }
   }
   counts.patches = placement.patches_of_pe[pe].size();
   counts.hemicube = protocol::hemicube_weights(hemicube);
@@ -99,13 +105,15 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.polygons = allocator.place("polygons", counts.polygons, sizeof(protocol::Polygon));
   layout.materials = allocator.place("materials", counts.materials, sizeof(protocol::Material));
   layout.normals = allocator.place("normals", counts.normals, sizeof(protocol::Vec3f));
+  layout.nodes = allocator.place("nodes", counts.nodes, sizeof(std::uint32_t));
   layout.patch_references =
       allocator.place("patch references", counts.patch_references, sizeof(protocol::PatchReference));
   layout.patches = allocator.place("patches", counts.patches, sizeof(protocol::Patch));
   layout.patch_sides = allocator.place("patch sides", counts.patch_sides, sizeof(protocol::PatchSide));
   layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));
+  layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
   layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(std::uint32_t));
-  layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeValue));
+  layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
   const std::uint32_t emitters = stage == Stage::ray_tracing ? parameters.emitters : 0;
   layout.emitters = allocator.place("emitters", emitters, sizeof(protocol::Emitter));
   result.load_end = allocator.next();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The lattice: from flux per element to irradiance per vertex, continuous over each smooth surface.
+// The lattice: from flux per element to irradiance at the elements' corners, continuous over each smooth surface.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,15 +12,15 @@
 namespace torolux {
 
 struct Lattice {
-  std::vector<protocol::LatticeValue> values;
-  /// By triangle and side: index of the first of lattice_size(element_level) values, or kNoSide.
-  std::vector<std::array<std::uint32_t, 2>> first;
+  std::vector<protocol::LatticeTriangle> triangles;  ///< by facet; of each the front, then the back, as present
+  std::vector<std::uint32_t> first;                  ///< by facet: into `triangles`
 };
 
 /// flux: incident, by global element (Mesh::elements of them), in quanta. watts_per_quantum: of the flux.
 /// unit_radiance: values are irradiance / pi in this unit [W/(m^2 sr)].
-/// A vertex takes the flux of all elements around it on its smooth surface, divided by their area. A vertex on an edge
-/// whose other triangle is cut more coarsely is anchored: it lies on the line between that triangle's vertices.
+/// A vertex takes the flux of all elements around it on its smooth surface, divided by their area; where they are
+/// clusters, of those near it, too, less the farther away their centres are. A vertex on the edge of a larger element
+/// is anchored: it lies on the line between that element's corners.
 Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
                      double unit_radiance);
 

@@ -10,21 +10,28 @@
 namespace torolux {
 namespace {
 
-double count_for(std::span<const double> longest_edges, double most) {
+/// Area of an equilateral triangle with edges of length 1: what is smaller shares an element with its neighbours.
+constexpr double kEquilateral = 0.4330127018922193;
+
+double count_for(std::span<const CutTriangle> triangles, double most) {
   double sum = 0;
-  for (const double edge : longest_edges) sum += std::ldexp(1.0, 2 * level_for(edge, most));
+  for (const CutTriangle& triangle : triangles) {
+    const std::uint8_t level = level_for(triangle.longest_edge, most);
+    sum += level > 0 ? std::ldexp(1.0, 2 * level) : std::min(1.0, triangle.area / (kEquilateral * most * most));
+  }
   return sum;
 }
 
 /// The length whose count is nearest to `target` by ratio, among the longest edge divided by powers of 2^(1/4).
-double length_for(std::span<const double> longest_edges, double target) {
-  const double longest = *std::max_element(longest_edges.begin(), longest_edges.end());
+double length_for(std::span<const CutTriangle> triangles, double target) {
+  double longest = 0;
+  for (const CutTriangle& triangle : triangles) longest = std::max(longest, triangle.longest_edge);
   double best = longest;
   double best_ratio = HUGE_VAL;
   for (std::uint32_t step = 0; step <= 4 * protocol::kMostLevels; ++step) {
     // A little above the fraction, so that edges equal but for rounding get the same level.
     const double length = longest * std::exp2(-0.25 * step) * (1 + 1e-9);
-    const double count = count_for(longest_edges, length);
+    const double count = count_for(triangles, length);
     const double ratio = count > target ? count / target : target / count;
     if (ratio < best_ratio) {
       best = length;
@@ -46,21 +53,10 @@ std::uint8_t level_for(double longest_edge, double most) {
   return level;
 }
 
-std::vector<Levels> choose_levels(std::span<const double> longest_edges, std::optional<double> patch_length,
-                                  std::optional<double> element_length) {
-  std::vector<Levels> levels;
-  if (longest_edges.empty()) return levels;
-  const auto triangles = static_cast<double>(longest_edges.size());
-  const double patch = patch_length ? *patch_length : length_for(longest_edges, 300 + triangles);
-  const double element = element_length ? *element_length : length_for(longest_edges, 4500 + 2 * triangles);
-  levels.reserve(longest_edges.size());
-  for (const double edge : longest_edges) {
-    Levels level;
-    level.patch = level_for(edge, patch);
-    level.element = std::max(level.patch, level_for(edge, element));
-    levels.push_back(level);
-  }
-  return levels;
+MeshLengths choose_lengths(std::span<const CutTriangle> triangles, std::uint32_t surfaces,
+                           std::optional<double> patch_length, std::optional<double> element_length) {
+  return {patch_length ? *patch_length : length_for(triangles, 300.0 + surfaces),
+          element_length ? *element_length : length_for(triangles, 4500.0 + 2.0 * surfaces)};
 }
 
 }  // namespace torolux

@@ -6,6 +6,8 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/mesh/clusters.hpp"
+#include "host_tools/mesh/element_trees.hpp"
 #include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/sides.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -82,42 +84,151 @@ void choose_sides(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
   }
 }
 
-void cut(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
-  std::vector<double> edges;
+/// What decides how each triangle is cut.
+struct Cutting {
+  std::vector<int> patch_level;    ///< by triangle; -1: not cut
+  std::vector<int> element_level;  ///< likewise, at least patch_level
+  std::vector<PatchCluster> clusters;
+};
+
+Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
+  Cutting cutting{std::vector<int>(mesh.triangles.size(), -1), std::vector<int>(mesh.triangles.size(), -1), {}};
+  std::vector<CutTriangle> cut;
   for (const MeshTriangle& triangle : mesh.triangles) {
-    if (triangle.sides != 0) edges.push_back(longest_edge(scene, triangle.position));
+    if (triangle.sides != 0) cut.push_back({longest_edge(scene, triangle.position), triangle.area});
   }
-  const std::vector<Levels> levels = choose_levels(edges, choice.patch_length, choice.element_length);
-  std::uint64_t elements = 0;
-  std::size_t next = 0;
-  for (MeshTriangle& triangle : mesh.triangles) {
-    if (triangle.sides == 0) continue;
-    triangle.patch_level = levels[next].patch;
-    triangle.element_level = levels[next].element;
-    ++next;
-    const std::uint64_t sides = triangle.sides == (kFrontPresent | kBackPresent) ? 2 : 1;
-    elements += sides * protocol::triangles_of_level(triangle.element_level);
+  std::vector<bool> small(mesh.triangles.size(), false);
+  MeshLengths& lengths = mesh.lengths;
+  if (!cut.empty()) {
+    lengths = choose_lengths(cut, count_smooth_surfaces(mesh), choice.patch_length, choice.element_length);
+    std::size_t next = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.triangles[t].sides == 0) continue;
+      const double edge = cut[next++].longest_edge;
+      cutting.patch_level[t] = level_for(edge, lengths.patch);
+      cutting.element_level[t] = std::max<int>(cutting.patch_level[t], level_for(edge, lengths.element));
+      small[t] = cutting.element_level[t] == 0;
+    }
   }
-  if (elements > kMostElements) {
-    throw InputError("the mesh would have " + std::to_string(elements) + " elements on all sides, at most " +
-                     std::to_string(kMostElements) + " are allowed: use a greater --elements or --patches");
+  mesh.smooth = find_smooth_surfaces(mesh, small);
+  cutting.clusters = find_clusters(mesh, scene, small, lengths.patch, lengths.element);
+  for (const PatchCluster& cluster : cutting.clusters) {
+    for (const ElementCluster& element : cluster) {
+      for (const std::uint32_t t : element) cutting.patch_level[t] = cutting.element_level[t] = -1;
+    }
   }
+  std::vector<bool> cut_up;
+  for (const int level : cutting.patch_level) cut_up.push_back(level >= 0);
+  mesh.walls = Walls(mesh, cut_up);
+  return cutting;
 }
 
-void number(Mesh& mesh) {
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    MeshTriangle& triangle = mesh.triangles[t];
-    if (triangle.sides == 0) continue;
-    const std::uint32_t patches = protocol::triangles_of_level(triangle.patch_level);
-    triangle.first_patch = mesh.patches;
-    mesh.patches += patches;
-    mesh.triangle_of_patch.insert(mesh.triangle_of_patch.end(), patches, t);
+/// Puts patches together, one after the other.
+class PatchMaker {
+ public:
+  PatchMaker(Mesh& mesh, const Leaves& leaves) : mesh_(mesh), leaves_(leaves) {}
+
+  void cut(std::uint32_t t, std::uint32_t level) {
+    MeshTriangle& triangle = mesh_.triangles[t];
+    triangle.patch_level = static_cast<std::uint8_t>(level);
+    triangle.first_part = static_cast<std::uint32_t>(mesh_.parts.size());
+    triangle.facets = static_cast<std::uint32_t>(leaves_[t].size());
+    next_leaf_ = 0;
+    for (std::uint32_t path = 0; path < protocol::triangles_of_level(level); ++path) {
+      begin();
+      const auto facet = static_cast<std::uint32_t>(mesh_.facets.size());
+      const std::uint32_t tree = grow(t, protocol::location_code(path, level));
+      mesh_.parts.push_back({static_cast<std::uint32_t>(mesh_.patches.size() - 1), tree, facet});
+      mesh_.patches.back().elements = static_cast<std::uint32_t>(mesh_.facets.size()) - facet;
+      end();
+    }
+  }
+
+  void join(const PatchCluster& cluster) {
+    begin();
+    for (std::uint32_t e = 0; e < cluster.size(); ++e) {
+      for (const std::uint32_t t : cluster[e]) {
+        MeshTriangle& triangle = mesh_.triangles[t];
+        triangle.patch_level = 0;
+        triangle.first_part = static_cast<std::uint32_t>(mesh_.parts.size());
+        triangle.facets = 1;
+        mesh_.parts.push_back({static_cast<std::uint32_t>(mesh_.patches.size() - 1), protocol::kLeaf | e,
+                               static_cast<std::uint32_t>(mesh_.facets.size())});
+        mesh_.facets.push_back({t, 1, e});
+      }
+    }
+    mesh_.patches.back().elements = static_cast<std::uint32_t>(cluster.size());
+    end();
+  }
+
+ private:
+  void begin() { mesh_.patches.emplace_back().first_facet = static_cast<std::uint32_t>(mesh_.facets.size()); }
+
+  /// The tree below one triangle of a grid; its leaves are the next ones of leaves_. Returns its node.
+  std::uint32_t grow(std::uint32_t t, std::uint32_t code) {
+    const MeshPatch& patch = mesh_.patches.back();
+    if (leaves_[t][next_leaf_] == code) {
+      ++next_leaf_;
+      const auto element = static_cast<std::uint32_t>(mesh_.facets.size()) - patch.first_facet;
+      mesh_.facets.push_back({t, code, element});
+      return protocol::kLeaf | element;
+    }
+    const auto first = static_cast<std::uint32_t>(mesh_.nodes.size());
+    mesh_.nodes.resize(first + 4);
+    for (std::uint32_t child = 0; child < 4; ++child) {
+      const std::uint32_t node = grow(t, code << 2U | child);
+      mesh_.nodes[first + child] = node;
+    }
+    return first;
+  }
+
+  void end() {
+    MeshPatch& patch = mesh_.patches.back();
+    patch.facets = static_cast<std::uint32_t>(mesh_.facets.size()) - patch.first_facet;
+    const MeshTriangle& first = mesh_.triangles[mesh_.facets[patch.first_facet].triangle];
+    patch.material = first.material;
+    for (std::uint32_t f = 0; f < patch.facets; ++f) {
+      const MeshFacet& facet = mesh_.facets[patch.first_facet + f];
+      const auto corner = grid_corners(mesh_.triangles[facet.triangle], facet.code);
+      const double area = mesh_.facet_area(facet);
+      patch.centre = vec::add(patch.centre, vec::scale(vec::add(vec::add(corner[0], corner[1]), corner[2]), area / 3));
+      patch.area += area;
+    }
+    patch.centre = vec::scale(patch.centre, 1 / patch.area);
     for (std::uint32_t side = 0; side < 2; ++side) {
-      if ((triangle.sides & (side == 0 ? kFrontPresent : kBackPresent)) == 0) continue;
-      triangle.first_side[side] = mesh.patch_sides;
-      triangle.first_element[side] = mesh.elements;
-      mesh.patch_sides += patches;
-      mesh.elements += protocol::triangles_of_level(triangle.element_level);
+      if ((first.sides & (side == 0 ? kFrontPresent : kBackPresent)) == 0) continue;
+      patch.side[side] = mesh_.patch_sides++;
+      patch.first_element[side] = mesh_.elements;
+      mesh_.elements += patch.elements;
+    }
+  }
+
+  Mesh& mesh_;
+  const Leaves& leaves_;
+  std::size_t next_leaf_ = 0;
+};
+
+void require_few_elements(const Mesh& mesh, const std::vector<int>& element_level) {
+  std::uint64_t elements = 0;
+  for (std::size_t t = 0; t < element_level.size(); ++t) {
+    if (element_level[t] < 0) continue;
+    const std::uint64_t sides = mesh.triangles[t].sides == (kFrontPresent | kBackPresent) ? 2 : 1;
+    elements += sides * protocol::triangles_of_level(static_cast<std::uint32_t>(element_level[t]));
+  }
+  if (elements <= kMostElements) return;
+  throw InputError("the mesh would have " + std::to_string(elements) + " elements on all sides, at most " +
+                   std::to_string(kMostElements) + " are allowed: use a greater --elements or --patches");
+}
+
+void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh& mesh) {
+  require_few_elements(mesh, cutting.element_level);
+  const Leaves leaves = element_leaves(mesh, cutting.element_level, splits);
+  PatchMaker maker(mesh, leaves);
+  std::size_t next_cluster = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (cutting.patch_level[t] >= 0) maker.cut(t, static_cast<std::uint32_t>(cutting.patch_level[t]));
+    if (next_cluster < cutting.clusters.size() && cutting.clusters[next_cluster][0][0] == t) {
+      maker.join(cutting.clusters[next_cluster++]);
     }
   }
 }
@@ -134,20 +245,43 @@ Mesh make_mesh(const Scene& scene, const MeshChoice& choice) {
   mesh.space = scene_space(scene);
   take_triangles(scene, mesh);
   choose_sides(scene, choice, mesh);
-  cut(scene, choice, mesh);
-  number(mesh);
+  make_patches(choose_cutting(scene, choice, mesh), choice.splits, mesh);
   return mesh;
 }
 
-Vec3d patch_centre(const MeshTriangle& triangle, std::uint32_t path) {
-  const protocol::GridTriangle grid = protocol::grid_triangle(path, triangle.patch_level);
+std::array<Vec3d, 3> grid_corners(const MeshTriangle& triangle, std::uint32_t code) {
+  const protocol::GridTriangle grid =
+      protocol::grid_triangle(protocol::path_of_code(code), protocol::level_of_code(code));
   constexpr double one = 1U << protocol::kMostLevels;
-  Vec3d centre{0, 0, 0};
-  for (std::size_t w = 0; w < 3; ++w) {
-    const double weight = (grid.corner[0][w] + grid.corner[1][w] + grid.corner[2][w]) / (3 * one);
-    centre = vec::add(centre, vec::scale(to_double(triangle.corner[w]), weight));
+  std::array<Vec3d, 3> corners{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t w = 0; w < 3; ++w) {
+      corners[c] = vec::add(corners[c], vec::scale(to_double(triangle.corner[w]), grid.corner[c][w] / one));
+    }
   }
-  return centre;
+  return corners;
+}
+
+double Mesh::facet_area(const MeshFacet& facet) const {
+  return triangles[facet.triangle].area / protocol::triangles_of_level(protocol::level_of_code(facet.code));
+}
+
+double Mesh::element_area(const MeshPatch& patch, std::uint32_t element) const {
+  const auto begin = facets.begin() + patch.first_facet;
+  const auto [from, to] =
+      std::equal_range(begin, begin + patch.facets, MeshFacet{0, 0, element},
+                       [](const MeshFacet& a, const MeshFacet& b) { return a.element < b.element; });
+  double area = 0;
+  for (auto facet = from; facet != to; ++facet) area += facet_area(*facet);
+  return area;
+}
+
+std::uint32_t Mesh::facet_at(std::uint32_t triangle, float b1, float b2) const {
+  protocol::Weights at{(1.0F - b1) - b2, b1, b2};
+  const MeshTriangle& of = triangles[triangle];
+  const MeshPart& part = parts[of.first_part + protocol::enter_level(at, of.patch_level)];
+  const std::uint32_t leaf = protocol::find_leaf(nodes.data(), part.tree, at);
+  return (part.tree & protocol::kLeaf) != 0 ? part.facet : part.facet + leaf;
 }
 
 }  // namespace torolux

@@ -1,24 +1,37 @@
 // SPDX-License-Identifier: MIT
-// The mesh: each triangle of the scene with its sides, patches and elements. A function of scene and quality alone.
+// The mesh: the scene's triangles with their sides, patches and elements. A function of scene and quality alone.
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/normalise.hpp"
+#include "host_tools/mesh/smooth_surfaces.hpp"
+#include "host_tools/mesh/walls.hpp"
 #include "host_tools/scene/scene.hpp"
 
 namespace torolux {
+
+/// An element that is cut in four, beyond what its length asks for.
+struct Split {
+  std::uint32_t triangle = 0;  ///< of Mesh::triangles
+  std::uint32_t code = 0;      ///< protocol::location_code
+
+  auto operator<=>(const Split&) const = default;
+};
 
 /// What of the quality settings the mesh depends on.
 struct MeshChoice {
   std::optional<double> patch_length = std::nullopt;    ///< longest edge of a patch, user units, > 0; absent: auto
   std::optional<double> element_length = std::nullopt;  ///< likewise of an element
   bool two_sided_lights = false;
+  std::vector<Split> splits = {};  ///< ascending
 };
 
 struct MeshTriangle {
@@ -27,37 +40,70 @@ struct MeshTriangle {
   double area = 0;                               ///< [user units^2]
   std::uint32_t normals = protocol::kNoPolygon;  ///< index of its first of three Mesh::normals
   std::uint32_t material = 0;
-  std::uint8_t sides = 0;  ///< kFrontPresent | kBackPresent; 0 for mirror and glass
-  std::uint8_t patch_level = 0;
-  std::uint8_t element_level = 0;
-  std::uint32_t first_patch = 0;  ///< global number; 4^patch_level of them
-  std::array<std::uint32_t, 2> first_side{protocol::kNoSide, protocol::kNoSide};     ///< patch side front, back: global
-  std::array<std::uint32_t, 2> first_element{protocol::kNoSide, protocol::kNoSide};  ///< element front, back: global
+  std::uint8_t sides = 0;        ///< kFrontPresent | kBackPresent; 0 for mirror and glass
+  std::uint8_t patch_level = 0;  ///< 4^patch_level parts, each of another patch
+  std::uint32_t first_part = 0;  ///< into Mesh::parts, by path
+  std::uint32_t facets = 0;      ///< of all parts; they lie one behind the other
 };
 
-/// Global numbers run over triangles in order, then paths; patches first front then back sides of a triangle.
+/// What of a triangle belongs to one patch: all of it, or one triangle of its grid.
+struct MeshPart {
+  std::uint32_t patch = 0;
+  std::uint32_t tree = 0;  ///< node, see triangle_grid.hpp: an index into Mesh::nodes; leaves are elements of the patch
+  std::uint32_t facet = 0;  ///< of the tree's first leaf; those of the others follow
+};
+
+/// The flat piece of an element that one leaf of a tree stands for.
+struct MeshFacet {
+  std::uint32_t triangle = 0;
+  std::uint32_t code = 0;     ///< protocol::location_code
+  std::uint32_t element = 0;  ///< of the patch
+};
+
+struct MeshPatch {
+  std::uint32_t material = 0;
+  std::uint32_t first_facet = 0;
+  std::uint32_t facets = 0;
+  std::uint32_t elements = 0;                                                        ///< of each side
+  double area = 0;                                                                   ///< [user units^2]
+  Vec3d centre{0, 0, 0};                                                             ///< normalised
+  std::array<std::uint32_t, 2> side{protocol::kNoSide, protocol::kNoSide};           ///< front, back: global number
+  std::array<std::uint32_t, 2> first_element{protocol::kNoSide, protocol::kNoSide};  ///< likewise
+};
+
+/// Global numbers run over patches in the order of their first triangles, then of its paths; front before back.
 struct Mesh {
   SceneSpace space;
   std::vector<MeshTriangle> triangles;  ///< in scene order, those that vanish in float left out
   std::vector<protocol::Vec3f> normals;
-  std::uint32_t patches = 0;  ///< on one side or both
+  SmoothSurfaces smooth;
+  Walls walls;  ///< of triangles that are cut
+  std::vector<MeshPart> parts;
+  std::vector<std::uint32_t> nodes;
+  std::vector<MeshFacet> facets;  ///< patch by patch, there by element
+  std::vector<MeshPatch> patches;
+  MeshLengths lengths;  ///< as given or chosen
   std::uint32_t patch_sides = 0;
   std::uint32_t elements = 0;  ///< of all sides
   std::vector<std::string> notes;
 
-  std::vector<std::uint32_t> triangle_of_patch;  ///< by global patch number
+  double facet_area(const MeshFacet& facet) const;  ///< [user units^2]
+  /// Of an element of a patch, [user units^2].
+  double element_area(const MeshPatch& patch, std::uint32_t element) const;
+  /// The facet that holds a point of a triangle with sides; b1, b2: weights of corners 1 and 2.
+  std::uint32_t facet_at(std::uint32_t triangle, float b1, float b2) const;
 };
 
-/// More patch sides or elements than this are refused: about 3 GB of element sums.
+/// More patch sides or elements than this are refused: about 5 GB of element sums.
 inline constexpr std::uint64_t kMostElements = std::uint64_t{1} << 26U;
 
 /// Throws InputError: no surface left, or more than kMostElements.
 Mesh make_mesh(const Scene& scene, const MeshChoice& choice);
 
-/// Centre of a patch, normalised.
-Vec3d patch_centre(const MeshTriangle& triangle, std::uint32_t path);
-
 /// True where a side of this material emits: front, or either with two-sided lights.
 bool emits(const SceneMaterial& material);
+
+/// Corners of a triangle of a polygon's grid, normalised.
+std::array<Vec3d, 3> grid_corners(const MeshTriangle& triangle, std::uint32_t code);
 
 }  // namespace torolux

@@ -6,21 +6,30 @@
 #include <cstdint>
 #include <vector>
 
-#include "host_tools/mesh/mesh.hpp"
-
 namespace torolux {
+
+struct Mesh;
 
 /// Triangles of one material, wound alike, whose normals differ by less than this pass radiance on smoothly.
 inline constexpr double kSmoothCosine = 0.9396926207859084;  ///< 20 degrees
+/// Where both are smaller than an element they stand for something round.
+inline constexpr double kSmoothCosineOfSmall = 0.7071067811865476;  ///< 45 degrees
 
 /// Edge e of a triangle runs from corner e to corner (e + 1) % 3. Corners or edges with the same node are one vertex
 /// or one edge of a smooth surface. Only of triangles with sides; the others keep nodes of their own.
 struct SmoothSurfaces {
   std::vector<std::array<std::uint32_t, 3>> corner_node;  ///< by triangle and corner, < 3 * triangles
   std::vector<std::array<std::uint32_t, 3>> edge_node;    ///< by triangle and edge, likewise
-  std::vector<std::uint8_t> edge_level;  ///< by edge node: least element level of the triangles around it
+  /// By triangle and edge: the triangle beyond it on the smooth surface, or kNoNeighbour.
+  std::vector<std::array<std::uint32_t, 3>> neighbour;
 };
+inline constexpr std::uint32_t kNoNeighbour = 0xFFFF'FFFFU;
 
-SmoothSurfaces find_smooth_surfaces(const Mesh& mesh);
+/// small: by triangle, whether it is smaller than an element.
+SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small);
+
+/// Names a vertex of a triangle's grid, the same for all triangles of a smooth surface that meet there.
+/// i, j: weights of corners 1, 2 in units of 2^-kMostLevels.
+std::uint64_t vertex_key(const Mesh& mesh, std::uint32_t triangle, std::uint32_t i, std::uint32_t j);
 
 }  // namespace torolux

@@ -135,9 +135,10 @@ class Follower {
   }
 
   void deposit(const Meeting& met, const std::array<std::uint32_t, 3>& cell) {
-    const std::uint32_t path =
-        protocol::path_of_point(static_cast<float>(met.b1), static_cast<float>(met.b2), met.triangle->patch_level);
-    const protocol::PeNumber owner = placement_.patch_home[met.triangle->first_patch + path].pe;
+    protocol::Weights at{static_cast<float>(1 - met.b1 - met.b2), static_cast<float>(met.b1),
+                         static_cast<float>(met.b2)};
+    const std::uint32_t path = protocol::enter_level(at, met.triangle->patch_level);
+    const protocol::PeNumber owner = placement_.patch_home[mesh_.parts[met.triangle->first_part + path].patch].pe;
     sample_.of_pe[owner].deposits += 1;
     if (owner == placement_.pe_of_cell[placement_.grid.index(cell)]) return;
     sample_.of_pe[owner].arrivals += 1;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "emulator/errors.hpp"
-#include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/render/predict.hpp"
 #include "host_tools/render/render.hpp"
 #include "host_tools/render/setup.hpp"
@@ -16,10 +15,8 @@ RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice&
   try {
     const RenderSetup setup = make_setup(scene, quality, machine, load_image(pe_image));
     plan.triangles = setup.mesh.triangles.size();
-    plan.patches = setup.mesh.patches;
-    for (const MeshTriangle& triangle : setup.mesh.triangles) {
-      if (triangle.sides != 0) plan.elements += protocol::triangles_of_level(triangle.element_level);
-    }
+    plan.patches = setup.mesh.patches.size();
+    for (const MeshPatch& patch : setup.mesh.patches) plan.elements += patch.elements;
     plan.subspaces = setup.placement.grid.cells;
     plan.filled_subspaces = setup.placement.filled_cells;
     plan.pe_bytes = setup.need.pe_bytes;

@@ -64,21 +64,25 @@ struct Source {
 
 std::vector<Source> sources_of(const Scene& scene, const RenderSetup& setup, const LightSample& light) {
   std::vector<Source> sources;
-  for (std::size_t t = 0; t < setup.mesh.triangles.size(); ++t) {
-    const MeshTriangle& triangle = setup.mesh.triangles[t];
-    const Vec3d& diffuse = scene.materials[triangle.material].diffuse;
+  for (std::size_t p = 0; p < setup.mesh.patches.size(); ++p) {
+    const MeshPatch& patch = setup.mesh.patches[p];
+    const Vec3d& diffuse = scene.materials[patch.material].diffuse;
     const double reflectance = (diffuse[0] + diffuse[1] + diffuse[2]) / 3;
-    const std::uint32_t patches = protocol::triangles_of_level(triangle.patch_level);
+    const std::uint32_t pe = setup.placement.patch_home[p].pe;
     for (std::uint32_t side = 0; side < 2; ++side) {
-      if (triangle.first_side[side] == protocol::kNoSide) continue;
-      const protocol::Flux emission = patch_emission(scene, triangle, side, setup.units);
+      if (patch.side[side] == protocol::kNoSide) continue;
+      const protocol::Flux emission = patch_emission(scene, patch, side, setup.units);
       const auto emitted = static_cast<double>(emission[0] + emission[1] + emission[2]);
-      const double share = reflectance / patches;
-      for (std::uint32_t p = 0; p < patches; ++p) {
-        const std::uint32_t pe = setup.placement.patch_home[triangle.first_patch + p].pe;
-        sources.push_back({0, share * light.emitted.hits[t][side], share * light.reflected.hits[t][side], pe, false});
-        if (emitted > 0) sources.push_back({emitted, 0, 0, pe, true});
+      double of_emitted = 0;
+      double of_reflected = 0;
+      for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+        const MeshFacet& facet = setup.mesh.facets[f];
+        const double share = reflectance * setup.mesh.facet_area(facet) / setup.mesh.triangles[facet.triangle].area;
+        of_emitted += share * light.emitted.hits[facet.triangle][side];
+        of_reflected += share * light.reflected.hits[facet.triangle][side];
       }
+      sources.push_back({0, of_emitted, of_reflected, pe, false});
+      if (emitted > 0) sources.push_back({emitted, 0, 0, pe, true});
     }
   }
   return sources;

@@ -2,10 +2,12 @@
 // One render from scene to picture. See render.hpp.
 #include "host_tools/render/render.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "emulator/errors.hpp"
+#include "host_tools/mesh/refine.hpp"
 #include "host_tools/render/setup.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
 #include "host_tools/stages/render_program.hpp"
@@ -41,8 +43,8 @@ Picture picture_of(const FrameBuffer& frame_buffer, const RenderSetup& setup) {
   return picture;
 }
 
-RenderFigures figures_of(const RenderProgram& program, const Machine& machine, const RenderSetup& setup) {
-  RenderFigures figures;
+void add_figures(const RenderProgram& program, const Machine& machine, const RenderSetup& setup,
+                 RenderFigures& figures) {
   const StageTimes& times = program.times();
   figures.radiosity_cycles = times.radiosity - times.loaded;
   figures.load_cycles = times.loaded + (times.loaded_again - times.radiosity);
@@ -54,7 +56,25 @@ RenderFigures figures_of(const RenderProgram& program, const Machine& machine, c
   figures.credits_home = program.credits_home();
   figures.local_memory_bytes = *setup.memory;
   figures.subspaces = setup.placement.grid.cells;
-  return figures;
+}
+
+RenderSetup settled_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,
+                          const std::vector<Split>& splits) {
+  RenderSetup setup = make_setup(scene, quality, machine, image, splits);
+  if (!setup.memory) throw InputError(setup.need.refusal(machine.pe_memory.value_or(protocol::kLargestLocalMemory)));
+  return setup;
+}
+
+/// setup: outlives the job.
+RenderJob job_of(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+                 const RenderSetup& setup, bool radiosity_only) {
+  return {scene,
+          setup,
+          radiosity_settings(scene, setup, quality),
+          CameraRays(camera, setup.mesh.space, quality.width, quality.height, quality.samples, setup.parameters.seed),
+          {setup.credits, quality.width, quality.height, quality.samples, machine.skip_empty_subspaces},
+          std::nullopt,
+          radiosity_only};
 }
 
 /// A file whose flux does not add up is the file's fault, not the machine's.
@@ -67,40 +87,69 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   }
 }
 
+/// A solution that is quick and rough, but for the light straight from emitters, whose shadows it is to find.
+Quality draft_of(Quality quality) {
+  quality.hemicube = std::max(8U, quality.hemicube / 4 * 2);
+  quality.shot_points = std::max(1U, quality.shot_points / 2);
+  quality.unshot = std::max(quality.unshot, 0.05);
+  return quality;
+}
+
+/// Where the mesh needs more elements. Absent: stopped by `progress`.
+std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera& camera, const Quality& full,
+                                               const MachineChoice& choice, const Image& image,
+                                               const std::function<bool(const RenderProgress&)>& progress,
+                                               RenderFigures& figures) {
+  const Quality quality = draft_of(full);
+  const RenderSetup setup = settled_setup(scene, quality, choice, image, {});
+  RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
+  Machine torolux(machine_setup(setup, quality, choice), image);
+  torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
+  if (!program.finished()) return std::nullopt;
+  figures.draft_cycles = program.times().read;
+  figures.draft_records = program.solution()->tally.rays;
+  const auto more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements);
+  return choose_splits(setup.mesh, scene, incident_flux(*program.solution(), full.shadow_rays), more);
+}
+
 }  // namespace
 
 RenderResult render(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
                     const RenderFiles& files, const std::filesystem::path& pe_image,
                     const std::function<bool(const RenderProgress&)>& progress) {
   const Image image = load_image(pe_image);
-  const RenderSetup setup = make_setup(scene, quality, machine, image);
-  if (!setup.memory) throw InputError(setup.need.refusal(machine.pe_memory.value_or(protocol::kLargestLocalMemory)));
-  RenderJob job{
-      scene,
-      setup,
-      radiosity_settings(scene, setup, quality),
-      CameraRays(camera, setup.mesh.space, quality.width, quality.height, quality.samples, setup.parameters.seed),
-      {setup.credits, quality.width, quality.height, quality.samples, machine.skip_empty_subspaces},
-      std::nullopt};
-  const RadiosityOrigin origin = radiosity_origin(scene, quality, setup.mesh);
+  const auto begin = std::chrono::steady_clock::now();
+  RenderResult result;
+  std::optional<SavedRadiosity> saved;
+  std::vector<Split> splits;
   if (files.radiosity) {
-    job.solution = load_radiosity(*files.radiosity, origin, setup.mesh);
+    saved = read_radiosity(*files.radiosity);
+    splits = saved->splits;
+  } else if (quality.refine > 0) {
+    auto chosen = draft_splits(scene, camera, quality, machine, image, progress, result.figures);
+    if (!chosen) return result;
+    splits = std::move(*chosen);
+  }
+  const RenderSetup setup = settled_setup(scene, quality, machine, image, splits);
+  RenderJob job = job_of(scene, camera, quality, machine, setup, false);
+  const RadiosityOrigin origin = radiosity_origin(scene, quality, setup.mesh);
+  if (saved) {
+    job.solution = unpack_radiosity(*saved, origin, setup.mesh);
     check_balance(*files.radiosity, scene, setup, *job.solution);
   }
 
   RenderProgram program(std::move(job));
   Machine torolux(machine_setup(setup, quality, machine), image);
-  const auto begin = std::chrono::steady_clock::now();
   torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
 
-  RenderResult result;
   result.notes = setup.notes;
-  result.figures = figures_of(program, torolux, setup);
+  add_figures(program, torolux, setup, result.figures);
+  result.figures.splits = splits.size();
   result.figures.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!program.finished()) return result;  // stopped by `progress`
   result.figures.energy = balance(scene, setup.mesh, setup.units, *program.solution());
   if (!files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
-  if (files.save_radiosity) save_radiosity(*files.save_radiosity, origin, *program.solution());
+  if (files.save_radiosity) save_radiosity(*files.save_radiosity, origin, splits, *program.solution());
   result.picture = picture_of(torolux.frame_buffer(), setup);
   return result;
 }

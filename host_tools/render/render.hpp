@@ -22,6 +22,8 @@ struct Quality {
   std::uint32_t samples = 8;           ///< per pixel
   std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
   std::optional<double> element_length;
+  /// Elements that are added where a draft of the solution says so, as a multiple of those without; 0: no draft.
+  double refine = 0;
   std::uint32_t hemicube = 20;    ///< pixels across the top, even, 4..256
   std::uint32_t shot_points = 2;  ///< k: k * k points per patch
   /// With which all emitters together begin, about: their light casts the sharpest shadows, so that a patch that emits
@@ -71,6 +73,9 @@ struct RenderFigures {
   std::uint64_t shots = 0;  ///< patches shot
   std::uint64_t radiosity_records = 0;
   std::uint64_t rays = 0;                             ///< camera rays
+  Cycles draft_cycles = 0;                            ///< of the machine that solved the draft
+  std::uint64_t draft_records = 0;
+  std::uint64_t splits = 0;  ///< elements that were cut by it
   std::uint64_t credits_total = 0, credits_home = 0;  ///< at the end
   double wall_seconds = 0;
   std::uint32_t local_memory_bytes = 0;  ///< per PE, as chosen

@@ -7,7 +7,6 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
-#include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux {
 namespace {
@@ -33,6 +32,7 @@ void check(const Quality& quality, const MachineChoice& machine) {
           "--shot-points: 1 to " + std::to_string(protocol::kMostShotPoints));
   require(quality.bounces > 0 && quality.bounces <= protocol::kMostBounces,
           "--bounces: 1 to " + std::to_string(protocol::kMostBounces));
+  require(quality.refine >= 0 && quality.refine <= 100, "--refine: 0 to 100");
   require(quality.unshot >= 0 && quality.unshot <= 1, "--unshot: a fraction from 0 to 1");
   require(!quality.patch_length || *quality.patch_length > 0, "--patches: a length greater than 0, or auto");
   require(!quality.element_length || *quality.element_length > 0, "--elements: a length greater than 0, or auto");
@@ -43,9 +43,8 @@ void check(const Quality& quality, const MachineChoice& machine) {
 
 std::uint32_t emission_points(const Scene& scene, const Mesh& mesh, const Quality& quality) {
   double emitting = 0;
-  for (const MeshTriangle& triangle : mesh.triangles) {
-    if (!emits(scene.materials[triangle.material])) continue;
-    emitting += protocol::triangles_of_level(triangle.patch_level) * (quality.two_sided_lights ? 2.0 : 1.0);
+  for (const MeshPatch& patch : mesh.patches) {
+    if (emits(scene.materials[patch.material])) emitting += quality.two_sided_lights ? 2.0 : 1.0;
   }
   const double wanted = std::sqrt(quality.emission_records / (protocol::hemicube_pixels(quality.hemicube) * emitting));
   return static_cast<std::uint32_t>(std::clamp(std::floor(wanted), static_cast<double>(quality.shot_points),
@@ -59,10 +58,11 @@ std::uint32_t machine_seed(std::uint64_t seed) {
   return protocol::hash_combine(low, static_cast<std::uint32_t>(seed >> 32U));
 }
 
-RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image) {
+RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,
+                       const std::vector<Split>& splits) {
   check(quality, machine);
   RenderSetup setup;
-  setup.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights});
+  setup.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, splits});
   setup.notes = setup.mesh.notes;
   setup.units = light_units(scene, setup.mesh, quality.two_sided_lights);
   setup.parameters.seed = machine_seed(quality.seed);
@@ -106,17 +106,15 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
   settings.pes = setup.placement.torus.pes();
   settings.credits = setup.credits;
   // Enough shooters to keep many PEs busy, few enough that each shoots what the others have just sent it.
-  settings.shooters = std::clamp(mesh.patches / 12U, 8U, protocol::kMostShooters);
+  settings.shooters = std::clamp(static_cast<std::uint32_t>(mesh.patches.size()) / 12U, 8U, protocol::kMostShooters);
   settings.max_shots = quality.max_shots;
   double emitted = 0;
-  for (const MeshTriangle& triangle : mesh.triangles) {
-    const protocol::Material material = machine_material(scene.materials[triangle.material], setup.units);
-    const std::uint32_t patches = triangle.sides == 0 ? 0 : protocol::triangles_of_level(triangle.patch_level);
-    settings.reflectance.insert(settings.reflectance.end(), patches, material.diffuse_fraction);
+  for (const MeshPatch& patch : mesh.patches) {
+    settings.reflectance.push_back(machine_material(scene.materials[patch.material], setup.units).diffuse_fraction);
     for (std::uint32_t side = 0; side < 2; ++side) {
-      if (triangle.first_side[side] == protocol::kNoSide) continue;
-      for (const std::int64_t flux : patch_emission(scene, triangle, side, setup.units)) {
-        emitted += static_cast<double>(flux) * patches;
+      if (patch.side[side] == protocol::kNoSide) continue;
+      for (const std::int64_t flux : patch_emission(scene, patch, side, setup.units)) {
+        emitted += static_cast<double>(flux);
       }
     }
   }

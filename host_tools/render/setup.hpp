@@ -26,8 +26,10 @@ struct RenderSetup {
   std::vector<std::string> notes;
 };
 
-/// Throws UsageError (settings out of range) and InputError (no surface, no light, too many elements).
-RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image);
+/// splits: of elements, ascending. Throws UsageError (settings out of range) and InputError (no surface, no light, too
+/// many elements).
+RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,
+                       const std::vector<Split>& splits = {});
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);
 

@@ -41,7 +41,7 @@ struct Camera {
 /// Values that a scene.toml suggests for options the user did not give.
 struct SceneDefaults {
   std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, emission_records, max_shots, bounces;
-  std::optional<double> exposure_ev, patch_length, element_length, unshot;
+  std::optional<double> exposure_ev, patch_length, element_length, refine, unshot;
   std::optional<std::string> subspaces, allocation;
   std::string subspaces_place, allocation_place;  ///< FILE:LINE of these two, for messages
   std::optional<bool> two_sided_lights, shadow_rays;

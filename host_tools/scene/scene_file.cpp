@@ -118,6 +118,7 @@ SceneDefaults read_defaults(TomlTable table) {
   d.exposure_ev = table.number("exposure", -50, 50);
   d.patch_length = table.number("patches", 1e-15, kMost);
   d.element_length = table.number("elements", 1e-15, kMost);
+  d.refine = table.number("refine", 0, 100);
   d.unshot = table.number("unshot", 0, 1);
   d.subspaces = table.text("subspaces");
   d.allocation = table.text("allocation");

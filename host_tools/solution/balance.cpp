@@ -4,7 +4,6 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/flux.hpp"
-#include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/solution/solution.hpp"
 
 namespace torolux {
@@ -28,27 +27,22 @@ struct Sums {
   Flux emitted{}, incident{}, unshot_emission{}, unshot_reflected{};
 };
 
-void add_triangle(const Scene& scene, const MeshTriangle& triangle, const LightUnits& units, const Solution& solution,
-                  Sums& sums) {
-  const protocol::Material material = machine_material(scene.materials[triangle.material], units);
-  const std::uint32_t patches = protocol::triangles_of_level(triangle.patch_level);
-  const std::uint32_t per_patch = protocol::triangles_of_level(std::uint32_t{triangle.element_level}) / patches;
+void add_patch(const Scene& scene, const MeshPatch& patch, std::size_t number, const LightUnits& units,
+               const Solution& solution, Sums& sums) {
+  const protocol::Material material = machine_material(scene.materials[patch.material], units);
   for (std::uint32_t s = 0; s < 2; ++s) {
-    if (triangle.first_side[s] == protocol::kNoSide) continue;
-    const Flux emission = patch_emission(scene, triangle, s, units);
-    for (std::uint32_t p = 0; p < patches; ++p) {
-      const SolvedSide& side = solution.sides[triangle.first_side[s] + p];
-      Flux elements{};
-      for (std::uint32_t e = 0; e < per_patch; ++e) {
-        add_to(elements, solution.elements[triangle.first_element[s] + p * per_patch + e].flux);
-      }
-      require_equal(elements, side.incident, "elements and patch " + std::to_string(triangle.first_patch + p));
-      add_to(sums.emitted, emission);
-      add_to(sums.incident, side.incident);
-      add_to(sums.unshot_emission, side.emission);
-      for (std::size_t c = 0; c < 3; ++c) {
-        sums.unshot_reflected[c] += protocol::scale_down(side.incident[c] - side.shot[c], material.diffuse_fraction[c]);
-      }
+    if (patch.side[s] == protocol::kNoSide) continue;
+    const SolvedSide& side = solution.sides[patch.side[s]];
+    Flux elements{};
+    for (std::uint32_t e = 0; e < patch.elements; ++e) {
+      add_to(elements, solution.elements[patch.first_element[s] + e].flux);
+    }
+    require_equal(elements, side.incident, "elements and patch " + std::to_string(number));
+    add_to(sums.emitted, patch_emission(scene, patch, s, units));
+    add_to(sums.incident, side.incident);
+    add_to(sums.unshot_emission, side.emission);
+    for (std::size_t c = 0; c < 3; ++c) {
+      sums.unshot_reflected[c] += protocol::scale_down(side.incident[c] - side.shot[c], material.diffuse_fraction[c]);
     }
   }
 }
@@ -57,7 +51,7 @@ void add_triangle(const Scene& scene, const MeshTriangle& triangle, const LightU
 
 EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Solution& solution) {
   Sums sums;
-  for (const MeshTriangle& triangle : mesh.triangles) add_triangle(scene, triangle, units, solution, sums);
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) add_patch(scene, mesh.patches[p], p, units, solution, sums);
   const protocol::Tally& tally = solution.tally;
   Flux shot = solution.emitted_shot;
   add_to(shot, solution.reflected_shot);
@@ -87,7 +81,7 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
 std::vector<Flux> incident_flux(const Solution& solution, bool without_direct) {
   std::vector<Flux> flux;
   flux.reserve(solution.elements.size());
-  for (const protocol::Element& element : solution.elements) {
+  for (const SolvedElement& element : solution.elements) {
     Flux& sum = flux.emplace_back(element.flux);
     for (std::size_t c = 0; without_direct && c < 3; ++c) sum[c] -= element.direct[c];
   }

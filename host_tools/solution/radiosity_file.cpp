@@ -9,7 +9,6 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/flux.hpp"
-#include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/files/write_file.hpp"
 
 namespace torolux {
@@ -26,7 +25,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 2;
+constexpr std::uint16_t kVersion = 3;
 
 struct SavedSums {
   protocol::Tally tally;
@@ -99,6 +98,7 @@ void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected,
   };
   differ("--patches (0: auto)", saved.patch_length, expected.patch_length);
   differ("--elements (0: auto)", saved.element_length, expected.element_length);
+  differ("--refine", saved.refine, expected.refine);
   differ("--unshot", saved.unshot, expected.unshot);
   differ("--seed", saved.seed, expected.seed);
   differ("--hemicube", saved.hemicube, expected.hemicube);
@@ -159,6 +159,7 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   origin.materials = materials.value();
   origin.patch_length = quality.patch_length.value_or(0);
   origin.element_length = quality.element_length.value_or(0);
+  origin.refine = quality.refine;
   origin.unshot = quality.unshot;
   origin.seed = quality.seed;
   origin.hemicube = quality.hemicube;
@@ -172,22 +173,25 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   return origin;
 }
 
-std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, const Solution& solution) {
-  const std::size_t length = sizeof(RadiosityOrigin) + sizeof(SavedSums) + solution.sides.size() * sizeof(SolvedSide) +
-                             solution.elements.size() * sizeof(protocol::Element);
+std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, std::span<const Split> splits,
+                                      const Solution& solution) {
+  const std::size_t length = sizeof(RadiosityOrigin) + sizeof(std::uint64_t) + splits.size_bytes() + sizeof(SavedSums) +
+                             solution.sides.size() * sizeof(SolvedSide) +
+                             solution.elements.size() * sizeof(SolvedElement);
   std::vector<std::byte> bytes(sizeof(Head) + length);
   std::span<std::byte> rest = std::span(bytes).subspan(sizeof(Head));
   put(rest, origin);
+  put(rest, std::uint64_t{splits.size()});
+  for (const Split& split : splits) put(rest, split);
   put(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.shots});
   for (const SolvedSide& side : solution.sides) put(rest, side);
-  for (const protocol::Element& element : solution.elements) put(rest, element);
+  for (const SolvedElement& element : solution.elements) put(rest, element);
   std::span<std::byte> start = bytes;
   put(start, Head{kMagic, kVersion, crc32(start.subspan(sizeof(Head))), 0, length});
   return bytes;
 }
 
-Solution unpack_radiosity(std::span<const std::byte> bytes, const RadiosityOrigin& expected, const Mesh& mesh,
-                          const std::string& name) {
+SavedRadiosity parse_radiosity(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.size() < sizeof(Head))
     throw InputError(name + ": not a radiosity file: only " + std::to_string(bytes.size()) + " bytes");
   const Head head = take<Head>(bytes);
@@ -196,16 +200,31 @@ Solution unpack_radiosity(std::span<const std::byte> bytes, const RadiosityOrigi
     throw InputError(name + ": radiosity file of version " + std::to_string(head.version) + ", this program reads " +
                      std::to_string(kVersion));
   }
-  if (head.bytes != bytes.size() || bytes.size() < sizeof(RadiosityOrigin) + sizeof(SavedSums)) {
+  if (head.bytes != bytes.size() || bytes.size() < sizeof(RadiosityOrigin) + sizeof(std::uint64_t)) {
     throw InputError(name + ": cut short or too long: " + std::to_string(bytes.size()) + " bytes after the head, " +
                      std::to_string(head.bytes) + " expected");
   }
   if (head.unused != 0 || crc32(bytes) != head.crc) throw InputError(name + ": damaged: its CRC-32 does not match");
-  check_origin(take<RadiosityOrigin>(bytes), expected, name);
-  const auto sums = take<SavedSums>(bytes);
-  const std::uint64_t needed =
-      std::uint64_t{mesh.patch_sides} * sizeof(SolvedSide) + std::uint64_t{mesh.elements} * sizeof(protocol::Element);
+  SavedRadiosity saved{name, take<RadiosityOrigin>(bytes), {}, {}};
+  const auto count = take<std::uint64_t>(bytes);
+  if (count > bytes.size() / sizeof(Split)) throw InputError(name + ": damaged: its splits do not fit in");
+  saved.splits.reserve(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    saved.splits.push_back(take<Split>(bytes));
+    if (i > 0 && !(saved.splits[i - 1] < saved.splits[i])) throw InputError(name + ": damaged: splits out of order");
+  }
+  saved.rest.assign(bytes.begin(), bytes.end());
+  return saved;
+}
+
+Solution unpack_radiosity(const SavedRadiosity& saved, const RadiosityOrigin& expected, const Mesh& mesh) {
+  const std::string& name = saved.name;
+  std::span<const std::byte> bytes = saved.rest;
+  check_origin(saved.origin, expected, name);
+  const std::uint64_t needed = sizeof(SavedSums) + std::uint64_t{mesh.patch_sides} * sizeof(SolvedSide) +
+                               std::uint64_t{mesh.elements} * sizeof(SolvedElement);
   if (bytes.size() != needed) throw InputError(name + ": damaged: its sides and elements do not fill it");
+  const auto sums = take<SavedSums>(bytes);
   Solution solution;
   solution.tally = sums.tally;
   solution.emitted_shot = sums.emitted_shot;
@@ -229,7 +248,7 @@ Solution unpack_radiosity(std::span<const std::byte> bytes, const RadiosityOrigi
   FluxSum element_sum;
   solution.elements.reserve(mesh.elements);
   for (std::uint32_t i = 0; i < mesh.elements; ++i) {
-    const protocol::Element& element = solution.elements.emplace_back(take<protocol::Element>(bytes));
+    const SolvedElement& element = solution.elements.emplace_back(take<SolvedElement>(bytes));
     check_flux(element.flux, name);
     check_flux(element.direct, name);
     element_sum.add(element.flux, name);
@@ -237,17 +256,14 @@ Solution unpack_radiosity(std::span<const std::byte> bytes, const RadiosityOrigi
   return solution;
 }
 
-void save_radiosity(const std::filesystem::path& file, const RadiosityOrigin& origin, const Solution& solution) {
-  write_file(file, pack_radiosity(origin, solution));
+void save_radiosity(const std::filesystem::path& file, const RadiosityOrigin& origin, std::span<const Split> splits,
+                    const Solution& solution) {
+  write_file(file, pack_radiosity(origin, splits, solution));
 }
 
-Solution load_radiosity(const std::filesystem::path& file, const RadiosityOrigin& expected, const Mesh& mesh) {
-  const std::uint64_t most = sizeof(Head) + sizeof(RadiosityOrigin) + sizeof(SavedSums) +
-                             std::uint64_t{mesh.patch_sides} * sizeof(SolvedSide) +
-                             std::uint64_t{mesh.elements} * sizeof(protocol::Element);
-  // Room for the file of another scene, so that the message can say what differs.
-  const auto bytes = read_file(file, most + (std::uint64_t{1} << 30U));
-  return unpack_radiosity(bytes, expected, mesh, file.string());
+SavedRadiosity read_radiosity(const std::filesystem::path& file) {
+  constexpr std::uint64_t most = sizeof(Head) + kMostElements * (sizeof(SolvedElement) + sizeof(SolvedSide));
+  return parse_radiosity(read_file(file, most), file.string());
 }
 
 }  // namespace torolux

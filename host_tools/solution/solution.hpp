@@ -19,12 +19,18 @@ struct SolvedSide {
   protocol::Flux emission{};
 };
 
+/// One side of an element; see protocol::Element. [quanta]
+struct SolvedElement {
+  protocol::Flux flux{};
+  protocol::Flux direct{};
+};
+
 struct Solution {
-  std::vector<protocol::Element> elements;  ///< by global element: Mesh::elements
-  std::vector<SolvedSide> sides;            ///< by global patch side: Mesh::patch_sides
-  protocol::Tally tally{};                  ///< of all PEs
-  protocol::Flux emitted_shot{};            ///< flux of all shots of emitted light
-  protocol::Flux reflected_shot{};          ///< flux of all shots of reflected light
+  std::vector<SolvedElement> elements;  ///< by global element: Mesh::elements
+  std::vector<SolvedSide> sides;        ///< by global patch side: Mesh::patch_sides
+  protocol::Tally tally{};              ///< of all PEs
+  protocol::Flux emitted_shot{};        ///< flux of all shots of emitted light
+  protocol::Flux reflected_shot{};      ///< flux of all shots of reflected light
   std::uint64_t shots = 0;
 };
 

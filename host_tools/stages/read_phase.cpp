@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware/protocol/triangle_grid.hpp"
-
 namespace torolux {
 
 using protocol::MessageKind;
@@ -73,22 +71,21 @@ void ReadPhase::store(PeNumber pe) {
   const std::size_t elements_at = layout.elements.address - layout.patch_sides.address;
   std::size_t next_side = 0;
   for (const std::uint32_t number : placement_.patches_of_pe[pe]) {
-    const MeshTriangle& triangle = mesh_.triangles[mesh_.triangle_of_patch[number]];
-    const std::uint32_t path = number - triangle.first_patch;
-    const std::uint32_t per_patch =
-        protocol::triangles_of_level(std::uint32_t{triangle.element_level} - triangle.patch_level);
+    const MeshPatch& patch = mesh_.patches[number];
     for (std::uint32_t s = 0; s < 2; ++s) {
-      if (triangle.first_side[s] == protocol::kNoSide) continue;
+      if (patch.side[s] == protocol::kNoSide) continue;
       protocol::PatchSide side{};
       std::memcpy(&side, bytes.data() + next_side * sizeof side, sizeof side);
       ++next_side;
-      solution_.sides[triangle.first_side[s] + path] = {side.incident, side.shot, side.emission};
-      if (side.first_element + per_patch > layout.elements.count) {
+      solution_.sides[patch.side[s]] = {side.incident, side.shot, side.emission};
+      if (side.first_element + patch.elements > layout.elements.count) {
         throw MachineFailure("PE " + std::to_string(pe) + " has lost a patch's elements");
       }
-      std::memcpy(&solution_.elements[triangle.first_element[s] + path * per_patch],
-                  bytes.data() + elements_at + side.first_element * sizeof(protocol::Element),
-                  per_patch * sizeof(protocol::Element));
+      for (std::uint32_t e = 0; e < patch.elements; ++e) {
+        protocol::Element element{};
+        std::memcpy(&element, bytes.data() + elements_at + (side.first_element + e) * sizeof element, sizeof element);
+        solution_.elements[patch.first_element[s] + e] = {element.flux, element.direct};
+      }
     }
   }
   bytes_[pe] = {};

@@ -99,7 +99,7 @@ void RenderProgram::leave(HostPort& port) {
       job_.solution->reflected_shot = reflected_shot_;
       job_.solution->shots = shots_;
       times_.read = now;
-      enter(port, Step::load_ray_tracing);
+      enter(port, job_.radiosity_only ? Step::finished : Step::load_ray_tracing);
       break;
     case Step::load_ray_tracing:
       times_.loaded_again = now;

@@ -23,6 +23,7 @@ struct RenderJob {
   CameraRays rays;
   RayTracingSettings ray_tracing;
   std::optional<Solution> solution;  ///< given: the radiosity stage is left out
+  bool radiosity_only = false;       ///< ends after the read-out
 };
 
 /// When each step ended, in virtual time.

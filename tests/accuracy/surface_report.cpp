@@ -52,11 +52,11 @@ std::vector<Light> traced_light(const SceneRun& run, const Mesh& mesh, std::uint
 
 std::vector<double> solved_light(const test::SolvedScene& solved) {
   std::vector<double> light(solved.scene.materials.size(), 0);
-  for (const MeshTriangle& triangle : solved.mesh.triangles) {
-    for (const std::uint32_t first : triangle.first_element) {
+  for (const MeshPatch& patch : solved.mesh.patches) {
+    for (const std::uint32_t first : patch.first_element) {
       if (first == protocol::kNoSide) continue;
-      for (std::uint32_t e = 0; e < protocol::triangles_of_level(triangle.element_level); ++e) {
-        for (const double watts : solved.incident_flux(first + e)) light[triangle.material] += watts;
+      for (std::uint32_t e = 0; e < patch.elements; ++e) {
+        for (const double watts : solved.incident_flux(first + e)) light[patch.material] += watts;
       }
     }
   }

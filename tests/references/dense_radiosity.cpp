@@ -88,29 +88,27 @@ double visible_share(const World& world, const DenseElement& from, const Vec& po
   return all > 0 ? seen / all : 0;
 }
 
-void add_side(std::vector<DenseElement>& elements, const Scene& scene, const MeshTriangle& triangle,
-              std::uint32_t number, bool back, bool emits) {
+DenseElement dense_element(const Scene& scene, const MeshTriangle& triangle, const MeshFacet& facet, bool back,
+                           bool emits) {
   const SceneMaterial& material = scene.materials[triangle.material];
-  const std::uint32_t count = protocol::triangles_of_level(triangle.element_level);
-  std::array<Vec, 3> corner;
-  for (std::size_t i = 0; i < 3; ++i) corner[i] = vec(scene.positions[triangle.position[i]]);
-  for (std::uint32_t path = 0; path < count; ++path) {
-    const protocol::GridTriangle grid = protocol::grid_triangle(path, triangle.element_level);
-    DenseElement& element = elements.at(triangle.first_element[back ? 1 : 0] + path);
-    for (std::size_t i = 0; i < 3; ++i) {
-      Vec point = Vec::Zero();
-      for (std::size_t k = 0; k < 3; ++k) {
-        point += corner[k] * std::ldexp(static_cast<double>(grid.corner[i][k]), -int{protocol::kMostLevels});
-      }
-      element.corner[back ? 2 - i : i] = point;
+  const protocol::GridTriangle grid =
+      protocol::grid_triangle(protocol::path_of_code(facet.code), protocol::level_of_code(facet.code));
+  DenseElement element;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec point = Vec::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      point += vec(scene.positions[triangle.position[k]]) *
+               std::ldexp(static_cast<double>(grid.corner[i][k]), -int{protocol::kMostLevels});
     }
-    const Vec across = (element.corner[1] - element.corner[0]).cross(element.corner[2] - element.corner[0]);
-    element.normal = across.normalized();
-    element.area = across.norm() / 2;
-    element.diffuse = colour(material.diffuse);
-    element.emitted = emits ? Colour(colour(material.emission) * std::numbers::pi) : Colour::Zero();
-    element.triangle = number;
+    element.corner[back ? 2 - i : i] = point;
   }
+  const Vec across = (element.corner[1] - element.corner[0]).cross(element.corner[2] - element.corner[0]);
+  element.normal = across.normalized();
+  element.area = across.norm() / 2;
+  element.diffuse = colour(material.diffuse);
+  element.emitted = emits ? Colour(colour(material.emission) * std::numbers::pi) : Colour::Zero();
+  element.triangle = facet.triangle;
+  return element;
 }
 
 }  // namespace
@@ -118,14 +116,20 @@ void add_side(std::vector<DenseElement>& elements, const Scene& scene, const Mes
 std::vector<DenseElement> dense_elements(const Scene& scene, const Mesh& mesh, bool two_sided_lights) {
   if (mesh.triangles.size() != scene.triangles.size()) throw std::invalid_argument("the mesh left out a triangle");
   std::vector<DenseElement> elements(mesh.elements);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const MeshTriangle& triangle = mesh.triangles[t];
+  for (const MeshTriangle& triangle : mesh.triangles) {
     if (scene.materials[triangle.material].kind != SurfaceKind::diffuse) {
       throw std::invalid_argument("the dense solution is for diffuse scenes");
     }
-    if ((triangle.sides & protocol::kFrontPresent) != 0) add_side(elements, scene, triangle, t, false, true);
-    if ((triangle.sides & protocol::kBackPresent) != 0) {
-      add_side(elements, scene, triangle, t, true, two_sided_lights);
+  }
+  for (const MeshPatch& patch : mesh.patches) {
+    if (patch.facets != patch.elements) throw std::invalid_argument("the dense solution knows no clusters");
+    for (std::uint32_t e = 0; e < patch.elements; ++e) {
+      const MeshFacet& facet = mesh.facets[patch.first_facet + e];
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (patch.side[side] == protocol::kNoSide) continue;
+        elements.at(patch.first_element[side] + e) = dense_element(scene, mesh.triangles[facet.triangle], facet,
+                                                                   side == 1, side == 0 || two_sided_lights);
+      }
     }
   }
   return elements;

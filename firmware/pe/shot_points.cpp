@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Stratified points of a patch. All that its facets send is laid out in a row, facet by facet and within each along the
+// path of its grid; the row is cut into equal parts, and each point lies somewhere in its own.
+#include "firmware/pe/shot_points.hpp"
+
+#include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/random.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::Element;
+using protocol::Facet;
+using protocol::Patch;
+
+/// Steps into a facet by which a point is named: as many as a float has digits for.
+constexpr std::uint32_t kSteps = 10;
+
+float sum_of(const glm::vec3& v) {
+  return (v.x + v.y) + v.z;
+}
+
+/// What a facet would send, R G B; emitted light by its area, reflected light by what came to its element.
+glm::vec3 sent_by(const Scene& scene, const Shot& shot, const Facet& facet) {
+  if (shot.by_area) return glm::vec3(facet.of_patch);
+  const Patch& patch = scene.patches[shot.command.patch];
+  const Element& element =
+      scene.elements[scene.patch_sides[patch.side[shot.command.side]].first_element + facet.element];
+  return to_vector(element.unshot) * to_vector(scene.materials[patch.material].diffuse) * facet.of_element;
+}
+
+glm::vec3 sent_by_all(const Scene& scene, const Shot& shot) {
+  const Patch& patch = scene.patches[shot.command.patch];
+  glm::vec3 all(0.0F);
+  for (const Facet& facet : scene.facets.subspan(patch.first_facet, patch.facets)) all += sent_by(scene, shot, facet);
+  return all;
+}
+
+void count_as_shot(const Scene& scene, const Shot& shot) {
+  const Patch& patch = scene.patches[shot.command.patch];
+  const std::uint32_t first = scene.patch_sides[patch.side[shot.command.side]].first_element;
+  for (Element& element : scene.elements.subspan(first, patch.elements)) {
+    for (std::size_t c = 0; c < 3; ++c) element.shot[c] += element.unshot[c];
+  }
+}
+
+/// Moves on to the facet in which the row reaches `until`. Returns how far in it, 0..1.
+float walk_to(const Scene& scene, const Shot& shot, float until, FacetWalk& walk) {
+  const Patch& patch = scene.patches[shot.command.patch];
+  for (;;) {
+    const glm::vec3 here = sent_by(scene, shot, scene.facets[patch.first_facet + walk.facet]);
+    const float into = until - sum_of(walk.before);
+    const float length = sum_of(here);
+    if (into < length) return into > 0.0F ? into / length : 0.0F;
+    if (walk.facet + 1U == patch.facets) return 1.0F;
+    walk.before += here;
+    ++walk.facet;
+  }
+}
+
+/// The point of a facet so far along its path: successive digits in base 4 choose among four children (K. Basu,
+/// A. Owen, "Low discrepancy constructions in the triangle", SIAM Journal on Numerical Analysis 53(2), 2015).
+glm::vec3 point_of(const protocol::Polygon& polygon, std::uint32_t code, float along) {
+  std::uint32_t level = protocol::level_of_code(code);
+  std::uint32_t path = protocol::path_of_code(code);
+  for (std::uint32_t step = 0; step < kSteps && level < protocol::kMostLevels; ++step, ++level) {
+    along *= 4.0F;
+    const auto child = along < 3.0F ? static_cast<std::uint32_t>(along) : 3U;
+    along -= static_cast<float>(child);
+    path = (path << 2U) | child;
+  }
+  const protocol::GridTriangle grid = protocol::grid_triangle(path, level);
+  glm::vec3 point(0.0F);
+  for (std::size_t i = 0; i < 3; ++i) {
+    constexpr float unit = 1.0F / (3.0F * static_cast<float>(1 << protocol::kMostLevels));
+    const auto weight = static_cast<float>(grid.corner[0][i] + grid.corner[1][i] + grid.corner[2][i]);
+    point += to_vector(polygon.corner[i]) * (weight * unit);
+  }
+  return point;
+}
+
+/// The flux of all points up to the current one, by how much of each channel the facets up to there send.
+protocol::Flux given_until(const Scene& scene, const Shot& shot, float into) {
+  const Patch& patch = scene.patches[shot.command.patch];
+  const glm::vec3 until =
+      shot.walk.before + sent_by(scene, shot, scene.facets[patch.first_facet + shot.walk.facet]) * into;
+  protocol::Flux given{};
+  for (int c = 0; c < 3; ++c) {
+    const float part = shot.all[c] > 0.0F ? until[c] / shot.all[c] : sum_of(until) / sum_of(shot.all);
+    const std::int64_t flux = shot.flux[static_cast<std::size_t>(c)];
+    // 24 digits are what a float has; scaled down by them, nothing needs 64-bit conversions.
+    const auto fraction = static_cast<std::uint32_t>((part < 1.0F ? part : 1.0F) * 0x1p24F);
+    const std::int64_t upto = protocol::scale_down(flux, std::uint64_t{fraction} << 8U);
+    const std::int64_t before = shot.given[static_cast<std::size_t>(c)];
+    given[static_cast<std::size_t>(c)] = upto > before ? upto : before;
+  }
+  return given;
+}
+
+}  // namespace
+
+void begin_points(const Scene& scene, Shot& shot) {
+  shot.walk = {};
+  shot.given = {};
+  shot.by_area = shot.command.kind == protocol::ShotKind::emitted;
+  shot.all = sent_by_all(scene, shot);
+  if (!shot.by_area) count_as_shot(scene, shot);
+  if (sum_of(shot.all) > 0.0F) return;
+  shot.by_area = true;  // so little that rounding hid where it came
+  shot.all = sent_by_all(scene, shot);
+}
+
+void place_point(const Scene& scene, Shot& shot) {
+  const std::uint32_t points = shot.grid * shot.grid;
+  const float part = sum_of(shot.all) / static_cast<float>(points);
+  const auto begin = static_cast<float>(shot.point);
+  const float at = begin + protocol::uniform(shot.key, protocol::Dimension::place);
+  const float along = walk_to(scene, shot, at * part, shot.walk);
+  const Facet& facet = scene.facets[scene.patches[shot.command.patch].first_facet + shot.walk.facet];
+  shot.polygon = facet.polygon;
+  shot.origin = point_of(scene.polygons[facet.polygon], facet.code, along);
+
+  const float into = walk_to(scene, shot, (begin + 1.0F) * part, shot.walk);
+  const protocol::Flux given = shot.point + 1U == points ? shot.flux : given_until(scene, shot, into);
+  for (std::size_t c = 0; c < 3; ++c) shot.share[c] = given[c] - shot.given[c];
+  shot.given = given;
+}
+
+}  // namespace torolux::pe

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// See clusters.hpp.
+#include "host_tools/mesh/clusters.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <numbers>
+
+#include "host_tools/mesh/edges.hpp"
+#include "host_tools/scene/vec.hpp"
+
+namespace torolux {
+namespace {
+
+/// A triangle, or a cluster of them, that may become part of a larger one.
+struct Member {
+  Vec3d centre{0, 0, 0};  ///< [user units]
+  Vec3d normal{0, 0, 0};  ///< times area
+  double area = 0;
+  std::vector<std::uint32_t> neighbours;
+};
+
+/// Normals of members differ from the first one's by no more than this.
+constexpr double kElementCosine = 0.8660254037844387;  ///< 30 degrees
+constexpr double kPatchCosine = 0.6427876096865394;    ///< 50 degrees
+/// A cluster with less than this of a full one's area joins a neighbour.
+constexpr double kScrap = 0.25;
+
+double cosine(const Vec3d& a, const Vec3d& b) {
+  const double lengths = vec::length(a) * vec::length(b);
+  return lengths > 0 ? vec::dot(a, b) / lengths : 0;
+}
+
+/// By member: the number of its cluster. Grows each around the first member that has none, as far as half the length.
+std::vector<std::uint32_t> grow(const std::vector<Member>& members, double length, double least_cosine) {
+  constexpr std::uint32_t none = kNoNeighbour;
+  std::vector<std::uint32_t> cluster(members.size(), none);
+  std::uint32_t next = 0;
+  for (std::uint32_t seed = 0; seed < members.size(); ++seed) {
+    if (cluster[seed] != none) continue;
+    cluster[seed] = next;
+    std::deque<std::uint32_t> reached{seed};
+    while (!reached.empty()) {
+      const std::uint32_t member = reached.front();
+      reached.pop_front();
+      for (const std::uint32_t other : members[member].neighbours) {
+        if (cluster[other] != none) continue;
+        const double far = vec::length(vec::subtract(members[other].centre, members[seed].centre));
+        if (far > 0.5 * length || cosine(members[other].normal, members[seed].normal) < least_cosine) continue;
+        cluster[other] = next;
+        reached.push_back(other);
+      }
+    }
+    ++next;
+  }
+  return cluster;
+}
+
+std::vector<Member> merged(const std::vector<Member>& members, const std::vector<std::uint32_t>& cluster) {
+  std::vector<Member> result;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    if (cluster[m] >= result.size()) result.resize(cluster[m] + 1);
+    Member& into = result[cluster[m]];
+    into.centre = vec::add(into.centre, vec::scale(members[m].centre, members[m].area));
+    into.normal = vec::add(into.normal, members[m].normal);
+    into.area += members[m].area;
+    for (const std::uint32_t other : members[m].neighbours) {
+      if (cluster[other] != cluster[m]) into.neighbours.push_back(cluster[other]);
+    }
+  }
+  for (Member& member : result) {
+    member.centre = vec::scale(member.centre, 1 / member.area);
+    std::sort(member.neighbours.begin(), member.neighbours.end());
+    member.neighbours.erase(std::unique(member.neighbours.begin(), member.neighbours.end()), member.neighbours.end());
+  }
+  return result;
+}
+
+/// What was left over between full clusters joins the neighbour that faces most alike.
+void join_scraps(const std::vector<Member>& members, double length, double least_cosine,
+                 std::vector<std::uint32_t>& cluster) {
+  const std::vector<Member> clusters = merged(members, cluster);
+  const double full = std::numbers::pi / 4 * length * length;
+  DisjointSets sets(clusters.size());
+  std::vector<double> area;
+  for (const Member& member : clusters) area.push_back(member.area);
+  for (std::uint32_t c = 0; c < clusters.size(); ++c) {
+    if (area[sets.root(c)] > kScrap * full) continue;
+    std::uint32_t best = kNoNeighbour;
+    double best_cosine = least_cosine;
+    for (const std::uint32_t other : clusters[c].neighbours) {
+      const double alike = cosine(clusters[c].normal, clusters[other].normal);
+      if (sets.root(other) == sets.root(c) || area[sets.root(other)] > full || !(alike > best_cosine)) continue;
+      best = other;
+      best_cosine = alike;
+    }
+    if (best == kNoNeighbour) continue;
+    const double both = area[sets.root(c)] + area[sets.root(best)];
+    sets.merge(c, best);
+    area[sets.root(c)] = both;
+  }
+  std::vector<std::uint32_t> number(clusters.size(), kNoNeighbour);
+  std::uint32_t next = 0;
+  for (std::uint32_t& c : cluster) {
+    std::uint32_t& named = number[sets.root(c)];
+    if (named == kNoNeighbour) named = next++;
+    c = named;
+  }
+}
+
+std::vector<std::uint32_t> clusters_of(const std::vector<Member>& members, double length, double least_cosine) {
+  std::vector<std::uint32_t> cluster = grow(members, length, least_cosine);
+  join_scraps(members, length, least_cosine, cluster);
+  return cluster;
+}
+
+/// The small triangles as members; number: of a triangle's member, or kNoNeighbour.
+std::vector<Member> members_of(const Mesh& mesh, const Scene& scene, const std::vector<bool>& small,
+                               std::vector<std::uint32_t>& triangle_of, std::vector<std::uint32_t>& number) {
+  number.assign(mesh.triangles.size(), kNoNeighbour);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!small[t]) continue;
+    number[t] = static_cast<std::uint32_t>(triangle_of.size());
+    triangle_of.push_back(t);
+  }
+  std::vector<Member> members;
+  for (const std::uint32_t t : triangle_of) {
+    const auto& position = mesh.triangles[t].position;
+    const Vec3d& a = scene.positions[position[0]];
+    const Vec3d& b = scene.positions[position[1]];
+    const Vec3d& c = scene.positions[position[2]];
+    Member& member = members.emplace_back();
+    member.centre = vec::scale(vec::add(vec::add(a, b), c), 1.0 / 3);
+    member.normal = vec::scale(vec::cross(vec::subtract(b, a), vec::subtract(c, a)), 0.5);
+    member.area = mesh.triangles[t].area;
+    for (const std::uint32_t other : mesh.smooth.neighbour[t]) {
+      if (other != kNoNeighbour && number[other] != kNoNeighbour) member.neighbours.push_back(number[other]);
+    }
+  }
+  return members;
+}
+
+}  // namespace
+
+std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, const std::vector<bool>& small,
+                                        double patch_length, double element_length) {
+  std::vector<std::uint32_t> triangle_of;
+  std::vector<std::uint32_t> number;
+  const std::vector<Member> triangles = members_of(mesh, scene, small, triangle_of, number);
+  const std::vector<std::uint32_t> element = clusters_of(triangles, element_length, kElementCosine);
+  const std::vector<std::uint32_t> patch = clusters_of(merged(triangles, element), patch_length, kPatchCosine);
+
+  std::vector<ElementCluster> elements(patch.size());
+  for (std::size_t m = 0; m < triangles.size(); ++m) elements[element[m]].push_back(triangle_of[m]);
+  std::vector<PatchCluster> patches;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (patch[e] >= patches.size()) patches.resize(patch[e] + 1);
+    patches[patch[e]].push_back(std::move(elements[e]));
+  }
+  std::erase_if(patches, [](const PatchCluster& cluster) { return cluster.size() == 1 && cluster[0].size() == 1; });
+  return patches;
+}
+
+std::uint32_t count_smooth_surfaces(const Mesh& mesh) {
+  const SmoothSurfaces smooth = find_smooth_surfaces(mesh, std::vector<bool>(mesh.triangles.size(), true));
+  DisjointSets sets(mesh.triangles.size());
+  std::uint32_t surfaces = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangles[t].sides == 0) continue;
+    ++surfaces;
+    for (const std::uint32_t other : smooth.neighbour[t]) {
+      if (other == kNoNeighbour || sets.root(other) == sets.root(t)) continue;
+      sets.merge(t, other);
+      --surfaces;
+    }
+  }
+  return surfaces;
+}
+
+}  // namespace torolux

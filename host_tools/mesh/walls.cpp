@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// See walls.hpp.
+#include "host_tools/mesh/walls.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/mesh/mesh.hpp"
+#include "host_tools/scene/vec.hpp"
+
+namespace torolux {
+namespace {
+
+/// Over the triangle, in the object space's longest edge: what stands on it is cut at this height,
+constexpr double kFoot = 1e-5;
+/// and what lies below this one hides it as if it stood on it. Edges of a Cornell box's lamp, for one.
+constexpr double kClose = 1e-3;
+/// An element's inside begins this far from its edges, of the way to its centre: a wall along an edge crosses nothing.
+constexpr double kInside = 0.04;
+/// A way ends so far behind the point where it leads, of its length, so that a wall there counts.
+constexpr double kBehind = 0.05;
+
+using Corners = std::array<Vec3d, 3>;
+
+/// A triangle's plane with its weights as coordinates.
+class Plane {
+ public:
+  explicit Plane(const Corners& corner)
+      : origin_(corner[0]),
+        across_(vec::subtract(corner[1], corner[0])),
+        up_(vec::subtract(corner[2], corner[0])),
+        normal_(vec::unit(vec::cross(across_, up_))),
+        aa_(vec::dot(across_, across_)),
+        ab_(vec::dot(across_, up_)),
+        bb_(vec::dot(up_, up_)) {}
+
+  double height(const Vec3d& point) const { return vec::dot(vec::subtract(point, origin_), normal_); }
+  PlanePoint below(const Vec3d& point) const {
+    const Vec3d way = vec::subtract(point, origin_);
+    const double a = vec::dot(way, across_);
+    const double b = vec::dot(way, up_);
+    const double scale = 1 / (aa_ * bb_ - ab_ * ab_);
+    return {(a * bb_ - b * ab_) * scale, (b * aa_ - a * ab_) * scale};
+  }
+
+ private:
+  Vec3d origin_, across_, up_, normal_;
+  double aa_, ab_, bb_;
+};
+
+/// Of the segment the part that the half-plane value(from) + t (value(to) - value(from)) >= 0 leaves. False: none.
+bool clip(double from, double to, double& begin, double& end) {
+  if (from < 0 && to < 0) return false;
+  const double t = from / (from - to);
+  if (from < 0) begin = std::max(begin, t);
+  if (to < 0) end = std::min(end, t);
+  return begin <= end;
+}
+
+bool passes_through(const WallSegment& wall, const std::array<PlanePoint, 3>& corner) {
+  double begin = 0;
+  double end = 1;
+  for (std::size_t e = 0; e < 3; ++e) {
+    const PlanePoint& a = corner[e];
+    const PlanePoint& b = corner[(e + 1) % 3];
+    const auto side = [&](const PlanePoint& p) {
+      return (b.b1 - a.b1) * (p.b2 - a.b2) - (b.b2 - a.b2) * (p.b1 - a.b1);
+    };
+    const double turn = side(corner[(e + 2) % 3]) > 0 ? 1 : -1;  // children of a grid may be wound either way
+    if (!clip(turn * side(wall.from), turn * side(wall.to), begin, end)) return false;
+  }
+  return true;
+}
+
+bool meet(const WallSegment& wall, const PlanePoint& from, const PlanePoint& to) {
+  const auto turn = [](const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
+    return (b.b1 - a.b1) * (p.b2 - a.b2) - (b.b2 - a.b2) * (p.b1 - a.b1);
+  };
+  return turn(wall.from, wall.to, from) * turn(wall.from, wall.to, to) <= 0 &&
+         turn(from, to, wall.from) * turn(from, to, wall.to) <= 0;
+}
+
+/// True where the segment misses the triangle for certain.
+bool misses(const WallSegment& wall) {
+  const auto outside = [&](const auto& weight) { return weight(wall.from) < 0 && weight(wall.to) < 0; };
+  return outside([](const PlanePoint& p) { return p.b1; }) || outside([](const PlanePoint& p) { return p.b2; }) ||
+         outside([](const PlanePoint& p) { return 1 - p.b1 - p.b2; });
+}
+
+/// Where `other` stands on the plane or lies close over it, seen from the side on which heights times `up` are
+/// positive.
+void add_walls(const Plane& plane, double up, const Corners& other, std::vector<WallSegment>& walls) {
+  std::array<double, 3> height{};
+  for (std::size_t i = 0; i < 3; ++i) height[i] = up * plane.height(other[i]);
+  std::vector<PlanePoint> foot;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if ((height[i] > kFoot) != (height[j] > kFoot)) {
+      const double t = (kFoot - height[i]) / (height[j] - height[i]);
+      foot.push_back(plane.below(vec::add(other[i], vec::scale(vec::subtract(other[j], other[i]), t))));
+    }
+    if (height[i] > kFoot && height[j] > kFoot && height[i] < kClose && height[j] < kClose) {
+      const WallSegment edge{plane.below(other[i]), plane.below(other[j])};
+      if (!misses(edge)) walls.push_back(edge);
+    }
+  }
+  if (foot.size() == 2 && !misses({foot[0], foot[1]})) walls.push_back({foot[0], foot[1]});
+}
+
+struct Boxed {
+  std::uint32_t triangle;
+  vec::Box box;
+};
+
+std::vector<Boxed> boxes_of(const Mesh& mesh, std::vector<Corners>& corners) {
+  std::vector<Boxed> boxes;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Boxed boxed{t, {}};
+    Corners& corner = corners.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      corner[i] = to_double(mesh.triangles[t].corner[i]);
+      boxed.box.include(corner[i]);
+    }
+    boxes.push_back(boxed);
+  }
+  std::sort(boxes.begin(), boxes.end(), [](const Boxed& a, const Boxed& b) {
+    return a.box.low[0] != b.box.low[0] ? a.box.low[0] < b.box.low[0] : a.triangle < b.triangle;
+  });
+  return boxes;
+}
+
+bool near(const vec::Box& a, const vec::Box& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a.low[axis] > b.high[axis] + kClose || b.low[axis] > a.high[axis] + kClose) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Walls::Walls(const Mesh& mesh, const std::vector<bool>& wanted) : of_side_(mesh.triangles.size()) {
+  std::vector<Corners> corners;
+  const std::vector<Boxed> boxes = boxes_of(mesh, corners);
+  const auto stand_on = [&](std::uint32_t triangle, std::uint32_t other) {
+    if (!wanted[triangle]) return;
+    const Plane plane(corners[triangle]);
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if ((mesh.triangles[triangle].sides & (1U << side)) == 0) continue;
+      add_walls(plane, side == 0 ? 1 : -1, corners[other], of_side_[triangle][side]);
+    }
+  };
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].box.low[0] <= boxes[i].box.high[0] + kClose; ++j) {
+      if (!near(boxes[i].box, boxes[j].box)) continue;
+      stand_on(boxes[i].triangle, boxes[j].triangle);
+      stand_on(boxes[j].triangle, boxes[i].triangle);
+    }
+  }
+}
+
+bool Walls::cross(std::uint32_t triangle, std::uint32_t code) const {
+  if (of_side_.empty() || (of_side_[triangle][0].empty() && of_side_[triangle][1].empty())) return false;
+  const protocol::GridTriangle grid =
+      protocol::grid_triangle(protocol::path_of_code(code), protocol::level_of_code(code));
+  constexpr double unit = 1.0 / (1U << protocol::kMostLevels);
+  std::array<PlanePoint, 3> corner{};
+  PlanePoint centre;
+  for (std::size_t c = 0; c < 3; ++c) {
+    corner[c] = {unit * grid.corner[c][1], unit * grid.corner[c][2]};
+    centre = {centre.b1 + corner[c].b1 / 3, centre.b2 + corner[c].b2 / 3};
+  }
+  for (PlanePoint& c : corner) {
+    c = {c.b1 + (centre.b1 - c.b1) * kInside, c.b2 + (centre.b2 - c.b2) * kInside};
+  }
+  const auto passes = [&](const WallSegment& wall) { return passes_through(wall, corner); };
+  return std::any_of(of_side_[triangle][0].begin(), of_side_[triangle][0].end(), passes) ||
+         std::any_of(of_side_[triangle][1].begin(), of_side_[triangle][1].end(), passes);
+}
+
+bool Walls::between(std::uint32_t triangle, std::uint32_t side, const PlanePoint& from, const PlanePoint& to) const {
+  if (of_side_.empty()) return false;
+  const PlanePoint behind{to.b1 + (to.b1 - from.b1) * kBehind, to.b2 + (to.b2 - from.b2) * kBehind};
+  const auto& walls = of_side_[triangle][side];
+  return std::any_of(walls.begin(), walls.end(), [&](const WallSegment& wall) { return meet(wall, from, behind); });
+}
+
+}  // namespace torolux

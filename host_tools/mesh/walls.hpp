@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Walls: where other polygons stand on a triangle, pass through it or lie close over it. Light differs from one side of
+// them to the other, so no element should lie across, and no interpolation go through (D. Baum, S. Mann, K. Smith,
+// J. Winget, "Making radiosity usable", SIGGRAPH 1991).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host_tools/scene/scene.hpp"
+
+namespace torolux {
+
+struct Mesh;
+
+/// Weights of a triangle's corners 1 and 2.
+struct PlanePoint {
+  double b1 = 0, b2 = 0;
+};
+struct WallSegment {
+  PlanePoint from, to;
+};
+
+class Walls {
+ public:
+  /// wanted: by triangle, whether its walls are asked for.
+  Walls(const Mesh& mesh, const std::vector<bool>& wanted);
+  /// None anywhere.
+  Walls() = default;
+
+  /// Whether a wall of either side passes through the inside of a triangle of the grid.
+  bool cross(std::uint32_t triangle, std::uint32_t code) const;
+  /// Whether a wall on one side (0 front, 1 back) lies between two points of a triangle, or at the second one.
+  bool between(std::uint32_t triangle, std::uint32_t side, const PlanePoint& from, const PlanePoint& to) const;
+
+ private:
+  std::vector<std::array<std::vector<WallSegment>, 2>> of_side_;  ///< by triangle
+};
+
+}  // namespace torolux
