@@ -4,40 +4,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "firmware/protocol/random.hpp"
 
 namespace torolux::pe {
 namespace {
 
-using protocol::Dimension;
 using protocol::Emitter;
 
 /// Light of one sample, in units of the emitter's radiance. Only points nearer to an emitter than some fiftieth of its
 /// size can reach that: a few samples that would outshine all others, and in the end overflow a pixel.
 constexpr float kMostSeen = 1024.0F;
 
-const Emitter& choose(const Scene& scene, std::uint32_t key) {
-  const std::uint32_t word = protocol::hash_combine(key, static_cast<std::uint32_t>(Dimension::emitter));
-  return *std::lower_bound(scene.emitters.begin(), scene.emitters.end(), word,
-                           [](const Emitter& emitter, std::uint32_t w) { return emitter.chosen_to < w; });
+/// The emitter of one number, and the place of that number among all those that choose it: 0..1, again uniform.
+const Emitter& choose(const Scene& scene, std::uint32_t word, float& place) {
+  const auto chosen = std::lower_bound(scene.emitters.begin(), scene.emitters.end(), word,
+                                       [](const Emitter& emitter, std::uint32_t w) { return emitter.chosen_to < w; });
+  const std::uint32_t first = chosen == scene.emitters.begin() ? 0 : std::prev(chosen)->chosen_to + 1U;
+  place = static_cast<float>(word - first) / (static_cast<float>(chosen->chosen_to - first) + 1.0F);
+  return *chosen;
 }
 
-/// Uniform over the triangle (Turk 1990, Generating Random Points in Triangles).
-glm::vec3 point_on(const Emitter& emitter, std::uint32_t key) {
-  const float root = std::sqrt(protocol::uniform(key, Dimension::emitter_a));
-  const float b2 = protocol::uniform(key, Dimension::emitter_b) * root;
-  const float b1 = root - b2;
-  return (to_vector(emitter.corner[0]) * (1.0F - root) + to_vector(emitter.corner[1]) * b1) +
-         to_vector(emitter.corner[2]) * b2;
+/// Uniform over the triangle; numbers that keep apart give points that do (Heitz 2019, A Low-Distortion Map Between
+/// Triangle and Square).
+glm::vec3 point_on(const Emitter& emitter, float a, float b) {
+  if (a < b) {
+    a *= 0.5F;
+    b -= a;
+  } else {
+    b *= 0.5F;
+    a -= b;
+  }
+  return (to_vector(emitter.corner[0]) * ((1.0F - a) - b) + to_vector(emitter.corner[1]) * a) +
+         to_vector(emitter.corner[2]) * b;
 }
 
 }  // namespace
 
-bool sample_emitter(const Scene& scene, std::uint32_t key, const glm::vec3& point, const glm::vec3& normal,
-                    const glm::vec3& flat, EmitterSample& sample) {
-  const Emitter& emitter = choose(scene, key);
-  const glm::vec3 way = point_on(emitter, key) - point;
+bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
+                    const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample) {
+  float place = 0.0F;
+  const Emitter& emitter = choose(scene, numbers.x, place);
+  const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
   const float square = glm::dot(way, way);
   if (!(square > 0.0F)) return false;
   sample.direction = way * (1.0F / std::sqrt(square));

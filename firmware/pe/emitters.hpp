@@ -6,6 +6,7 @@
 
 #include "firmware/pe/scene.hpp"
 #include "firmware/pe/vectors.hpp"
+#include "firmware/protocol/stratified.hpp"
 
 namespace torolux::pe {
 
@@ -15,9 +16,10 @@ struct EmitterSample {
   std::uint32_t polygon;         ///< global number of the emitter
 };
 
-/// key: of the random numbers. normal: unit length, of the side from which the surface is seen; flat: likewise, of the
-/// polygon without its corner normals. The scene has emitters. False: no light comes that way.
-bool sample_emitter(const Scene& scene, std::uint32_t key, const glm::vec3& point, const glm::vec3& normal,
-                    const glm::vec3& flat, EmitterSample& sample);
+/// numbers: uniform; pairs that keep apart give points that do. normal: unit length, of the side from which the surface
+/// is seen; flat: likewise, of the polygon without its corner normals. The scene has emitters. False: no light comes
+/// that way.
+bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
+                    const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample);
 
 }  // namespace torolux::pe

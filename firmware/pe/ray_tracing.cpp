@@ -35,6 +35,14 @@ void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
   pe.homecoming.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
 }
 
+/// They keep apart over the samples of a pixel that come this way: the same bounce, with as many branches waiting.
+protocol::StratifiedPair emitter_numbers(const Pe& pe, const RayRecord& record) {
+  const std::uint32_t pixel = protocol::hash_combine(pe.scene.layout.seed, record.pixel);
+  const std::uint32_t way = protocol::hash_combine(pixel, record.bounce * 4U + record.waiting);
+  return protocol::stratified_pair(record.sample,
+                                   protocol::hash_combine(way, static_cast<std::uint32_t>(Dimension::emitter)));
+}
+
 /// From a diffuse surface on towards an emitter, if shadow rays are asked for. False: no light comes that way.
 bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
   if (pe.scene.emitters.empty()) return false;
@@ -42,7 +50,7 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
   const glm::vec3 to_side = hit.front ? glm::vec3(1.0F) : glm::vec3(-1.0F);
   const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + to_vector(record.direction) * hit.t);
   EmitterSample sample;
-  if (!sample_emitter(pe.scene, record.key, origin, shading_normal(pe.scene, polygon, hit) * to_side,
+  if (!sample_emitter(pe.scene, emitter_numbers(pe, record), origin, shading_normal(pe.scene, polygon, hit) * to_side,
                       unit_normal(polygon) * to_side, sample)) {
     return false;
   }

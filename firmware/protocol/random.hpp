@@ -30,8 +30,6 @@ enum class Dimension : std::uint32_t {
   fresnel,
   branch,
   emitter,
-  emitter_a,
-  emitter_b,
   along,
   across,
   place,

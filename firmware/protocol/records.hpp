@@ -79,7 +79,7 @@ struct RayRecord {
   std::uint8_t flags;
   std::uint8_t waiting;  ///< branches in use, 0..kMostBranches
   std::array<Branch, kMostBranches> branches;
-  std::uint32_t unused;
+  std::uint32_t sample;  ///< of the pixel, counted from 0: for random numbers that keep apart (stratified.hpp)
 };
 static_assert(sizeof(RayRecord) == 168);
 

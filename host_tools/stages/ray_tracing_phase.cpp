@@ -71,6 +71,7 @@ void RayTracingPhase::make_ray(HostPort& port) {
   record.polygon = protocol::kNoPolygon;
   record.key = ray.key;
   record.pixel = pixel;
+  record.sample = sample;
   record.kind = protocol::RecordKind::light;
   record.flags = start->flags;
   const PeNumber pe = placement_.pe_of_cell[start->cell];

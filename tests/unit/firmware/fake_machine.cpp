@@ -247,6 +247,7 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.elements, s.elements);
   place(l.hemicube, s.hemicube);
   place(l.lattice, s.lattice);
+  place(l.emitters, s.emitters);
   l.record_slots = {next, l.own_slots + niu_slots};
   message(pe, MessageKind::configure, l);
   for (const auto& [address, bytes] : blocks) load_bytes(pe, address, bytes);

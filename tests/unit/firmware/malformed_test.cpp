@@ -125,6 +125,29 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
   }
 }
 
+TEST(Malformed, EmittersThatDoNotHoldAreRefused) {
+  TestScene scene = small_scene();
+  aim_at(scene, 0);
+  const std::vector<std::function<void(PeStores&)>> changes = {
+      [](PeStores&) {},
+      [](PeStores& s) { s.emitters[1].corner[2][0] = std::numeric_limits<float>::quiet_NaN(); },
+      [](PeStores& s) { s.emitters[1].corner[0][1] = -0.5F; },
+      [](PeStores& s) { std::swap(s.emitters[0].chosen_to, s.emitters[1].chosen_to); },
+      [](PeStores& s) { s.emitters.back().chosen_to -= 1; },
+      [](PeStores& s) { s.emitters.pop_back(); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    FakeMachine machine(1);
+    machine.load(scene, Stage::ray_tracing, 64, 1, changes[i]);
+    EXPECT_EQ(fault_of([&] {
+                machine.message(0, MessageKind::begin);
+                machine.run();
+              }),
+              i == 0 ? 0U : code(FaultCode::outside_store))
+        << "change " << i;
+  }
+}
+
 TEST(Malformed, MessagesOutOfTurnOrShapeAreRefused) {
   FakeMachine machine(1);
   const auto fault = [&](MessageKind kind, std::size_t bytes) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "firmware/pe/vectors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux::test {
@@ -70,6 +71,7 @@ class Builder {
     PeStores out;
     fill_layout(out);
     out.materials = scene_.materials;
+    if (stage_ == protocol::Stage::ray_tracing) out.emitters = scene_.emitters;
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) add_polygon(out, pe, p);
     for (std::uint32_t z = 0; z < scene_.cells[2]; ++z)
       for (std::uint32_t y = 0; y < scene_.cells[1]; ++y)
@@ -195,6 +197,22 @@ protocol::Material glass_material(float refractive_index, float transmittance) {
   return m;
 }
 
+void aim_at(TestScene& scene, std::uint16_t material) {
+  for (std::uint32_t p = 0; p < scene.polygons.size(); ++p) {
+    if (scene.polygons[p].material != material) continue;
+    const auto& corner = scene.polygons[p].corner;
+    const glm::vec3 a = pe::to_vector(corner[0]);
+    const float area = 0.5F * glm::length(glm::cross(pe::to_vector(corner[1]) - a, pe::to_vector(corner[2]) - a));
+    scene.emitters.push_back({corner, scene.materials[material].emission, area / std::numbers::pi_v<float>, 0, p,
+                              scene.materials[material].emits_from_back});
+  }
+  const auto count = static_cast<std::uint32_t>(scene.emitters.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    scene.emitters[i].area_over_chance *= static_cast<float>(count);
+    scene.emitters[i].chosen_to = i + 1 == count ? 0xFFFF'FFFFU : (i + 1) * (0xFFFF'FFFFU / count);
+  }
+}
+
 pe::Scene PeStores::scene() {
   pe::Scene s;
   s.layout = layout;
@@ -209,6 +227,7 @@ pe::Scene PeStores::scene() {
   s.elements = elements;
   s.hemicube = hemicube;
   s.lattice = lattice;
+  s.emitters = emitters;
   return s;
 }
 

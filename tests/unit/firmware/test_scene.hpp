@@ -24,6 +24,7 @@ struct TestPolygon {
 struct TestScene {
   std::vector<TestPolygon> polygons;
   std::vector<protocol::Material> materials;
+  std::vector<protocol::Emitter> emitters;  ///< empty: no shadow rays
   std::array<std::uint32_t, 3> cells{1, 1, 1};
   protocol::Vec3f size{1, 1, 1};  ///< of the object space
   std::uint32_t pes = 1;
@@ -44,6 +45,9 @@ protocol::Material diffuse_material(float reflectance, float emission = 0);
 protocol::Material mirror_material(float reflectance);
 protocol::Material glass_material(float refractive_index, float transmittance = 1);
 
+/// Makes all polygons of one material the scene's emitters, each chosen with the same chance.
+void aim_at(TestScene& scene, std::uint16_t material);
+
 /// The stores of one PE.
 struct PeStores {
   protocol::StageLayout layout{};  ///< its stores' addresses are not set
@@ -58,6 +62,7 @@ struct PeStores {
   std::vector<protocol::Element> elements;
   std::vector<std::uint32_t> hemicube;
   std::vector<protocol::LatticeValue> lattice;  ///< all `lattice_value`
+  std::vector<protocol::Emitter> emitters;      ///< ray tracing stage
 
   /// Spans over these vectors, for handlers called directly.
   pe::Scene scene();
