@@ -178,6 +178,36 @@ TEST(Credits, ManyWithFewSlotsAreDivertedAndMakeTheSamePicture) {
   EXPECT_GT(diverted, 0U) << "the test is to force diversion";
 }
 
+/// With shadow rays in place of the elements' direct light: another picture, and again the same one on every machine.
+TEST(ShadowRays, MakeTheSamePicture) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.quality.shadow_rays = true;
+  cornell.quality.samples = 2;
+  const std::vector<std::byte> bytes = bytes_of(run_case(cornell).picture);
+  EXPECT_NE(bytes, reference_picture());
+  const auto same = [&bytes](const RenderCase& other) {
+    const RenderResult result = run_case(other);
+    expect_all_home(result);
+    EXPECT_EQ(bytes_of(result.picture), bytes);
+    return exact_figures(result.figures);
+  };
+  RenderCase one = cornell;
+  one.machine.columns = one.machine.rows = 1;
+  one.machine.subspaces = {1, 1, 1};
+  same(one);
+  RenderCase other = cornell;
+  other.machine.columns = 3;
+  other.machine.rows = 5;
+  other.machine.subspaces = {5, 3, 7};
+  other.machine.allocation = "balanced";
+  other.machine.description.injected_delay_cycles = 900;
+  same(other);
+  cornell.machine.engine = "qemu";
+  const std::string figures = same(cornell);
+  cornell.machine.engine = "translated";
+  EXPECT_EQ(same(cornell), figures);
+}
+
 /// Same command, same bytes, same cycles and statistics, whatever the host's timing.
 TEST(Repetition, FiguresAreExactlyTheSame) {
   RenderCase cornell = small_cornell("cornell_spheres");

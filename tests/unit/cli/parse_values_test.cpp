@@ -90,6 +90,12 @@ TEST(ParseNumber, HasLimits) {
   EXPECT_THROW(parse_number("nan", 0, 1), UsageError);
 }
 
+TEST(ParseDirect, KnowsTwoWays) {
+  EXPECT_TRUE(parse_direct("shadow-rays"));
+  EXPECT_FALSE(parse_direct("radiosity"));
+  for (const char* text : {"", "shadow", "shadow-rays "}) EXPECT_THROW(parse_direct(text), UsageError) << text;
+}
+
 TEST(ParseCount, HasLimits) {
   EXPECT_EQ(parse_count("18446744073709551615", 0, ~std::uint64_t{0}), ~std::uint64_t{0});
   EXPECT_EQ(parse_count("7", 1, 7), 7U);

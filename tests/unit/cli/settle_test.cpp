@@ -34,6 +34,7 @@ Scene scene_with_defaults() {
   d.allocation = "block";
   d.seed = 99;
   d.two_sided_lights = true;
+  d.shadow_rays = true;
   return scene;
 }
 
@@ -52,6 +53,7 @@ TEST(Settle, BuiltInValues) {
   EXPECT_EQ(settled.quality.unshot, built_in.unshot);
   EXPECT_EQ(settled.quality.patch_length, std::nullopt);
   EXPECT_FALSE(settled.quality.two_sided_lights);
+  EXPECT_FALSE(settled.quality.shadow_rays);
   EXPECT_EQ(settled.machine.columns, 4U);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
   EXPECT_EQ(settled.machine.allocation, "skewed");
@@ -75,6 +77,7 @@ TEST(Settle, SceneOutweighsBuiltIn) {
   EXPECT_EQ(q.unshot, 0.25);
   EXPECT_EQ(q.seed, 99U);
   EXPECT_TRUE(q.two_sided_lights);
+  EXPECT_TRUE(q.shadow_rays);
   EXPECT_EQ(settled.exposure_ev, 1.5);
   EXPECT_EQ(settled.machine.subspaces, (std::array<std::uint32_t, 3>{2, 3, 4}));
   EXPECT_EQ(settled.machine.allocation, "block");
@@ -94,6 +97,7 @@ RenderOptions all_given() {
   options.elements = LengthOption{18};
   options.unshot = 0.19;
   options.seed = 20;
+  options.shadow_rays = false;
   options.exposure_ev = -2;
   options.subspaces = SubspacesOption{};  // auto, given
   options.allocation = "modulo";
@@ -121,6 +125,7 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_EQ(q.element_length, 18);
   EXPECT_EQ(q.unshot, 0.19);
   EXPECT_EQ(q.seed, 20U);
+  EXPECT_FALSE(q.shadow_rays) << "--direct radiosity, given";
   EXPECT_EQ(settled.exposure_ev, -2);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
   EXPECT_EQ(settled.machine.allocation, "modulo");

@@ -79,7 +79,8 @@ TEST_F(RayTracingPhaseTest, EachSampleOfEachPixelGoesOutOnce) {
     std::vector<int> samples(kWidth * kHeight);
     for (const Made& one : made) {
       keys.insert(one.record.key);
-      ++samples.at(one.record.pixel);
+      const auto number = static_cast<std::uint32_t>(samples.at(one.record.pixel)++);
+      EXPECT_EQ(one.record.sample, number) << "samples of a pixel go out in their order";
       EXPECT_EQ(one.record.weight, (protocol::Vec3f{0.5F, 0.5F, 0.5F})) << "of two samples";
       EXPECT_EQ(one.record.polygon, protocol::kNoPolygon);
       EXPECT_EQ(one.record.bounce, 0);
