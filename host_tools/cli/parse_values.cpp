@@ -187,6 +187,11 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
   return *value;
 }
 
+PixelFilter parse_filter(const std::string& text) {
+  if (const auto filter = filter_named(text)) return *filter;
+  throw UsageError(quoted(text) + " is no filter; there are: box, tent, gaussian");
+}
+
 bool parse_direct(const std::string& text) {
   if (text != "radiosity" && text != "shadow-rays") {
     throw UsageError("\"" + text + "\" is no way; there are: radiosity, shadow-rays");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
+#include "host_tools/stages/pixel_samples.hpp"
 
 namespace torolux {
 
@@ -48,5 +49,7 @@ GdbPort parse_gdb_port(const std::string& text);
 
 /// "radiosity" or "shadow-rays". True: shadow rays.
 bool parse_direct(const std::string& text);
+
+PixelFilter parse_filter(const std::string& text);
 
 }  // namespace torolux

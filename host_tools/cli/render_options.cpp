@@ -115,6 +115,13 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
       ->default_str(std::to_string(built_in.width) + "x" + std::to_string(built_in.height))
       ->group(group);
   add_count(command, "--samples", "Rays per pixel", options.samples, 1, 65536, built_in.samples)->group(group);
+  add_value(
+      command, "--filter", "NAME",
+      "How what lies around a pixel's middle weighs in it: box (its square alone), tent (to the middles of the next "
+      "pixels), gaussian (softer)",
+      [&options](const std::string& text) { options.filter = parse_filter(text); })
+      ->default_str(std::string(name_of(built_in.filter)))
+      ->group(group);
   const auto vector = [&](const std::string& name, const std::string& help, auto& to) {
     add_value(command, name, "X,Y,Z", help, [&to](const std::string& text) { to = parse_vector(text); })->group(group);
   };

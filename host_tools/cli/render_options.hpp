@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
+#include "host_tools/stages/pixel_samples.hpp"
 
 namespace CLI {
 class App;
@@ -38,6 +39,7 @@ struct RenderOptions {
   // The view.
   std::optional<std::array<std::uint32_t, 2>> size;
   std::optional<std::uint32_t> samples;
+  std::optional<PixelFilter> filter;
   std::optional<std::array<double, 3>> eye, look_at, up;
   std::optional<double> field_of_view_degrees;
 
@@ -65,7 +67,7 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
                        const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
 /// --output, --exposure, --stats, --save-radiosity, --radiosity, --quiet.
 void add_output_options(CLI::App& command, RenderOptions& options);
-/// --size, --samples, --eye, --look-at, --up, --fov.
+/// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);
 /// --patches, --elements, --refine, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights, --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);

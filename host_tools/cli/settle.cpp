@@ -47,6 +47,9 @@ Quality settle_quality(const RenderOptions& options, const SceneDefaults& defaul
   quality.patch_length = options.patches ? options.patches->length : defaults.patch_length;
   quality.element_length = options.elements ? options.elements->length : defaults.element_length;
   pick(quality.refine, options.refine, defaults.refine);
+  if (!options.filter && defaults.filter)
+    from_scene(defaults.filter_place, "filter", [&] { quality.filter = parse_filter(*defaults.filter); });
+  quality.filter = options.filter.value_or(quality.filter);
   pick(quality.hemicube, options.hemicube, defaults.hemicube);
   pick(quality.shot_points, options.shot_points, defaults.shot_points);
   pick(quality.emission_records, options.emission_records, defaults.emission_records);

@@ -13,13 +13,15 @@
 #include "emulator/machine/machine.hpp"
 #include "host_tools/picture/picture.hpp"
 #include "host_tools/scene/scene.hpp"
+#include "host_tools/stages/pixel_samples.hpp"
 
 namespace torolux {
 
 /// Everything that determines the picture, and nothing that does not.
 struct Quality {
   std::uint32_t width = 512, height = 512;
-  std::uint32_t samples = 8;           ///< per pixel
+  std::uint32_t samples = 8;  ///< per pixel
+  PixelFilter filter = PixelFilter::box;
   std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
   std::optional<double> element_length;
   /// Elements that are added where a draft of the solution says so, as a multiple of those without; 0: no draft.

@@ -52,6 +52,7 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"width", quality.width},
           {"height", quality.height},
           {"samples", quality.samples},
+          {"filter", name_of(quality.filter)},
           {"patches", value_or_auto(quality.patch_length)},
           {"elements", value_or_auto(quality.element_length)},
           {"hemicube", quality.hemicube},

@@ -122,6 +122,8 @@ SceneDefaults read_defaults(TomlTable table) {
   d.unshot = table.number("unshot", 0, 1);
   d.subspaces = table.text("subspaces");
   d.allocation = table.text("allocation");
+  d.filter = table.text("filter");
+  if (d.filter) d.filter_place = table.place("filter").text();
   if (d.subspaces) d.subspaces_place = table.place("subspaces").text();
   if (d.allocation) d.allocation_place = table.place("allocation").text();
   d.two_sided_lights = table.flag("two_sided_lights");

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
@@ -12,32 +12,13 @@
 
 namespace torolux {
 
-using protocol::Dimension;
-
-PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_t key) {
-  if (samples == 1) return {0.5, 0.5};
-  const auto jitter_x = static_cast<double>(protocol::uniform(key, Dimension::pixel_x));
-  const auto jitter_y = static_cast<double>(protocol::uniform(key, Dimension::pixel_y));
-  auto columns = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
-  while (samples % columns != 0) --columns;
-  if (columns > 1) {
-    // Canonical arrangement of correlated multi-jittered samples (Kensler 2013): also one in each of `samples` columns
-    // and rows, so that edges along the picture's axes come out smooth.
-    const std::uint32_t rows = samples / columns;
-    const std::uint32_t column = sample % columns;
-    const std::uint32_t row = sample / columns;
-    return {(column + (row + jitter_x) / rows) / columns, (row + (column + jitter_y) / columns) / rows};
-  }
-  // One sample in each row and each column: steps of about the golden section spread them.
-  auto step = static_cast<std::uint32_t>(samples * 0.618 + 0.5);
-  while (std::gcd(step, samples) != 1) ++step;
-  const auto column = static_cast<std::uint32_t>(std::uint64_t{sample} * step % samples);
-  return {(column + jitter_x) / samples, (sample + jitter_y) / samples};
-}
-
 CameraRays::CameraRays(const Camera& camera, const SceneSpace& space, std::uint32_t width, std::uint32_t height,
-                       std::uint32_t samples, std::uint32_t seed)
-    : width_(width), height_(height), samples_(samples), seed_(seed), eye_(to_float(space.to_normalised(camera.eye))) {
+                       std::vector<PixelPlace> places, std::uint32_t seed)
+    : width_(width),
+      height_(height),
+      seed_(seed),
+      places_(std::move(places)),
+      eye_(to_float(space.to_normalised(camera.eye))) {
   const Vec3d view = vec::subtract(camera.look_at, camera.eye);
   const double view_length = vec::length(view);
   const double up_length = vec::length(camera.up);
@@ -65,8 +46,7 @@ CameraRay CameraRays::ray(std::uint32_t pixel, std::uint32_t sample) const {
   CameraRay ray{};
   ray.origin = eye_;
   ray.key = protocol::hash_combine(protocol::hash_combine(seed_, pixel), sample);
-  // The same places in every pixel: with few samples, other ones in each would show as dots along edges.
-  const PixelPlace place = pixel_place(sample, samples_, protocol::hash_combine(seed_, sample));
+  const PixelPlace place = places_[sample];
   const std::uint32_t column = pixel % width_;
   const std::uint32_t row = pixel / width_;
   const double x = 2 * (column + place.x) / width_ - 1;

@@ -9,6 +9,7 @@
 #include "firmware/protocol/records.hpp"
 #include "host_tools/mesh/normalise.hpp"
 #include "host_tools/scene/scene.hpp"
+#include "host_tools/stages/pixel_samples.hpp"
 #include "host_tools/subspace/grid.hpp"
 
 namespace torolux {
@@ -19,27 +20,21 @@ struct CameraRay {
   std::uint32_t key;          ///< random numbers: hash of (seed, pixel, sample)
 };
 
-/// A place in a pixel, each 0..1, x rightwards, y downwards.
-struct PixelPlace {
-  double x, y;
-};
-
-/// Stratified in two ways: one sample in each cell of a grid of as equal sides as divide their number, and one in each
-/// of `samples` rows and columns; jittered within (one sample: the pixel's centre). key: of the sample.
-PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_t key);
-
 class CameraRays {
  public:
-  /// Throws InputError where the camera looks nowhere: eye at look_at, up along the view, field of view not 0..180.
+  /// places: of the samples, the same ones in every pixel. With few samples, other ones in each would show as dots
+  /// along edges. Throws InputError where the camera looks nowhere: eye at look_at, up along the view, field of view
+  /// not 0..180.
   CameraRays(const Camera& camera, const SceneSpace& space, std::uint32_t width, std::uint32_t height,
-             std::uint32_t samples, std::uint32_t seed);
+             std::vector<PixelPlace> places, std::uint32_t seed);
 
-  std::uint64_t count() const { return std::uint64_t{width_} * height_ * samples_; }
+  std::uint64_t count() const { return std::uint64_t{width_} * height_ * places_.size(); }
   /// pixel: row * width + column, row 0 on top.
   CameraRay ray(std::uint32_t pixel, std::uint32_t sample) const;
 
  private:
-  std::uint32_t width_, height_, samples_, seed_;
+  std::uint32_t width_, height_, seed_;
+  std::vector<PixelPlace> places_;  ///< by sample
   protocol::Vec3f eye_;
   Vec3d forward_, right_, down_;  ///< right and down reach from the middle to the edge of the picture
 };

@@ -43,13 +43,40 @@ TEST(Main, HelpAndVersionAreNoErrors) {
 
 TEST(Main, HelpOfRenderIsComplete) {
   const std::string help = torolux({"render", "--help"}).out;
-  for (const char* option : {"SCENE",       "--output",      "--size",       "--samples",          "--eye",
-                             "--look-at",   "--up",          "--fov",        "--exposure",         "--pes",
-                             "--pe-memory", "--subspaces",   "--allocation", "--machine",          "--engine",
-                             "--patches",   "--elements",    "--hemicube",   "--shot-points",      "--emission-records",
-                             "--unshot",    "--max-shots",   "--bounces",    "--two-sided-lights", "--save-radiosity",
-                             "--radiosity", "--stats",       "--seed",       "--threads",          "--quiet",
-                             "--studio",    "--enter-empty", "--direct"})
+  for (const char* option : {"SCENE",
+                             "--output",
+                             "--size",
+                             "--samples",
+                             "--eye",
+                             "--look-at",
+                             "--up",
+                             "--fov",
+                             "--exposure",
+                             "--pes",
+                             "--pe-memory",
+                             "--subspaces",
+                             "--allocation",
+                             "--machine",
+                             "--engine",
+                             "--patches",
+                             "--elements",
+                             "--hemicube",
+                             "--shot-points",
+                             "--emission-records",
+                             "--unshot",
+                             "--max-shots",
+                             "--bounces",
+                             "--two-sided-lights",
+                             "--save-radiosity",
+                             "--radiosity",
+                             "--stats",
+                             "--seed",
+                             "--threads",
+                             "--quiet",
+                             "--studio",
+                             "--enter-empty",
+                             "--direct",
+                             "--filter"})
     EXPECT_THAT(help, HasSubstr(option));
   for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[20]", "[0.01]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
@@ -72,6 +99,7 @@ TEST(Main, UsageErrors) {
                                              {"render", "scene", "--allocation", "heaps"},
                                              {"render", "scene", "--output", ""},
                                              {"render", "scene", "--direct", "lamp"},
+                                             {"render", "scene", "--filter", "triangle"},
                                              {"compare", "a.pfm"}}) {
     const Outcome outcome = torolux(arguments);
     EXPECT_EQ(outcome.code, 1) << testing::PrintToString(arguments);

@@ -96,6 +96,11 @@ TEST(ParseDirect, KnowsTwoWays) {
   for (const char* text : {"", "shadow", "shadow-rays "}) EXPECT_THROW(parse_direct(text), UsageError) << text;
 }
 
+TEST(ParseFilter, KnowsThreeNames) {
+  EXPECT_EQ(parse_filter("tent"), PixelFilter::tent);
+  for (const char* text : {"", "Tent", "mitchell"}) EXPECT_THROW(parse_filter(text), UsageError) << text;
+}
+
 TEST(ParseCount, HasLimits) {
   EXPECT_EQ(parse_count("18446744073709551615", 0, ~std::uint64_t{0}), ~std::uint64_t{0});
   EXPECT_EQ(parse_count("7", 1, 7), 7U);

@@ -35,6 +35,7 @@ Scene scene_with_defaults() {
   d.seed = 99;
   d.two_sided_lights = true;
   d.shadow_rays = true;
+  d.filter = "box";
   return scene;
 }
 
@@ -54,6 +55,7 @@ TEST(Settle, BuiltInValues) {
   EXPECT_EQ(settled.quality.patch_length, std::nullopt);
   EXPECT_FALSE(settled.quality.two_sided_lights);
   EXPECT_FALSE(settled.quality.shadow_rays);
+  EXPECT_EQ(settled.quality.filter, built_in.filter);
   EXPECT_EQ(settled.machine.columns, 4U);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
   EXPECT_EQ(settled.machine.allocation, "skewed");
@@ -78,6 +80,7 @@ TEST(Settle, SceneOutweighsBuiltIn) {
   EXPECT_EQ(q.seed, 99U);
   EXPECT_TRUE(q.two_sided_lights);
   EXPECT_TRUE(q.shadow_rays);
+  EXPECT_EQ(q.filter, PixelFilter::box);
   EXPECT_EQ(settled.exposure_ev, 1.5);
   EXPECT_EQ(settled.machine.subspaces, (std::array<std::uint32_t, 3>{2, 3, 4}));
   EXPECT_EQ(settled.machine.allocation, "block");
@@ -98,6 +101,7 @@ RenderOptions all_given() {
   options.unshot = 0.19;
   options.seed = 20;
   options.shadow_rays = false;
+  options.filter = PixelFilter::gaussian;
   options.exposure_ev = -2;
   options.subspaces = SubspacesOption{};  // auto, given
   options.allocation = "modulo";
@@ -125,6 +129,7 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_EQ(q.element_length, 18);
   EXPECT_EQ(q.unshot, 0.19);
   EXPECT_EQ(q.seed, 20U);
+  EXPECT_EQ(q.filter, PixelFilter::gaussian);
   EXPECT_FALSE(q.shadow_rays) << "--direct radiosity, given";
   EXPECT_EQ(settled.exposure_ev, -2);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
@@ -148,6 +153,11 @@ TEST(Settle, FaultsOfTheSceneNameTheirPlace) {
   scene = scene_with_defaults();
   scene.defaults.allocation = "heaps";
   EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }), HasSubstr("heaps"));
+  Scene filtered = scene_with_defaults();
+  filtered.defaults.filter = "round";
+  filtered.defaults.filter_place = "room/scene.toml:9";
+  EXPECT_THAT(message_of<InputError>([&] { settle({}, filtered); }),
+              testing::AllOf(testing::StartsWith("room/scene.toml:9: [defaults] 'filter'"), HasSubstr("round")));
   RenderOptions options;
   options.allocation = "block";
   EXPECT_NO_THROW(settle(options, scene)) << "outweighed, so it does not matter";

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Camera rays: where they look, how samples lie in a pixel, and in which subspace they begin.
+// Camera rays: where they look, and in which subspace they begin.
 #include "host_tools/stages/camera_rays.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-#include <set>
 
 #include "emulator/errors.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -16,7 +15,7 @@ namespace {
 
 TEST(CameraRays, FieldOfViewIsVerticalAndRowZeroOnTop) {
   const Camera camera{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 60};
-  const CameraRays rays(camera, SceneSpace{}, 200, 101, 1, 1);
+  const CameraRays rays(camera, SceneSpace{}, 200, 101, {{0.5, 0.5}}, 1);
   const auto top = rays.ray(0 * 200 + 100, 0).direction;
   const auto middle = rays.ray(50 * 200 + 99, 0).direction;
   const auto left = rays.ray(50 * 200, 0).direction;
@@ -29,7 +28,7 @@ TEST(CameraRays, FieldOfViewIsVerticalAndRowZeroOnTop) {
 }
 
 TEST(CameraRays, CamerasThatLookNowhereAreRefused) {
-  const auto make = [](const Camera& camera) { CameraRays(camera, SceneSpace{}, 4, 4, 1, 1); };
+  const auto make = [](const Camera& camera) { CameraRays(camera, SceneSpace{}, 4, 4, {{0.5, 0.5}}, 1); };
   EXPECT_THROW(make({{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 40}), InputError);
   EXPECT_THROW(make({{0, 0, 0}, {0, 2, 0}, {0, 1, 0}, 40}), InputError);
   EXPECT_THROW(make({{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, 40}), InputError);
@@ -39,25 +38,13 @@ TEST(CameraRays, CamerasThatLookNowhereAreRefused) {
   EXPECT_NO_THROW(make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 40}));
 }
 
-TEST(PixelPlace, OneSampleInEachStratum) {
-  for (const std::uint32_t samples : {1U, 2U, 4U, 6U, 7U, 9U, 13U, 16U, 17U}) {
-    std::set<std::uint32_t> columns;
-    std::set<std::uint32_t> rows;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> cells;
-    std::uint32_t across = static_cast<std::uint32_t>(std::sqrt(samples));
-    while (samples % across != 0) --across;
-    for (std::uint32_t s = 0; s < samples; ++s) {
-      const PixelPlace place = pixel_place(s, samples, 77 + s);
-      ASSERT_TRUE(place.x >= 0 && place.x < 1 && place.y >= 0 && place.y < 1);
-      columns.insert(static_cast<std::uint32_t>(place.x * samples));
-      rows.insert(static_cast<std::uint32_t>(place.y * samples));
-      cells.emplace(static_cast<std::uint32_t>(place.x * across),
-                    static_cast<std::uint32_t>(place.y * (samples / across)));
-    }
-    EXPECT_EQ(cells.size(), samples);
-    EXPECT_EQ(columns.size(), samples);
-    EXPECT_EQ(rows.size(), samples);
-  }
+TEST(CameraRays, PlacesMayLieOutsideThePixelAndThePicture) {
+  const Camera camera{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 60};
+  const CameraRays rays(camera, SceneSpace{}, 8, 8, {{0.5, 0.5}, {1.5, -0.5}, {-0.5, 0.5}}, 1);
+  EXPECT_EQ(rays.count(), 8U * 8U * 3U);
+  EXPECT_EQ(rays.ray(2 * 8 + 3, 1).direction, rays.ray(1 * 8 + 4, 0).direction) << "right of it and above";
+  const auto outside = rays.ray(0, 2).direction;  // left of the picture's first pixel
+  EXPECT_NEAR(static_cast<double>(outside[0] / -outside[2]), -std::tan(std::acos(-1.0) / 6) * (1 + 1.0 / 8), 1e-6);
 }
 
 Grid grid_of(std::array<std::uint32_t, 3> cells) {

@@ -100,7 +100,7 @@ TEST(SceneToml, CameraAndDefaults) {
            "[defaults]\nwidth = 64\nheight = 32\nsamples = 9\nhemicube = 32\nshot_points = 3\nemission_records = "
            "6\nmax_shots = 7\nbounces = 8\n"
            "exposure = -1.5\npatches = 0.5\nelements = 0.25\nunshot = 0.05\nsubspaces = '2x2x2'\nallocation = 'block'\n"
-           "two_sided_lights = true\nshadow_rays = true\nseed = 5\n");
+           "two_sided_lights = true\nshadow_rays = true\nfilter = 'tent'\nseed = 5\n");
   EXPECT_EQ(scene.name, "x");
   const Camera camera = scene.camera.value_or(Camera{});
   EXPECT_EQ(camera.eye, (Vec3d{1, 2, 3}));
@@ -123,6 +123,8 @@ TEST(SceneToml, CameraAndDefaults) {
   EXPECT_THAT(scene.defaults.subspaces_place, testing::MatchesRegex(".*:[0-9]+"));
   EXPECT_EQ(scene.defaults.two_sided_lights, true);
   EXPECT_EQ(scene.defaults.shadow_rays, true);
+  EXPECT_EQ(scene.defaults.filter, "tent");
+  EXPECT_THAT(scene.defaults.filter_place, testing::MatchesRegex(".*:[0-9]+"));
   EXPECT_EQ(scene.defaults.seed, 5U);
 }
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// See pixel_samples.hpp.
+#include "host_tools/stages/pixel_samples.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "firmware/protocol/random.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::Dimension;
+
+constexpr double kGaussianReach = 1.5;  ///< [pixels]
+constexpr double kGaussianWidth = 0.5;  ///< standard deviation [pixels]
+
+/// Part of the cut-off Gaussian below a distance.
+double gaussian_part(double distance) {
+  const double scale = 1 / (kGaussianWidth * std::numbers::sqrt2);
+  return (std::erf(distance * scale) / std::erf(kGaussianReach * scale) + 1) / 2;
+}
+
+double gaussian_distance(double u) {
+  double low = -kGaussianReach;
+  double high = kGaussianReach;
+  while (high - low > 1e-12) {
+    const double middle = (low + high) / 2;
+    (gaussian_part(middle) < u ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace
+
+std::string_view name_of(PixelFilter filter) {
+  return kPixelFilters[static_cast<std::size_t>(filter)].name;
+}
+
+std::optional<PixelFilter> filter_named(std::string_view name) {
+  for (const FilterName& known : kPixelFilters) {
+    if (known.name == name) return known.filter;
+  }
+  return std::nullopt;
+}
+
+PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_t key) {
+  if (samples == 1) return {0.5, 0.5};
+  const auto jitter_x = static_cast<double>(protocol::uniform(key, Dimension::pixel_x));
+  const auto jitter_y = static_cast<double>(protocol::uniform(key, Dimension::pixel_y));
+  auto columns = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
+  while (samples % columns != 0) --columns;
+  if (columns > 1) {
+    // Canonical arrangement of correlated multi-jittered samples (Kensler 2013): also one in each of `samples` columns
+    // and rows, so that edges along the picture's axes come out smooth.
+    const std::uint32_t rows = samples / columns;
+    const std::uint32_t column = sample % columns;
+    const std::uint32_t row = sample / columns;
+    return {(column + (row + jitter_x) / rows) / columns, (row + (column + jitter_y) / columns) / rows};
+  }
+  // One sample in each row and each column: steps of about the golden section spread them.
+  auto step = static_cast<std::uint32_t>(samples * 0.618 + 0.5);
+  while (std::gcd(step, samples) != 1) ++step;
+  const auto column = static_cast<std::uint32_t>(std::uint64_t{sample} * step % samples);
+  return {(column + jitter_x) / samples, (sample + jitter_y) / samples};
+}
+
+double filter_distance(PixelFilter filter, double u) {
+  if (filter == PixelFilter::box) return u - 0.5;
+  if (filter == PixelFilter::gaussian) return gaussian_distance(u);
+  return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
+}
+
+std::vector<PixelPlace> pixel_places(PixelFilter filter, std::uint32_t samples, std::uint32_t seed) {
+  std::vector<PixelPlace> places;
+  places.reserve(samples);
+  PixelPlace sum{0, 0};
+  for (std::uint32_t sample = 0; sample < samples; ++sample) {
+    const PixelPlace uniform = pixel_place(sample, samples, protocol::hash_combine(seed, sample));
+    places.push_back({filter_distance(filter, uniform.x), filter_distance(filter, uniform.y)});
+    sum.x += places.back().x;
+    sum.y += places.back().y;
+  }
+  for (PixelPlace& place : places) {
+    place.x += 0.5 - sum.x / samples;
+    place.y += 0.5 - sum.y / samples;
+  }
+  return places;
+}
+
+}  // namespace torolux

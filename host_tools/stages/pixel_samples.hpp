@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Where the samples of a pixel lie on the picture: drawn from the reconstruction filter around its middle, so that each
+// weighs the same and falls on no other pixel (filter importance sampling: Ernst, Stamminger & Greiner 2006).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace torolux {
+
+/// How what lies around a pixel's middle weighs in the pixel; the product of two such curves, across and down.
+enum class PixelFilter : std::uint8_t {
+  box,       ///< the pixel's square alone, all of it alike
+  tent,      ///< falls in a straight line to zero at the middles of the next pixels
+  gaussian,  ///< exp(-(r / 0.5)^2 / 2), r in pixels, cut off at 1.5
+};
+
+struct FilterName {
+  std::string_view name;
+  PixelFilter filter;
+};
+inline constexpr std::array<FilterName, 3> kPixelFilters{
+    {{"box", PixelFilter::box}, {"tent", PixelFilter::tent}, {"gaussian", PixelFilter::gaussian}}};
+
+std::string_view name_of(PixelFilter filter);
+/// Nothing where there is none of this name.
+std::optional<PixelFilter> filter_named(std::string_view name);
+
+/// A place on the picture from a pixel's upper left corner, in pixels, x rightwards, y downwards.
+struct PixelPlace {
+  double x, y;
+};
+
+/// Of the pixel's square, each 0..1. Stratified in two ways: one sample in each cell of a grid of as equal sides as
+/// divide their number, and one in each of `samples` rows and columns; jittered within (one sample: the pixel's
+/// centre). key: of the sample.
+PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_t key);
+
+/// Distance from the middle, in pixels, below which the part `u` (0..1) of the filter lies. Rises with u.
+double filter_distance(PixelFilter filter, double u);
+
+/// The places of all samples, their middle that of the pixel: no sample pattern moves the picture. Some may lie outside
+/// the pixel's square.
+std::vector<PixelPlace> pixel_places(PixelFilter filter, std::uint32_t samples, std::uint32_t seed);
+
+}  // namespace torolux

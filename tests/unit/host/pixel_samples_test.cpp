@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Where a pixel's samples lie: stratified, spread as the filter weighs, and with their middle on the pixel's.
+#include "host_tools/stages/pixel_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace torolux {
+namespace {
+
+TEST(PixelPlace, OneSampleInEachStratum) {
+  for (const std::uint32_t samples : {1U, 2U, 4U, 6U, 7U, 9U, 13U, 16U, 17U}) {
+    std::set<std::uint32_t> columns;
+    std::set<std::uint32_t> rows;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> cells;
+    std::uint32_t across = static_cast<std::uint32_t>(std::sqrt(samples));
+    while (samples % across != 0) --across;
+    for (std::uint32_t s = 0; s < samples; ++s) {
+      const PixelPlace place = pixel_place(s, samples, 77 + s);
+      ASSERT_TRUE(place.x >= 0 && place.x < 1 && place.y >= 0 && place.y < 1);
+      columns.insert(static_cast<std::uint32_t>(place.x * samples));
+      rows.insert(static_cast<std::uint32_t>(place.y * samples));
+      cells.emplace(static_cast<std::uint32_t>(place.x * across),
+                    static_cast<std::uint32_t>(place.y * (samples / across)));
+    }
+    EXPECT_EQ(cells.size(), samples);
+    EXPECT_EQ(columns.size(), samples);
+    EXPECT_EQ(rows.size(), samples);
+  }
+}
+
+/// Weight of a filter at a distance from the middle, of integral one: the definitions in pixel_samples.hpp.
+double weight(PixelFilter filter, double x) {
+  if (filter == PixelFilter::box) return std::fabs(x) <= 0.5 ? 1 : 0;
+  if (filter == PixelFilter::tent) return std::fmax(0, 1 - std::fabs(x));
+  constexpr double kept = 0.99730020393674;  // of a Gaussian within three standard deviations
+  return std::fabs(x) <= 1.5 ? std::exp(-2 * x * x) * std::sqrt(2 / std::acos(-1.0)) / kept : 0;
+}
+
+TEST(PixelFilters, DistancesLieAsTheFilterWeighs) {
+  for (const auto& [name, filter] : kPixelFilters) {
+    double before = filter_distance(filter, 0.0005);
+    for (int i = 1; i < 1000; ++i) {  // as many in each interval: density = step of u / step of x
+      const double next = filter_distance(filter, (i + 0.5) / 1000);
+      ASSERT_GT(next, before) << name;
+      EXPECT_NEAR(0.001 / (next - before), weight(filter, (before + next) / 2), 0.005) << name << " at " << next;
+      EXPECT_NEAR(filter_distance(filter, 1 - (i + 0.5) / 1000), -next, 1e-9) << name << " is symmetric";
+      before = next;
+    }
+  }
+}
+
+TEST(PixelFilters, HaveNames) {
+  for (const auto& [name, filter] : kPixelFilters) {
+    EXPECT_EQ(name_of(filter), name);
+    EXPECT_EQ(filter_named(name), filter);
+  }
+  EXPECT_EQ(filter_named("triangle"), std::nullopt);
+}
+
+// Else the whole picture would be moved by a part of a pixel: samples lie at the same places in each.
+TEST(PixelPlaces, TheirMiddleIsThatOfThePixel) {
+  for (const auto& [name, filter] : kPixelFilters) {
+    for (const std::uint32_t samples : {1U, 2U, 3U, 4U, 8U, 16U, 100U}) {
+      double x = 0;
+      double y = 0;
+      for (const PixelPlace& place : pixel_places(filter, samples, 3)) {
+        x += place.x;
+        y += place.y;
+      }
+      EXPECT_NEAR(x / samples, 0.5, 1e-12) << name << ", " << samples;
+      EXPECT_NEAR(y / samples, 0.5, 1e-12) << name << ", " << samples;
+    }
+  }
+}
+
+// Mean squares of the distances are the filters' own: 1/12, 1/6, and a little less than 1/4.
+TEST(PixelPlaces, SpreadAsTheFilterDoes) {
+  constexpr std::array<double, 3> wanted{1.0 / 12, 1.0 / 6, 0.2433};
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    double square = 0;
+    for (const PixelPlace& place : pixel_places(kPixelFilters[i].filter, 256, 3)) {
+      square += (place.x - 0.5) * (place.x - 0.5);
+    }
+    EXPECT_NEAR(square / 256, wanted[i], 0.02 * wanted[i]) << kPixelFilters[i].name;
+  }
+}
+
+}  // namespace
+}  // namespace torolux
