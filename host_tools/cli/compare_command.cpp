@@ -42,7 +42,7 @@ int run_compare(const CompareOptions& options) {
   const Picture picture = read_picture(options.picture);
   const Picture reference = read_picture(options.reference);
   print(compare(picture, reference));
-  if (options.output) write_picture(difference(picture, reference), *options.output, 0);
+  if (options.output) write_picture(difference(picture, reference), *options.output);
   return 0;
 }
 

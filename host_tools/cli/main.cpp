@@ -68,6 +68,7 @@ int torolux_main(int argc, const char* const* argv) {
   add_render_command(app, action);
   add_info_command(app, action);
   add_compare_command(app, action);
+  add_tonemap_command(app, action);
   add_run_command(app, action);
   add_lockstep_command(app, action);
   add_bench_command(app, action);

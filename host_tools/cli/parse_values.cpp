@@ -17,12 +17,12 @@
 namespace torolux {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return "\"" + std::string(text) + "\"";
 }
 
 [[noreturn]] void wrong_form(std::string_view text, const std::string& expected) {
-  throw UsageError(quoted(text) + " is not " + expected);
+  throw UsageError(in_quotes(text) + " is not " + expected);
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -55,7 +55,7 @@ std::optional<double> real(std::string_view text) {
 
 std::uint32_t in_range(std::string_view text, std::uint64_t value, std::uint64_t least, std::uint64_t most) {
   if (value < least || value > most)
-    throw InputError(quoted(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most) +
+    throw InputError(in_quotes(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most) +
                      " are allowed");
   return static_cast<std::uint32_t>(value);
 }
@@ -95,7 +95,7 @@ std::array<std::uint32_t, 2> parse_pes(const std::string& text) {
   const auto pes = parse_sizes<2>(text, "columns and rows of PEs like 4x4", 1, protocol::kMostPes);
   const std::uint64_t all = std::uint64_t{pes[0]} * pes[1];
   if (all > protocol::kMostPes)
-    throw InputError(quoted(text) + " are " + std::to_string(all) + " PEs; at most " +
+    throw InputError(in_quotes(text) + " are " + std::to_string(all) + " PEs; at most " +
                      std::to_string(protocol::kMostPes) + " are allowed");
   return pes;
 }
@@ -116,10 +116,10 @@ std::uint32_t parse_memory(const std::string& text) {
   const bool huge = *number > protocol::kLargestLocalMemory;
   const std::uint64_t bytes = huge ? *number : *number << shift;
   if (bytes < protocol::kSmallestLocalMemory || bytes > protocol::kLargestLocalMemory)
-    throw InputError(quoted(text) + " is out of range: " + bytes_text(protocol::kSmallestLocalMemory) + " to " +
+    throw InputError(in_quotes(text) + " is out of range: " + bytes_text(protocol::kSmallestLocalMemory) + " to " +
                      bytes_text(protocol::kLargestLocalMemory) + " per PE are allowed");
   if (bytes % protocol::kPageBytes != 0)
-    throw InputError(quoted(text) + " is not a multiple of " + bytes_text(protocol::kPageBytes));
+    throw InputError(in_quotes(text) + " is not a multiple of " + bytes_text(protocol::kPageBytes));
   return static_cast<std::uint32_t>(bytes);
 }
 
@@ -130,7 +130,7 @@ std::vector<unsigned> parse_pe_list(const std::string& text) {
     if (ends.size() > 2) wrong_form(text, kPeListForm);
     const unsigned first = pe_number(ends.front(), kPeListForm);
     const unsigned last = pe_number(ends.back(), kPeListForm);
-    if (last < first) throw InputError(quoted(part) + " ends before it begins");
+    if (last < first) throw InputError(in_quotes(part) + " ends before it begins");
     for (unsigned pe = first; pe <= last; ++pe) pes.push_back(pe);
   }
   std::ranges::sort(pes);
@@ -164,7 +164,7 @@ std::optional<double> parse_length(const std::string& text) {
   if (text == "auto") return std::nullopt;
   const auto value = real(text);
   if (!value) wrong_form(text, "a length in scene units, or auto");
-  if (*value <= 0) throw InputError(quoted(text) + " is out of range: a length is greater than 0");
+  if (*value <= 0) throw InputError(in_quotes(text) + " is out of range: a length is greater than 0");
   return value;
 }
 
@@ -172,7 +172,7 @@ double parse_number(const std::string& text, double least, double most) {
   const auto value = real(text);
   if (!value) wrong_form(text, "a number");
   if (*value < least || *value > most)
-    throw InputError(quoted(text) + " is out of range: " + significant(least, 6) + " to " + significant(most, 6) +
+    throw InputError(in_quotes(text) + " is out of range: " + significant(least, 6) + " to " + significant(most, 6) +
                      " are allowed");
   return *value;
 }
@@ -182,14 +182,20 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
   const auto value = whole(std::string_view(text).substr(negative ? 1 : 0));
   if (!value) wrong_form(text, "a whole number");
   if (negative || *value < least || *value > most)
-    throw InputError(quoted(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most) +
+    throw InputError(in_quotes(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most) +
                      " are allowed");
   return *value;
 }
 
 PixelFilter parse_filter(const std::string& text) {
   if (const auto filter = filter_named(text)) return *filter;
-  throw UsageError(quoted(text) + " is no filter; there are: box, tent, gaussian");
+  throw UsageError(in_quotes(text) + " is no filter; there are: box, tent, gaussian");
+}
+
+ToneCurve parse_tone_curve(const std::string& text) {
+  if (text == "filmic") return ToneCurve::filmic;
+  if (text == "linear") return ToneCurve::linear;
+  throw UsageError(in_quotes(text) + " is no tone curve; there are: filmic, linear");
 }
 
 bool parse_direct(const std::string& text) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
+#include "host_tools/picture/picture.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace torolux {
@@ -51,5 +52,7 @@ GdbPort parse_gdb_port(const std::string& text);
 bool parse_direct(const std::string& text);
 
 PixelFilter parse_filter(const std::string& text);
+/// "filmic" or "linear".
+ToneCurve parse_tone_curve(const std::string& text);
 
 }  // namespace torolux

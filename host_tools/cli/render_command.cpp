@@ -53,7 +53,7 @@ int run_render(const RenderOptions& options) {
   if (interrupted()) return kInterrupted;
   print_notes(result.notes, options.quiet);
 
-  for (const auto& file : settled.outputs) write_picture(result.picture, file, settled.exposure_ev);
+  for (const auto& file : settled.outputs) write_picture(result.picture, file, settled.tone);
   const RunDescription run{scene.name, settled.quality, settled.machine, settled.outputs};
   if (options.stats) write_file(*options.stats, stats_json(run, result.figures));
   if (!options.quiet) std::cout << summary(run, result.figures) << std::flush;

@@ -74,6 +74,20 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
       ->group("Scene");
 }
 
+void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group) {
+  add_value(command, "--exposure", "EV",
+            "Exposure of a .png in EV (1 is twice as bright); 0 shows the picture's "
+            "middle luminance as middle grey",
+            [&options](const std::string& text) { options.exposure_ev = parse_number(text, -50, 50); })
+      ->default_str("0")
+      ->group(group);
+  add_value(command, "--tone-curve", "NAME",
+            "Of a .png: filmic (toe and shoulder, keeps hue), or linear (what is too bright is cut off)",
+            [&options](const std::string& text) { options.curve = parse_tone_curve(text); })
+      ->default_str("filmic")
+      ->group(group);
+}
+
 void add_output_options(CLI::App& command, RenderOptions& options) {
   const std::string group = "Results";
   const auto path = [&](const std::string& name, const std::string& help, auto& to) {
@@ -94,12 +108,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->group(group);
-  add_value(command, "--exposure", "EV",
-            "Exposure of a .png in EV (1 is twice as bright); 0 shows the picture's "
-            "middle luminance as middle grey",
-            [&options](const std::string& text) { options.exposure_ev = parse_number(text, -50, 50); })
-      ->default_str("0")
-      ->group(group);
+  add_tone_options(command, options.tone, group);
   path("--stats", "Statistics of the run, as JSON", options.stats);
   path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
+#include "host_tools/picture/picture.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace CLI {
@@ -26,13 +27,19 @@ struct SubspacesOption {
   std::optional<std::array<std::uint32_t, 3>> cells;
 };
 
+/// --exposure and --tone-curve.
+struct ToneOptions {
+  std::optional<double> exposure_ev;
+  std::optional<ToneCurve> curve;
+};
+
 struct RenderOptions {
   std::filesystem::path scene;
   bool studio = false;
 
   // What comes out.
   std::vector<std::filesystem::path> outputs;
-  std::optional<double> exposure_ev;
+  ToneOptions tone;
   std::optional<std::filesystem::path> save_radiosity, radiosity, stats;
   bool quiet = false;
 
@@ -65,7 +72,9 @@ struct RenderOptions {
 /// SCENE and --studio. name, help: of the first.
 void add_scene_options(CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
                        const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
-/// --output, --exposure, --stats, --save-radiosity, --radiosity, --quiet.
+/// --exposure, --tone-curve.
+void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group);
+/// --output, --stats, --save-radiosity, --radiosity, --quiet.
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);

@@ -106,7 +106,8 @@ Settled settle(const RenderOptions& options, const Scene& scene) {
   settled.camera = settle_camera(options, scene);
   settled.quality = settle_quality(options, scene.defaults);
   settled.machine = settle_machine(options, scene);
-  pick(settled.exposure_ev, options.exposure_ev, scene.defaults.exposure_ev);
+  pick(settled.tone.exposure_ev, options.tone.exposure_ev, scene.defaults.exposure_ev);
+  settled.tone.curve = options.tone.curve.value_or(ToneCurve::filmic);
   settled.outputs = options.outputs;
   if (settled.outputs.empty()) settled.outputs.emplace_back(scene.name + ".png");
   settled.files = {options.save_radiosity, options.radiosity};

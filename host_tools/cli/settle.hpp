@@ -13,7 +13,7 @@ struct Settled {
   Camera camera;
   Quality quality;
   MachineChoice machine;
-  double exposure_ev = 0;
+  ToneMapping tone;
   std::vector<std::filesystem::path> outputs;  ///< never empty
   RenderFiles files;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_tools/picture/picture.hpp"
+#include "host_tools/picture/tone_map.hpp"
 
 namespace torolux {
 
@@ -22,7 +23,7 @@ std::vector<std::byte> encode_exr(const Picture& picture);
 Picture decode_exr(std::span<const std::byte> bytes, const std::string& name);
 
 /// PNG, 8 bits per channel, sRGB, through tone_map.
-std::vector<std::byte> encode_png(const Picture& picture, double exposure_ev);
+std::vector<std::byte> encode_png(const Picture& picture, const ToneMapping& mapping);
 
 /// Throws InputError where a picture of this size would be beyond the limits of picture.hpp, or empty.
 void check_picture_size(std::uint64_t width, std::uint64_t height, const std::string& name);

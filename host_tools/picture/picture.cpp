@@ -37,16 +37,21 @@ void check_picture_size(std::uint64_t width, std::uint64_t height, const std::st
                      " on an edge and " + std::to_string(kMostPicturePixels) + " in all");
 }
 
-void write_picture(const Picture& picture, const std::filesystem::path& file, double exposure_ev) {
+void write_picture(const Picture& picture, const std::filesystem::path& file, const ToneMapping& mapping) {
   check_extension(file);
   check_picture_size(picture.width, picture.height, file.string());
   const std::string extension = extension_of(file);
   if (extension == ".png")
-    write_file(file, encode_png(picture, exposure_ev));
+    write_file(file, encode_png(picture, mapping));
   else if (extension == ".exr")
     write_file(file, encode_exr(picture));
   else
     write_file(file, encode_pfm(picture));
+}
+
+bool holds_radiance(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  return extension == ".exr" || extension == ".pfm";
 }
 
 void check_writable(const std::filesystem::path& file) {

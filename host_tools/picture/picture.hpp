@@ -15,13 +15,27 @@ struct Picture {
   std::vector<std::array<float, 3>> pixels;  ///< row 0 on top; linear radiance [W/(m^2 sr)]
 };
 
+enum class ToneCurve : std::uint8_t {
+  filmic,
+  linear,  ///< no curve: what is brighter than display white is cut off. For values that are to be compared
+};
+
+/// From radiance to what a display shows (tone_map.hpp).
+struct ToneMapping {
+  double exposure_ev = 0;
+  ToneCurve curve = ToneCurve::filmic;
+};
+
 /// Pictures beyond these are refused, read or written.
 inline constexpr std::uint32_t kMostPictureEdge = 32768;
 inline constexpr std::uint64_t kMostPicturePixels = std::uint64_t{1} << 27U;
 
-/// By extension: .png (exposure in EV, tone-mapped, sRGB, 8 bits; see tone_map.hpp), .exr, .pfm (linear radiance).
+/// By extension: .png (exposed, tone-mapped, sRGB, 8 bits; see tone_map.hpp), .exr, .pfm (linear radiance).
 /// Written to a temporary file beside it and renamed. Throws InputError where it cannot be written.
-void write_picture(const Picture& picture, const std::filesystem::path& file, double exposure_ev);
+void write_picture(const Picture& picture, const std::filesystem::path& file, const ToneMapping& mapping = {});
+
+/// By extension: .exr or .pfm, which hold linear radiance.
+bool holds_radiance(const std::filesystem::path& file);
 
 /// Throws UsageError for an extension that write_picture does not know, InputError where nothing can be written there.
 /// For calling before hours of work.

@@ -8,8 +8,8 @@
 
 namespace torolux {
 
-std::vector<std::byte> encode_png(const Picture& picture, double exposure_ev) {
-  const std::vector<std::uint8_t> pixels = tone_map(picture, exposure_ev);
+std::vector<std::byte> encode_png(const Picture& picture, const ToneMapping& mapping) {
+  const std::vector<std::uint8_t> pixels = tone_map(picture, mapping);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = picture.width;

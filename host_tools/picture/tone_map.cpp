@@ -8,8 +8,21 @@
 namespace torolux {
 namespace {
 
-/// Strength with which what is far too bright turns white.
-constexpr float kDesaturation = 0.15F;
+/// Steepness of toe and shoulder: 1 would have no toe.
+constexpr double kContrast = 1.3;
+/// Strength with which what is brighter than display white turns white.
+constexpr double kDesaturation = 0.15;
+
+/// Toe and shoulder in one: x^a / (b x^a + c), b and c such that middle grey stays and kWhite becomes 1 (T. Lottes,
+/// Advanced Techniques and Optimization of HDR Color Tonemapping, GDC 2016, with a shoulder of 1; in the study of
+/// vision it is the Naka-Rushton curve).
+double filmic(double x) {
+  static const double c = (std::pow(kMiddleGrey, kContrast - 1) - std::pow(kMiddleGrey, kContrast)) /
+                          (1 - std::pow(kMiddleGrey / kWhite, kContrast));
+  static const double b = 1 - c * std::pow(kWhite, -kContrast);
+  const double power = std::pow(std::min(x, kWhite), kContrast);
+  return power / (b * power + c);
+}
 
 /// Rec. 709 luminance.
 double luminance(const std::array<float, 3>& colour) {
@@ -38,19 +51,18 @@ double exposure_factor(const Picture& picture, double exposure_ev) {
   return (middle > 0 ? kMiddleGrey / middle : 1.0) * std::exp2(exposure_ev);
 }
 
-// After the Khronos PBR Neutral tone mapper (Khronos Group 2024), with an earlier shoulder and without its offset for
-// Fresnel reflections. All channels are scaled alike, then moved towards white: both keep the hue.
-std::array<float, 3> compress(const std::array<float, 3>& colour) {
+// The curve is that of the brightest channel; all are scaled alike, then moved towards white (after the Khronos PBR
+// Neutral tone mapper, Khronos Group 2024): both keep the hue, which a curve for each channel would not.
+std::array<float, 3> compress(const std::array<float, 3>& colour, ToneCurve curve) {
   std::array<float, 3> c{};
   for (std::size_t i = 0; i < 3; ++i) c[i] = std::isfinite(colour[i]) ? std::max(colour[i], 0.0F) : 0.0F;
-  const float peak = std::max({c[0], c[1], c[2]});
-  if (peak <= kShoulder) return c;
-  constexpr float room = 1.0F - kShoulder;
-  const float new_peak = 1.0F - room * room / (peak + room - kShoulder);
-  const float white = 1.0F - 1.0F / (kDesaturation * (peak - new_peak) + 1.0F);
+  const double peak = double{std::max({c[0], c[1], c[2]})};
+  if (peak == 0) return c;
+  const double new_peak = curve == ToneCurve::filmic ? filmic(peak) : peak;
+  const double white = curve == ToneCurve::filmic ? 1 - 1 / (kDesaturation * std::max(peak - 1, 0.0) + 1) : 0;
   for (float& channel : c) {
-    const float scaled = channel / peak * new_peak;
-    channel = scaled + (new_peak - scaled) * white;
+    const double scaled = double{channel} / peak * new_peak;
+    channel = static_cast<float>(std::min(scaled + (new_peak - scaled) * white, 1.0));
   }
   return c;
 }
@@ -61,14 +73,14 @@ std::uint8_t to_srgb(float linear) {
   return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
-std::vector<std::uint8_t> tone_map(const Picture& picture, double exposure_ev) {
-  const double factor = exposure_factor(picture, exposure_ev);
+std::vector<std::uint8_t> tone_map(const Picture& picture, const ToneMapping& mapping) {
+  const double factor = exposure_factor(picture, mapping.exposure_ev);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(picture.pixels.size() * 3);
   for (const auto& pixel : picture.pixels) {
     std::array<float, 3> exposed{};
     for (std::size_t c = 0; c < 3; ++c) exposed[c] = static_cast<float>(double{pixel[c]} * factor);
-    for (const float channel : compress(exposed)) bytes.push_back(to_srgb(channel));
+    for (const float channel : compress(exposed, mapping.curve)) bytes.push_back(to_srgb(channel));
   }
   return bytes;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // From linear radiance to what a display shows: exposure, tone curve, sRGB.
 //
-// Exposure 0 EV is automatic: the picture's middle luminance becomes kMiddleGrey. Then 1 EV is a factor of 2. The curve
-// keeps the hue of every pixel, is monotone, and is the identity up to kShoulder, so that walls look as they are and
-// only lamps and highlights are compressed.
+// Exposure 0 EV is automatic: the picture's middle luminance becomes kMiddleGrey. Then 1 EV is a factor of 2. The
+// filmic curve has a toe (dark tones a little darker: contrast) and a shoulder (lamps and highlights are compressed,
+// not cut off), leaves middle grey where it is, is monotone, and keeps the hue of every pixel.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace torolux {
 
 /// Linear display value that the middle luminance is brought to at 0 EV.
 inline constexpr double kMiddleGrey = 0.18;
-/// Linear display value of the brightest channel above which the curve bends towards 1.
-inline constexpr float kShoulder = 0.5F;
+/// Value of the brightest channel, in units of display white before the curve, that becomes display white.
+inline constexpr double kWhite = 16;
 
 /// Middle luminance: the geometric mean over the pixels that are not black, the darkest and the brightest tenth of them
 /// left out, so that lamps in view do not make the room dark. [W/(m^2 sr)]; 0 for a black picture.
@@ -27,12 +27,12 @@ double middle_luminance(const Picture& picture);
 double exposure_factor(const Picture& picture, double exposure_ev);
 
 /// The curve: linear, >= 0, unbounded -> linear, 0..1. What is not a finite number counts as 0.
-std::array<float, 3> compress(const std::array<float, 3>& colour);
+std::array<float, 3> compress(const std::array<float, 3>& colour, ToneCurve curve);
 
 /// Linear 0..1 -> sRGB 0..255 (IEC 61966-2-1), rounded to nearest.
 std::uint8_t to_srgb(float linear);
 
 /// The whole way: width * height * 3 bytes, R G B, row 0 on top.
-std::vector<std::uint8_t> tone_map(const Picture& picture, double exposure_ev);
+std::vector<std::uint8_t> tone_map(const Picture& picture, const ToneMapping& mapping);
 
 }  // namespace torolux

@@ -52,8 +52,8 @@ void add_row(Table& table, const SceneRun& run, const Reference& reference, cons
        std::to_string(result.figures.radiosity_records), std::to_string(result.figures.rays),
        text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]), text_of("%.1f", seconds)});
   const std::string stem = (choice.output / (run.scene.name + "-" + setting.name)).string();
-  write_picture(result.picture, stem + ".exr", 0);
-  write_picture(signed_difference(result.picture, reference.traced.picture, error.clamp), stem + "-difference.png", 0);
+  write_picture(result.picture, stem + ".exr");
+  write_picture(signed_difference(result.picture, reference.traced.picture, error.clamp), stem + "-difference.png");
 }
 
 void add_scene(Table& table, const std::filesystem::path& path, const ReportChoice& choice) {
@@ -64,7 +64,7 @@ void add_scene(Table& table, const std::filesystem::path& path, const ReportChoi
                         choice.reference, choice.threads, choice.output / "references"),
       0};
   reference.noise = references::reference_noise(reference.traced);
-  write_picture(reference.traced.picture, choice.output / (run.scene.name + "-reference.png"), run.settled.exposure_ev);
+  write_picture(reference.traced.picture, choice.output / (run.scene.name + "-reference.png"), run.settled.tone);
   for (const Setting& setting : chosen_settings(choice)) add_row(table, run, reference, setting, choice);
 }
 

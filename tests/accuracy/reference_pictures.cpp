@@ -110,8 +110,8 @@ references::TracedPicture reference_picture(const Scene& scene, const View& view
   choice.threads = threads;
   const references::World world(scene, view.two_sided_lights);
   references::TracedPicture traced = trace_until_smooth(world, view.camera, choice, effort);
-  write_picture(traced.first_half, first, 0);
-  write_picture(traced.second_half, second, 0);
+  write_picture(traced.first_half, first);
+  write_picture(traced.second_half, second);
   return traced;
 }
 

@@ -9,6 +9,7 @@
 
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/files/write_file.hpp"
 #include "host_tools/picture/picture.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -43,40 +44,13 @@ TEST(Main, HelpAndVersionAreNoErrors) {
 
 TEST(Main, HelpOfRenderIsComplete) {
   const std::string help = torolux({"render", "--help"}).out;
-  for (const char* option : {"SCENE",
-                             "--output",
-                             "--size",
-                             "--samples",
-                             "--eye",
-                             "--look-at",
-                             "--up",
-                             "--fov",
-                             "--exposure",
-                             "--pes",
-                             "--pe-memory",
-                             "--subspaces",
-                             "--allocation",
-                             "--machine",
-                             "--engine",
-                             "--patches",
-                             "--elements",
-                             "--hemicube",
-                             "--shot-points",
-                             "--emission-records",
-                             "--unshot",
-                             "--max-shots",
-                             "--bounces",
-                             "--two-sided-lights",
-                             "--save-radiosity",
-                             "--radiosity",
-                             "--stats",
-                             "--seed",
-                             "--threads",
-                             "--quiet",
-                             "--studio",
-                             "--enter-empty",
-                             "--direct",
-                             "--filter"})
+  for (const char* option : {"SCENE",       "--output",      "--size",       "--samples",          "--eye",
+                             "--look-at",   "--up",          "--fov",        "--exposure",         "--pes",
+                             "--pe-memory", "--subspaces",   "--allocation", "--machine",          "--engine",
+                             "--patches",   "--elements",    "--hemicube",   "--shot-points",      "--emission-records",
+                             "--unshot",    "--max-shots",   "--bounces",    "--two-sided-lights", "--save-radiosity",
+                             "--radiosity", "--stats",       "--seed",       "--threads",          "--quiet",
+                             "--studio",    "--enter-empty", "--direct",     "--filter",           "--tone-curve"})
     EXPECT_THAT(help, HasSubstr(option));
   for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[20]", "[0.01]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
@@ -100,6 +74,11 @@ TEST(Main, UsageErrors) {
                                              {"render", "scene", "--output", ""},
                                              {"render", "scene", "--direct", "lamp"},
                                              {"render", "scene", "--filter", "triangle"},
+                                             {"render", "scene", "--tone-curve", "aces"},
+                                             {"tonemap", "a.exr"},
+                                             {"tonemap", "a.exr", "a.jpg"},
+                                             {"tonemap", "a.exr", "b.exr"},
+                                             {"tonemap", "a.exr", "b.png", "--tone-curve", "aces"},
                                              {"compare", "a.pfm"}}) {
     const Outcome outcome = torolux(arguments);
     EXPECT_EQ(outcome.code, 1) << testing::PrintToString(arguments);
@@ -172,8 +151,8 @@ TEST(Main, MissingFirmwareIsBadInputAndSaysWhatToDo) {
 
 TEST(Main, CompareTellsTheDifferenceAndWritesIt) {
   const TemporaryFolder folder;
-  write_picture({2, 1, {{1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm", 0);
-  write_picture({2, 1, {{1, 1, 1}, {2, 2, 4}}}, folder.path() / "b.exr", 0);
+  write_picture({2, 1, {{1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm");
+  write_picture({2, 1, {{1, 1, 1}, {2, 2, 4}}}, folder.path() / "b.exr");
   const Outcome outcome = torolux(
       {"compare", folder.path() / "a.pfm", folder.path() / "b.exr", "--output", folder.path() / "difference.pfm"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -184,10 +163,43 @@ TEST(Main, CompareTellsTheDifferenceAndWritesIt) {
 
 TEST(Main, CompareRefusesOtherSizes) {
   const TemporaryFolder folder;
-  write_picture({2, 1, {{1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm", 0);
-  write_picture({1, 1, {{1, 1, 1}}}, folder.path() / "b.pfm", 0);
+  write_picture({2, 1, {{1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm");
+  write_picture({1, 1, {{1, 1, 1}}}, folder.path() / "b.pfm");
   EXPECT_EQ(torolux({"compare", folder.path() / "a.pfm", folder.path() / "b.pfm"}).code, 2);
   EXPECT_EQ(torolux({"compare", folder.path() / "a.pfm", folder.path() / "a.pfm", "--output", "x.gif"}).code, 1);
+}
+
+// The same bytes that render would have written.
+TEST(Main, TonemapMakesAPngOfRadiance) {
+  const TemporaryFolder folder;
+  const Picture picture{2, 1, {{1, 0.5F, 0.25F}, {2, 2, 40}}};
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto bytes = [&](const char* name) { return read_file(file(name), 1U << 20U); };
+  for (const char* name : {"a.exr", "a.pfm"}) {
+    write_picture(picture, file(name));
+    ASSERT_EQ(torolux({"tonemap", file(name), file("plain.png")}).code, 0) << name;
+    write_picture(picture, file("wanted.png"));
+    EXPECT_EQ(bytes("plain.png"), bytes("wanted.png"));
+    ASSERT_EQ(torolux({"tonemap", file(name), file("set.png"), "--exposure", "-1.5", "--tone-curve", "linear"}).code,
+              0);
+    write_picture(picture, file("wanted.png"), {-1.5, ToneCurve::linear});
+    EXPECT_EQ(bytes("set.png"), bytes("wanted.png"));
+    EXPECT_NE(bytes("set.png"), bytes("plain.png"));
+  }
+}
+
+TEST(Main, TonemapRefusesWhatItCannotReadOrWrite) {
+  const TemporaryFolder folder;
+  const std::string there = folder.path() / "a.exr";
+  write_picture({1, 1, {{1, 1, 1}}}, there);
+  const std::string png = folder.path() / "b.png";
+  EXPECT_EQ(torolux({"tonemap", folder.path() / "none.exr", png}).code, 2);
+  EXPECT_EQ(torolux({"tonemap", there, "/nowhere/b.png"}).code, 2);
+  EXPECT_EQ(torolux({"tonemap", there, png, "--exposure", "99"}).code, 2);
+  EXPECT_EQ(torolux({"tonemap", there, png}).code, 0);
+  const Outcome again = torolux({"tonemap", png, folder.path() / "c.png"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("radiance"));
 }
 
 TEST(Interruption, SignalsSetTheFlagAndHandlersComeBack) {

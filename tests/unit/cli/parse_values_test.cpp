@@ -101,6 +101,12 @@ TEST(ParseFilter, KnowsThreeNames) {
   for (const char* text : {"", "Tent", "mitchell"}) EXPECT_THROW(parse_filter(text), UsageError) << text;
 }
 
+TEST(ParseToneCurve, KnowsTwoNames) {
+  EXPECT_EQ(parse_tone_curve("filmic"), ToneCurve::filmic);
+  EXPECT_EQ(parse_tone_curve("linear"), ToneCurve::linear);
+  for (const char* text : {"", "aces", "Filmic"}) EXPECT_THROW(parse_tone_curve(text), UsageError) << text;
+}
+
 TEST(ParseCount, HasLimits) {
   EXPECT_EQ(parse_count("18446744073709551615", 0, ~std::uint64_t{0}), ~std::uint64_t{0});
   EXPECT_EQ(parse_count("7", 1, 7), 7U);

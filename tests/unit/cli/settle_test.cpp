@@ -59,7 +59,8 @@ TEST(Settle, BuiltInValues) {
   EXPECT_EQ(settled.machine.columns, 4U);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
   EXPECT_EQ(settled.machine.allocation, "skewed");
-  EXPECT_EQ(settled.exposure_ev, 0);
+  EXPECT_EQ(settled.tone.exposure_ev, 0);
+  EXPECT_EQ(settled.tone.curve, ToneCurve::filmic);
   EXPECT_THAT(settled.outputs, testing::ElementsAre("bare.png"));
 }
 
@@ -81,7 +82,7 @@ TEST(Settle, SceneOutweighsBuiltIn) {
   EXPECT_TRUE(q.two_sided_lights);
   EXPECT_TRUE(q.shadow_rays);
   EXPECT_EQ(q.filter, PixelFilter::box);
-  EXPECT_EQ(settled.exposure_ev, 1.5);
+  EXPECT_EQ(settled.tone.exposure_ev, 1.5);
   EXPECT_EQ(settled.machine.subspaces, (std::array<std::uint32_t, 3>{2, 3, 4}));
   EXPECT_EQ(settled.machine.allocation, "block");
   EXPECT_EQ(settled.camera.field_of_view_degrees, 55);
@@ -102,7 +103,8 @@ RenderOptions all_given() {
   options.seed = 20;
   options.shadow_rays = false;
   options.filter = PixelFilter::gaussian;
-  options.exposure_ev = -2;
+  options.tone.exposure_ev = -2;
+  options.tone.curve = ToneCurve::linear;
   options.subspaces = SubspacesOption{};  // auto, given
   options.allocation = "modulo";
   options.pes = {{3, 5}};
@@ -131,7 +133,8 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_EQ(q.seed, 20U);
   EXPECT_EQ(q.filter, PixelFilter::gaussian);
   EXPECT_FALSE(q.shadow_rays) << "--direct radiosity, given";
-  EXPECT_EQ(settled.exposure_ev, -2);
+  EXPECT_EQ(settled.tone.exposure_ev, -2);
+  EXPECT_EQ(settled.tone.curve, ToneCurve::linear);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
   EXPECT_EQ(settled.machine.allocation, "modulo");
   EXPECT_EQ(settled.machine.columns, 3U);

@@ -61,7 +61,7 @@ TEST(Pfm, DamagedHeadersAreRefusedByName) {
 TEST(Pfm, IsReadFromAFile) {
   const testing_support::TemporaryFolder folder;
   const Picture picture = sample_picture(4, 3);
-  write_picture(picture, folder.path() / "A.PFM", 0);
+  write_picture(picture, folder.path() / "A.PFM");
   EXPECT_EQ(read_picture(folder.path() / "A.PFM").pixels, picture.pixels);
   EXPECT_THROW(read_picture(folder.path() / "missing.pfm"), InputError);
   EXPECT_THROW(read_picture(folder.path() / "A.png"), InputError);

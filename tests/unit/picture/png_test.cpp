@@ -12,7 +12,7 @@ namespace {
 
 TEST(Png, HoldsTheToneMappedPixels) {
   const Picture picture = testing_support::sample_picture(19, 11);
-  const std::vector<std::byte> bytes = encode_png(picture, 1.5);
+  const std::vector<std::byte> bytes = encode_png(picture, {1.5, ToneCurve::filmic});
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   ASSERT_NE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()), 0) << image.message;
@@ -21,12 +21,12 @@ TEST(Png, HoldsTheToneMappedPixels) {
   EXPECT_EQ(image.format, unsigned{PNG_FORMAT_RGB}) << "8 bits, sRGB, no alpha";
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
   ASSERT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0) << image.message;
-  EXPECT_EQ(pixels, tone_map(picture, 1.5));
+  EXPECT_EQ(pixels, tone_map(picture, {1.5, ToneCurve::filmic}));
 }
 
 TEST(Png, IsTheSameEveryTime) {
   const Picture picture = testing_support::sample_picture(64, 64);
-  EXPECT_EQ(encode_png(picture, 0), encode_png(picture, 0));
+  EXPECT_EQ(encode_png(picture, {}), encode_png(picture, {}));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Proves: the tone curve is monotone, keeps hue, never clips, leaves the dark half alone; exposure is automatic,
-// unmoved by a lamp in view, and one EV is a factor of two.
+// Proves: the tone curve is monotone, keeps hue, never clips, leaves middle grey alone, has a toe and a shoulder;
+// exposure is automatic, unmoved by a lamp in view, and one EV is a factor of two.
 #include "host_tools/picture/tone_map.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(ToneCurve, KeepsHue) {
     std::array<int, 3> order_in{};
     std::array<int, 3> order_out{};
     const double hue_in = hue(in, order_in);
-    const Colour out = compress(in);
+    const Colour out = compress(in, ToneCurve::filmic);
     if (std::max({out[0], out[1], out[2]}) - std::min({out[0], out[1], out[2]}) < 1e-2F) continue;  // no hue to see
     EXPECT_NEAR(hue(out, order_out), hue_in, 1e-4) << "rounding of floats over a spread of at least 0.01";
     EXPECT_EQ(order_out, order_in);
@@ -54,7 +54,7 @@ TEST(ToneCurve, IsMonotoneInEveryChannelAndStaysWithinOne) {
     const Colour colour = random_colour(i);
     Colour before{0, 0, 0};
     for (float exposure = 0.001F; exposure < 1000; exposure *= 1.1F) {
-      const Colour now = compress(times(colour, exposure));
+      const Colour now = compress(times(colour, exposure), ToneCurve::filmic);
       for (std::size_t c = 0; c < 3; ++c) {
         EXPECT_GE(now[c], before[c] - 1e-6F) << "rounding";
         EXPECT_LE(now[c], 1.0F);
@@ -64,24 +64,43 @@ TEST(ToneCurve, IsMonotoneInEveryChannelAndStaysWithinOne) {
   }
 }
 
-TEST(ToneCurve, IsTheIdentityUpToTheShoulderAndSmoothThere) {
-  const Colour dark{0.1F, 0.5F, 0.0F};
-  EXPECT_EQ(compress(dark), dark);
-  const float step = 1e-3F;
-  const Colour above = compress({kShoulder + step, 0, 0});
-  EXPECT_NEAR(above[0], kShoulder + step, 3 * step * step) << "slope 1: only the second order is lost";
-  EXPECT_LT(above[0], kShoulder + step);
+double grey(double value) {
+  const auto v = static_cast<float>(value);
+  return double{compress({v, v, v}, ToneCurve::filmic)[0]};
+}
+
+/// Slope over doublings: 1 where the curve keeps contrast.
+double contrast(double value) {
+  return std::log2(grey(value * 1.01) / grey(value / 1.01)) / std::log2(1.01 * 1.01);
+}
+
+TEST(ToneCurve, HasAToeAndAShoulderAndLeavesMiddleGrey) {
+  EXPECT_NEAR(grey(kMiddleGrey), kMiddleGrey, 1e-6);
+  EXPECT_NEAR(grey(kWhite), 1, 1e-6);
+  EXPECT_LT(grey(kWhite * 0.9), 1) << "not before";
+  EXPECT_GT(grey(kWhite / 2), 0.9);
+  for (const double dark : {0.001, 0.01, 0.1}) EXPECT_LT(grey(dark), dark);
+  EXPECT_NEAR(contrast(1e-4), 1.3, 1e-2) << "the toe's: below middle grey contrast grows";
+  EXPECT_GT(contrast(kMiddleGrey), 1) << "about the middle nothing is flattened";
+  EXPECT_LT(contrast(2), 0.5) << "the shoulder bends";
+  for (double x = 1e-3; x < 8; x *= 1.3) EXPECT_GT(contrast(x), contrast(x * 1.3)) << "one bend, no waves, at " << x;
+}
+
+TEST(ToneCurve, LinearOnlyCutsOff) {
+  EXPECT_EQ(compress({0.25F, 1.0F, 3.0F}, ToneCurve::linear), (Colour{0.25F, 1.0F, 1.0F}));
 }
 
 TEST(ToneCurve, FarTooBrightTurnsWhite) {
-  const Colour out = compress({1e4F, 1e3F, 1e2F});
+  const Colour out = compress({1e4F, 1e3F, 1e2F}, ToneCurve::filmic);
   for (const float channel : out) EXPECT_GT(channel, 0.99F);
 }
 
 TEST(ToneCurve, WhatIsNoNumberCountsAsZero) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(compress({nan, inf, -1.0F}), (Colour{0, 0, 0}));
+  for (const ToneCurve curve : {ToneCurve::filmic, ToneCurve::linear}) {
+    EXPECT_EQ(compress({nan, inf, -1.0F}, curve), (Colour{0, 0, 0}));
+  }
 }
 
 TEST(Srgb, MatchesTheStandard) {
@@ -97,7 +116,7 @@ TEST(Exposure, BringsAnEvenPictureToMiddleGrey) {
   Picture picture{10, 10, std::vector<Colour>(100, Colour{3, 3, 3})};
   EXPECT_NEAR(exposure_factor(picture, 0) * 3, kMiddleGrey, 1e-12);
   EXPECT_NEAR(exposure_factor(picture, 2) * 3, 4 * kMiddleGrey, 1e-12);
-  EXPECT_EQ(tone_map(picture, 0), std::vector<std::uint8_t>(300, 118));
+  EXPECT_EQ(tone_map(picture, {}), std::vector<std::uint8_t>(300, 118));
 }
 
 TEST(Exposure, IsNotMovedByALampInViewOrByBlack) {

@@ -82,7 +82,7 @@ TEST(WriteFile, FullDiskKeepsTheOldFileAndLeavesNothing) {
   {
     const FileSizeLimit limit(4096);
     const Picture picture = testing_support::sample_picture(64, 64);
-    EXPECT_THAT(message_of<InputError>([&] { write_picture(picture, file, 0); }), HasSubstr("a.pfm"));
+    EXPECT_THAT(message_of<InputError>([&] { write_picture(picture, file); }), HasSubstr("a.pfm"));
   }
   EXPECT_EQ(read_file(file, kMost), bytes_of("old"));
   EXPECT_EQ(folder.files(), 1U);
@@ -132,7 +132,7 @@ TEST(CheckWritable, UnknownExtensionIsUsage) {
 
 TEST(WritePicture, RefusesAnEmptyPicture) {
   const TemporaryFolder folder;
-  EXPECT_THROW(write_picture(Picture{}, folder.path() / "a.png", 0), InputError);
+  EXPECT_THROW(write_picture(Picture{}, folder.path() / "a.png"), InputError);
 }
 
 TEST(ReadFile, RefusesMoreThanAllowed) {

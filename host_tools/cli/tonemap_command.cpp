@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// `torolux tonemap IN OUT.png`: a picture of radiance enters, one for a display leaves, as `render` would have made it.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "emulator/errors.hpp"
+#include "host_tools/cli/command.hpp"
+#include "host_tools/cli/render_options.hpp"
+#include "host_tools/picture/picture.hpp"
+
+namespace torolux {
+namespace {
+
+struct TonemapOptions {
+  std::string picture, output;
+  ToneOptions tone;
+};
+
+int run_tonemap(const TonemapOptions& options) {
+  const std::filesystem::path output = options.output;
+  check_writable(output);
+  if (holds_radiance(output)) throw UsageError(options.output + ": a tone-mapped picture is a .png");
+  const ToneMapping built_in;
+  write_picture(read_picture(options.picture), output,
+                {options.tone.exposure_ev.value_or(built_in.exposure_ev), options.tone.curve.value_or(built_in.curve)});
+  return 0;
+}
+
+}  // namespace
+
+void add_tonemap_command(CLI::App& app, CommandAction& action) {
+  const auto options = std::make_shared<TonemapOptions>();
+  CLI::App* command = app.add_subcommand("tonemap", "Make a .png of a picture of radiance");
+  command->add_option("IN", options->picture, "A picture, .exr or .pfm")->required()->type_name("");
+  command->add_option("OUT", options->output, "The picture to write, .png")->required()->type_name("");
+  add_tone_options(*command, options->tone, "Picture");
+  command->callback([options, &action] { action = [options] { return run_tonemap(*options); }; });
+}
+
+}  // namespace torolux
