@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light that falls on a diffuse surface. Enters: a record and its hit; leaves: flux in an element, or a deposit record
-// on its way to the element's owner.
+// Light that falls on a diffuse or glossy surface. Enters: a record and its hit; leaves: flux in an element, or a
+// deposit record on its way to the element's owner.
 #include "firmware/pe/pe.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 
@@ -14,7 +14,7 @@ void add_to_element(Pe& pe, std::uint32_t patch, std::uint32_t element, std::uin
   if (direct) add_flux(target.direct, flux);
 }
 
-void deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
+bool deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   const PhaseMark<Phase::deposit> mark(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
   const protocol::Polygon& polygon = pe.scene.polygons[hit.polygon];
@@ -22,7 +22,7 @@ void deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   if (!lit) {
     add_flux(pe.tally.back_side, record.flux);
     end_record(pe, niu, slot);
-    return;
+    return false;
   }
   protocol::Weights at{(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
   const std::uint32_t path = protocol::enter_level(at, polygon.patch_level);
@@ -30,14 +30,15 @@ void deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   const std::uint32_t element = protocol::find_leaf(pe.scene.nodes.data(), owner.tree, at);
   if (owner.pe == niu.pe()) {
     add_to_element(pe, owner.patch, element, hit.front ? 0 : 1, (record.flags & protocol::kDirect) != 0, record.flux);
-    end_record(pe, niu, slot);
-    return;
+    return leave_element(pe, niu, slot, owner.patch);
   }
   record.kind = protocol::RecordKind::deposit;
   record.subspace = owner.patch;
   record.polygon = element;
-  record.flags = static_cast<std::uint8_t>((record.flags & protocol::kDirect) | (hit.front ? 0U : protocol::kBackSide));
+  record.flags = static_cast<std::uint8_t>((record.flags & (protocol::kDirect | protocol::kGoesOn)) |
+                                           (hit.front ? 0U : protocol::kBackSide));
   pe.outbox.put(niu, pe.slots, owner.pe, slot);
+  return false;
 }
 
 }  // namespace torolux::pe

@@ -62,8 +62,12 @@ void follow_light(Pe& pe, Niu& niu, Slot slot);
 /// Adds flux to one of this PE's elements (deposit.cpp).
 void add_to_element(Pe& pe, std::uint32_t patch, std::uint32_t element, std::uint32_t side, bool direct,
                     const protocol::Flux& flux);
-/// The light of a record falls on a diffuse surface: adds it here, or sends it to the element's owner.
-void deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit);
+/// The light of a record falls on a diffuse or glossy surface: adds it here, or sends it to the element's owner. True:
+/// it goes on from here.
+bool deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit);
+/// The light of a record has been added to an element of this patch. True: it goes on, by a glossy lobe
+/// (radiosity.cpp).
+bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch);
 /// The record's light has ended: its slot is free, its credit goes home.
 void end_record(Pe& pe, Niu& niu, Slot slot);
 

@@ -2,6 +2,7 @@
 // Radiosity records: the flux of one hemi-cube pixel on its way. Enters: a record that arrived or was just created;
 // leaves: flux in an element, a record for another PE, or a sum in the tally.
 #include "firmware/pe/follow.hpp"
+#include "firmware/pe/glossy.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/flux.hpp"
@@ -65,6 +66,21 @@ bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   return true;
 }
 
+/// Glossy: whether the light goes on by the lobe when its element has got it. If so, the record takes the way with it:
+/// all of its flux falls on the element, so nothing is chosen by chance about that.
+void choose_lobe(const Pe& pe, RadiosityRecord& record, const Hit& hit) {
+  const protocol::Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const Material& material = pe.scene.materials[polygon.material];
+  const std::uint32_t key = protocol::hash_combine(record.key, record.bounce + 1U);
+  const glm::vec3 in = to_vector(record.direction);
+  const LobeSample way = sample_lobe(material, in, unit_normal(polygon), shading_normal(pe.scene, polygon, hit), key);
+  if (!(protocol::uniform(key, protocol::Dimension::lobe) < way.cosine * material.lobe_chance)) return;
+  record.origin = to_array(leaving_point(polygon, to_vector(record.origin) + in * hit.t));
+  record.direction = to_array(way.direction);
+  record.key = polygon.number;
+  record.flags |= protocol::kGoesOn;
+}
+
 void check_deposit(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
   const Scene& scene = pe.scene;
   require(niu, record.subspace < scene.patches.size(), RecordField::patch, record.subspace);
@@ -100,7 +116,40 @@ void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
   const PhaseMark<Phase::deposit> mark(niu);
   add_to_element(pe, record.subspace, record.polygon, (record.flags & protocol::kBackSide) != 0 ? 1 : 0,
                  (record.flags & protocol::kDirect) != 0, record.flux);
-  end_record(pe, niu, slot);
+  if (leave_element(pe, niu, slot, record.subspace)) follow_light(pe, niu, slot);
+}
+
+bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch) {
+  auto& record = pe.slots.at<RadiosityRecord>(slot);
+  if ((record.flags & protocol::kGoesOn) == 0) {
+    end_record(pe, niu, slot);
+    return false;
+  }
+  const protocol::Patch& from = pe.scene.patches[patch];
+  const Material& material = pe.scene.materials[pe.scene.polygons[from.polygon].material];
+  std::int64_t any = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    record.flux[c] = protocol::scale_by(record.flux[c], material.specular_fraction[c]);
+    any |= record.flux[c];
+  }
+  add_flux(pe.tally.reflected_glossy, record.flux);
+  ++record.bounce;
+  const bool cut_off = record.bounce >= pe.scene.layout.bounces;
+  if (cut_off) add_flux(pe.tally.cut_off, record.flux);
+  if (cut_off || any == 0) {
+    end_record(pe, niu, slot);
+    return false;
+  }
+  record.subspace = from.subspace;
+  record.polygon = record.key;
+  // The way was chosen by the record's key, whose place the polygon took: so it makes as good a key itself.
+  record.key = pe.scene.layout.seed;
+  for (const float x : record.direction) {
+    record.key = protocol::hash_combine(record.key, std::bit_cast<std::uint32_t>(x));
+  }
+  record.kind = RecordKind::seek;
+  record.flags = protocol::kFirst;
+  return true;
 }
 
 void follow_light(Pe& pe, Niu& niu, Slot slot) {
@@ -116,11 +165,9 @@ void follow_light(Pe& pe, Niu& niu, Slot slot) {
       end_record(pe, niu, slot);
       return;
     }
-    if (pe.scene.materials[pe.scene.polygons[way.hit.polygon].material].kind == MaterialKind::diffuse) {
-      deposit(pe, niu, slot, way.hit);
-      return;
-    }
-    if (!turn_light(pe, niu, slot, way.hit)) return;
+    const MaterialKind kind = pe.scene.materials[pe.scene.polygons[way.hit.polygon].material].kind;
+    if (kind == MaterialKind::glossy) choose_lobe(pe, record, way.hit);
+    if (!(is_specular(kind) ? turn_light(pe, niu, slot, way.hit) : deposit(pe, niu, slot, way.hit))) return;
   }
 }
 

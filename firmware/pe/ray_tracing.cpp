@@ -3,6 +3,7 @@
 // pixel, or the record for another PE.
 #include "firmware/pe/emitters.hpp"
 #include "firmware/pe/follow.hpp"
+#include "firmware/pe/glossy.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/random.hpp"
@@ -97,18 +98,71 @@ Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hi
   return ways;
 }
 
-/// The reflected way waits inside the record until the refracted one has ended.
-void add_branch(PeNumber self, RayRecord& record, const glm::vec3& origin, const Ways& ways, std::uint32_t polygon) {
+/// A way from the surface at which the record is, beginning in the same subspace.
+struct Onward {
+  glm::vec3 origin, direction, weight;
+  std::uint32_t polygon;  ///< global
+  std::uint32_t key;
+  std::uint8_t bounce;
+};
+
+/// It waits inside the record, which has room, until the present way has ended.
+void add_branch(PeNumber self, RayRecord& record, const Onward& way) {
   Branch& branch = record.branches[record.waiting++];
-  branch.origin = to_array(origin);
-  branch.direction = to_array(ways.reflected);
-  branch.weight = to_array(ways.reflected_weight);
+  branch.origin = to_array(way.origin);
+  branch.direction = to_array(way.direction);
+  branch.weight = to_array(way.weight);
   branch.subspace = record.subspace;
-  branch.polygon = polygon;
-  branch.key = protocol::hash_combine(record.key, static_cast<std::uint32_t>(Dimension::branch));
+  branch.polygon = way.polygon;
+  branch.key = way.key;
   branch.pe = self;
-  branch.bounce = record.bounce;
+  branch.bounce = way.bounce;
   branch.flags = protocol::kFirst;
+}
+
+void take(RayRecord& record, const Onward& way) {
+  record.weight = to_array(way.weight);
+  record.key = way.key;
+  record.bounce = way.bounce;
+  turn(record, way.origin, way.direction, way.polygon);
+}
+
+/// The way by a glossy surface's lobe. False: none that is worth following.
+bool choose_lobe(const Pe& pe, const RayRecord& record, const Hit& hit, Onward& way) {
+  if (record.bounce + 1U >= pe.scene.layout.bounces) return false;
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const Material& material = pe.scene.materials[polygon.material];
+  way.bounce = static_cast<std::uint8_t>(record.bounce + 1U);
+  way.key = protocol::hash_combine(record.key, way.bounce);
+  const glm::vec3 in = to_vector(record.direction);
+  const LobeSample lobe =
+      sample_lobe(material, in, unit_normal(polygon), shading_normal(pe.scene, polygon, hit), way.key);
+  way.origin = leaving_point(polygon, to_vector(record.origin) + in * hit.t);
+  way.direction = lobe.direction;
+  way.weight = to_vector(record.weight) * to_vector(material.specular) * lobe.cosine;
+  way.polygon = polygon.number;
+  return worth_following(pe, way.weight);
+}
+
+/// From a diffuse or glossy surface on: by the lobe, and towards an emitter, if shadow rays are asked for; one of them
+/// waits for the other, or where there is no room, one is taken by chance. False: there is neither.
+bool scatter(const Pe& pe, PeNumber self, RayRecord& record, const Hit& hit) {
+  Onward lobe;
+  const MaterialKind kind = pe.scene.materials[pe.scene.polygons[hit.polygon].material].kind;
+  if (kind != MaterialKind::glossy || !choose_lobe(pe, record, hit, lobe)) return aim_at_emitter(pe, record, hit);
+  bool by_lobe = pe.scene.emitters.empty();
+  if (!by_lobe && record.waiting == protocol::kMostBranches) {
+    by_lobe = protocol::uniform(lobe.key, Dimension::branch) < 0.5F;
+    lobe.weight *= 2.0F;
+    record.weight = to_array(to_vector(record.weight) * 2.0F);
+    if (!by_lobe) return aim_at_emitter(pe, record, hit);
+  }
+  if (by_lobe) {
+    take(record, lobe);
+    return true;
+  }
+  add_branch(self, record, lobe);
+  return aim_at_emitter(pe, record, hit);
 }
 
 /// Turns the ray at mirror or glass. False: nothing of it is worth following.
@@ -133,7 +187,10 @@ bool turn_ray(const Pe& pe, PeNumber self, RayRecord& record, const Hit& hit) {
   const bool reflects = worth_following(pe, ways.reflected_weight);
   const bool refracts = worth_following(pe, ways.refracted_weight);
   if (!reflects && !refracts) return false;
-  if (reflects && refracts) add_branch(self, record, origin, ways, polygon.number);
+  if (reflects && refracts) {  // the reflected way waits until the refracted one has ended
+    const std::uint32_t key = protocol::hash_combine(record.key, static_cast<std::uint32_t>(Dimension::branch));
+    add_branch(self, record, {origin, ways.reflected, ways.reflected_weight, polygon.number, key, record.bounce});
+  }
   record.weight = to_array(refracts ? ways.refracted_weight : ways.reflected_weight);
   turn(record, origin, refracts ? ways.refracted : ways.reflected, polygon.number);
   return true;
@@ -183,11 +240,11 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
       const Polygon& polygon = pe.scene.polygons[way.hit.polygon];
       if ((record.flags & protocol::kShadow) != 0) {
         end_shadow(pe, niu, record, way.hit);
-      } else if (pe.scene.materials[polygon.material].kind == MaterialKind::diffuse) {
-        see_surface(pe, niu, record, way.hit);
-        goes_on = aim_at_emitter(pe, record, way.hit);
-      } else {
+      } else if (is_specular(pe.scene.materials[polygon.material].kind)) {
         goes_on = turn_ray(pe, niu.pe(), record, way.hit);
+      } else {
+        see_surface(pe, niu, record, way.hit);
+        goes_on = scatter(pe, niu.pe(), record, way.hit);
       }
     }
     if (!goes_on && !next_path(pe, niu, slot)) return;

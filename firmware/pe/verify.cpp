@@ -46,6 +46,7 @@ enum class Index : std::uint32_t {
   first_element,
   hemicube_sum,
   refractive_index,
+  lobe,
   emitter_corner,
   emitter_chance,
 };
@@ -164,10 +165,13 @@ class Verifier {
   }
 
   void check(const protocol::Material& material) {
-    require(material.kind <= protocol::MaterialKind::glass, Index::material_kind,
-            static_cast<std::uint32_t>(material.kind), 3);
+    require(material.kind <= protocol::MaterialKind::glossy, Index::material_kind,
+            static_cast<std::uint32_t>(material.kind), 4);
     const bool bends = material.kind != protocol::MaterialKind::glass || material.refractive_index > 0.0F;
     require(bends, Index::refractive_index, 0, 0);
+    const bool spreads =
+        material.kind != protocol::MaterialKind::glossy || (material.lobe_power > 0.0F && material.lobe_power <= 1.0F);
+    require(spreads, Index::lobe, 0, 1);
   }
 
   void check(const protocol::Patch& patch) {

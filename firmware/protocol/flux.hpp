@@ -19,8 +19,13 @@ constexpr std::int64_t scale_down(std::int64_t amount, std::uint64_t numerator) 
 }
 
 /// Reflectances and the like in flux arithmetic: 2^32 is one, rounded to nearest in `to_fraction`.
-using Fraction = std::uint64_t;  ///< 0..2^32
+using Fraction = std::uint64_t;  ///< 0..2^32; a glossy lobe's to 2^33
 inline constexpr Fraction kOne = Fraction{1} << 32U;
+
+/// As scale_down, for fractions of up to 2. amount in 0..2^62.
+constexpr std::int64_t scale_by(std::int64_t amount, Fraction fraction) {
+  return fraction > kOne ? amount + scale_down(amount, fraction - kOne) : scale_down(amount, fraction);
+}
 
 constexpr Fraction to_fraction(double value) {
   if (!(value > 0.0)) return 0;

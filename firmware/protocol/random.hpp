@@ -33,6 +33,9 @@ enum class Dimension : std::uint32_t {
   along,
   across,
   place,
+  lobe,
+  lobe_height,
+  lobe_turn,
 };
 
 constexpr float uniform(std::uint32_t key, Dimension dimension) {

@@ -28,6 +28,7 @@ inline constexpr std::uint8_t kDirect = 1;    ///< straight from an emitter, no 
 inline constexpr std::uint8_t kFirst = 2;     ///< still in the subspace where the path segment began
 inline constexpr std::uint8_t kBackSide = 4;  ///< deposit: on the back of the element
 inline constexpr std::uint8_t kShadow = 8;    ///< ray tracing: on its way from a diffuse surface to an emitter
+inline constexpr std::uint8_t kGoesOn = 64;   ///< deposit: at the owner it goes on along its origin and direction
 /// light, without kFirst: the axis (0..2) of the face through which it entered its subspace. The interval of the
 /// subspace begins at exactly that plane, so the next PE must know which one it was.
 inline constexpr std::uint32_t kEntryAxisShift = 4;
@@ -40,9 +41,10 @@ struct RadiosityRecord {
   Flux flux;
   std::uint32_t subspace;  ///< local number at the PE that receives it; deposit: local patch number
   std::uint32_t polygon;   ///< global number of the polygon that it left, or kNoPolygon; deposit: element of the patch
-  std::uint32_t key;       ///< random numbers of this record: hash of (seed, patch, shot, point, pixel)
+  std::uint32_t key;  ///< random numbers of this record: hash of (seed, patch, shot, point, pixel); kGoesOn: global
+                      ///< number of the polygon that it leaves
   RecordKind kind;
-  std::uint8_t bounce;  ///< specular events so far
+  std::uint8_t bounce;  ///< mirror, glass and glossy events so far
   std::uint8_t flags;
   std::uint8_t unused;
 };

@@ -46,22 +46,34 @@ struct Polygon {
 };
 static_assert(sizeof(Polygon) == 56);
 
-enum class MaterialKind : std::uint32_t { diffuse, mirror, glass };
+enum class MaterialKind : std::uint32_t {
+  diffuse,
+  mirror,
+  glass,
+  glossy,  ///< diffuse, and a lobe about the mirror direction (firmware/pe/glossy.hpp)
+};
+
+/// Mirror and glass: light is turned there, and none stays. The others have elements.
+constexpr bool is_specular(MaterialKind kind) {
+  return kind == MaterialKind::mirror || kind == MaterialKind::glass;
+}
 
 struct Material {
   MaterialKind kind;
-  Vec3f diffuse;                  ///< reflectance, 0..0.99
-  Vec3f specular;                 ///< mirror: reflectance
-  Vec3f transmittance;            ///< glass: at each crossing, 0..1
-  float refractive_index;         ///< glass: inside over outside
-  Vec3f emission;                 ///< radiance from the front, in units of the scene's greatest
+  Vec3f diffuse;           ///< reflectance, 0..0.99
+  Vec3f specular;          ///< mirror: reflectance. Glossy: Ks (n + 2) / (n + 1), n the lobe's exponent; at most 2
+  Vec3f transmittance;     ///< glass: at each crossing, 0..1
+  float refractive_index;  ///< glass: inside over outside
+  Vec3f emission;          ///< radiance from the front, in units of the scene's greatest
   std::uint32_t emits_from_back;  ///< 0 or 1 (--two-sided-lights)
+  float lobe_power;               ///< glossy: 1 / (n + 1), above 0 and at most 1
+  float lobe_chance;              ///< glossy: the greatest of `specular`, at most 1
   std::uint32_t unused;
-  std::array<Fraction, 3> diffuse_fraction;  ///< the same as `diffuse`, `specular`, `transmittance`: flux is exact
-  std::array<Fraction, 3> specular_fraction;
+  std::array<Fraction, 3> diffuse_fraction;   ///< the same as `diffuse`, `specular`, `transmittance`: flux is exact
+  std::array<Fraction, 3> specular_fraction;  ///< glossy: `specular` over `lobe_chance`; at most 2
   std::array<Fraction, 3> transmittance_fraction;
 };
-static_assert(sizeof(Material) == 136);
+static_assert(sizeof(Material) == 144);
 
 // ---- Radiosity stage only ----
 
@@ -121,12 +133,13 @@ static_assert(sizeof(Element) == 72);
 /// Sums of one PE over the radiosity stage.
 struct Tally {
   Flux absorbed_specular;  ///< lost at mirrors and glass
+  Flux reflected_glossy;   ///< sent on by glossy lobes, of flux that elements have received
   Flux escaped;            ///< left the object space
   Flux cut_off;            ///< bounce limit
   Flux back_side;          ///< fell on a side that has no elements
   std::uint64_t rays;      ///< records created
 };
-static_assert(sizeof(Tally) == 104);
+static_assert(sizeof(Tally) == 128);
 
 /// Hemi-cube weights: exact delta form factors as fractions of 2^32. Half faces by symmetry, N = pixels across the top:
 /// the top's quadrant [j][i], i, j in 0..N/2-1 counted from the axis outwards, then a side's half

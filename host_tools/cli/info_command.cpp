@@ -40,6 +40,9 @@ std::string describe(const SceneMaterial& material) {
       break;
   }
   return "diffuse, reflectance " + triple(material.diffuse) +
+         (is_glossy(material)
+              ? "; glossy, reflectance " + triple(material.specular) + ", exponent " + significant(material.exponent, 4)
+              : "") +
          (emits(material) ? "; emits " + triple(material.emission) + " W/(m^2 sr)" : "");
 }
 

@@ -80,6 +80,23 @@ std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, co
   return chosen;
 }
 
+namespace {
+
+/// What a sampled direction's share of the lobe weighs, but for its cosine; see firmware/pe/glossy.hpp.
+void set_lobe(const SceneMaterial& material, protocol::Material& machine) {
+  machine.kind = protocol::MaterialKind::glossy;
+  const Vec3d weight = vec::scale(material.specular, (material.exponent + 2) / (material.exponent + 1));
+  const double chance = std::min(1.0, vec::largest(weight));
+  machine.specular = to_float(weight);
+  machine.lobe_power = static_cast<float>(1 / (material.exponent + 1));
+  machine.lobe_chance = static_cast<float>(chance);
+  for (std::size_t c = 0; c < 3; ++c) {
+    machine.specular_fraction[c] = static_cast<protocol::Fraction>(std::llround(std::ldexp(weight[c] / chance, 32)));
+  }
+}
+
+}  // namespace
+
 protocol::Material machine_material(const SceneMaterial& material, const LightUnits& units) {
   protocol::Material machine{};
   const auto set = [](const Vec3d& from, protocol::Vec3f& to, std::array<protocol::Fraction, 3>& fraction) {
@@ -93,6 +110,7 @@ protocol::Material machine_material(const SceneMaterial& material, const LightUn
       set(material.diffuse, machine.diffuse, machine.diffuse_fraction);
       machine.emission = to_float(vec::scale(material.emission, 1 / units.unit_radiance));
       machine.emits_from_back = units.two_sided_lights && emits(material) ? 1 : 0;
+      if (is_glossy(material)) set_lobe(material, machine);
       break;
     case SurfaceKind::mirror:
       machine.kind = protocol::MaterialKind::mirror;

@@ -52,7 +52,8 @@ void take_triangles(const Scene& scene, Mesh& mesh) {
     const Vec3d b = vec::subtract(scene.positions[from.position[2]], scene.positions[from.position[0]]);
     triangle.area = 0.5 * vec::length(vec::cross(a, b));
     const bool smooth = std::find(from.normal.begin(), from.normal.end(), kNoNormal) == from.normal.end();
-    if (smooth && scene.materials[from.material].kind != SurfaceKind::diffuse) {
+    const SceneMaterial& material = scene.materials[from.material];
+    if (smooth && (material.kind != SurfaceKind::diffuse || is_glossy(material))) {
       triangle.normals = static_cast<std::uint32_t>(mesh.normals.size());
       for (const std::uint32_t normal : from.normal) mesh.normals.push_back(to_float(scene.normals[normal]));
     }

@@ -70,6 +70,7 @@ void apply(const MaterialOverride& o, SceneMaterial& material) {
   if (o.diffuse) {
     material.kind = SurfaceKind::diffuse;
     material.diffuse = *o.diffuse;
+    material.specular = {0, 0, 0};
   }
   if (o.mirror) {
     material.kind = SurfaceKind::mirror;
@@ -79,10 +80,16 @@ void apply(const MaterialOverride& o, SceneMaterial& material) {
     material.kind = SurfaceKind::glass;
     material.refractive_index = *o.glass;
   }
+  if (o.glossy) {
+    if (material.kind != SurfaceKind::diffuse) material.diffuse = {0, 0, 0};
+    material.kind = SurfaceKind::diffuse;
+    material.specular = *o.glossy;
+    material.exponent = o.exponent.value_or(1);
+  }
   if (o.transmittance) material.transmittance = *o.transmittance;
   if (o.emission) material.emission = *o.emission;
   if (material.kind != SurfaceKind::diffuse) material.diffuse = {0, 0, 0};
-  if (material.kind != SurfaceKind::mirror) material.specular = {0, 0, 0};
+  if (material.kind == SurfaceKind::glass) material.specular = {0, 0, 0};
 }
 
 /// The mesh's material of this number as the scene has it: renamed and overridden.
@@ -128,11 +135,12 @@ void SceneBuilder::check_material(SceneMaterial& material, const Place& place) {
   if (material.kind != SurfaceKind::diffuse && vec::largest(material.emission) > 0)
     refuse(place, "material " + in_quotes(material.name) +
                       " is a mirror or glass and emits; only diffuse surfaces can. Give it Ke 0, or illum 2");
-  for (Vec3d* reflectance : {&material.diffuse, &material.specular}) {
-    const double most = vec::largest(*reflectance);
-    if (most < 1) continue;
-    notices_.note("a reflectance of one or more would never lose light: the material is scaled to 0.99", place);
-    *reflectance = vec::scale(*reflectance, 0.99 / most);
+  const double most = vec::largest(vec::add(material.diffuse, material.specular));
+  if (most >= 1) {
+    notices_.note("reflectances (Kd + Ks) of one or more would never lose light: the material is scaled to 0.99",
+                  place);
+    material.diffuse = vec::scale(material.diffuse, 0.99 / most);
+    material.specular = vec::scale(material.specular, 0.99 / most);
   }
   if (material.kind != SurfaceKind::glass) return;
   if (!(material.refractive_index >= 0.2 && material.refractive_index <= 5))

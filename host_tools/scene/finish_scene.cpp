@@ -121,14 +121,17 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
       notices_.note("an exact duplicate of an earlier triangle is left out", origin);
       continue;
     }
-    const bool wanted = materials_[triangle.material].kind != SurfaceKind::diffuse;
+    const SceneMaterial& material = materials_[triangle.material];
+    const bool wanted = material.kind != SurfaceKind::diffuse || is_glossy(material);
     if (triangle.normal[0] != kNoNormal) {
       const std::array<Vec3d, 3> corner{normals_[triangle.normal[0]], normals_[triangle.normal[1]],
                                         normals_[triangle.normal[2]]};
       const Vec3d scaled = vec::scale(vec::cross(vec::subtract(b, a), vec::subtract(c, a)), 1 / (longest * longest));
       const bool usable = wanted && normals_usable(corner, vec::unit(scaled));
       if (wanted && !usable)
-        notices_.note("normals (vn) of a mirror or glass that point to its back are not used: flat there", origin);
+        notices_.note(
+            "normals (vn) of a mirror, glass or glossy surface that point to its back are not used: flat there",
+            origin);
       if (!usable) triangle.normal.fill(kNoNormal);
     }
     for (std::uint32_t& p : triangle.position) p = positions(p);

@@ -17,7 +17,7 @@ namespace {
 struct Checked {
   std::string name;
   Place place;
-  bool has_kd = false, has_ni = false;
+  bool has_kd = false, has_ni = false, has_ns = false;
 };
 
 /// The library as it may be handed on: known statements with good values, materials named 0, 1, ...
@@ -80,9 +80,10 @@ void check_statement(const Statement& statement, const Place& place, CheckedLibr
   if (among(keyword, {"Kd", "Ks", "Ke", "Tf"})) {
     check_values(statement, 3, place, library);
     library.materials.back().has_kd |= keyword == "Kd";
-  } else if (keyword == "Ni") {
+  } else if (among(keyword, {"Ni", "Ns"})) {
     check_values(statement, 1, place, library);
-    library.materials.back().has_ni = true;
+    library.materials.back().has_ni |= keyword == "Ni";
+    library.materials.back().has_ns |= keyword == "Ns";
   } else if (keyword == "illum") {
     const std::vector<std::string_view> words = statement.arguments();
     const double model = read_number(words.size() == 1 ? words[0] : std::string_view("none"), place);
@@ -93,7 +94,7 @@ void check_statement(const Statement& statement, const Place& place, CheckedLibr
     check_transparency(statement, place, notices);
   } else if (keyword.starts_with("map_") || among(keyword, {"bump", "norm", "disp", "decal", "refl"})) {
     notices.note("textures are not used", place);
-  } else if (!among(keyword, {"Ka", "Ns", "sharpness", "Km", "Kr", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"})) {
+  } else if (!among(keyword, {"Ka", "sharpness", "Km", "Kr", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"})) {
     notices.note("statement " + in_quotes(keyword) + " is not known and not used", place);
   }
 }
@@ -131,8 +132,14 @@ SceneMaterial mapped(const tinyobj::material_t& read, const Checked& checked, No
   }
   material.diffuse = triple(read.diffuse);
   if (!checked.has_kd && is_zero(material.emission)) notices.note("material without Kd is black", checked.place);
-  if (!is_zero(specular))
-    notices.note("Ks is used for mirrors (illum 3 or 5) alone; this surface is diffuse by Kd", checked.place);
+  if (read.illum == 2 && !is_zero(specular)) {
+    material.specular = specular;
+    material.exponent = checked.has_ns ? read.shininess : 1;
+    if (!checked.has_ns) notices.note("a glossy surface (illum 2 with Ks) without Ns: 1 is taken", checked.place);
+  } else if (!is_zero(specular)) {
+    notices.note("Ks is used for glossy surfaces (illum 2) and mirrors (3, 5) alone; this one is diffuse by Kd",
+                 checked.place);
+  }
   if (read.illum == 4 || read.illum == 6 || read.illum == 9)
     notices.note("illum 4, 6 and 9 are read as diffuse; glass is illum 7", checked.place);
   return material;

@@ -17,16 +17,22 @@ enum class SurfaceKind : std::uint8_t { diffuse, mirror, glass };
 struct SceneMaterial {
   std::string name;
   SurfaceKind kind = SurfaceKind::diffuse;
-  Vec3d diffuse{0, 0, 0};         ///< Kd, reflectance, each 0..0.99 after checking; 0 for glass
-  Vec3d specular{0, 0, 0};        ///< Ks of a mirror, reflectance, 0..0.99
+  Vec3d diffuse{0, 0, 0};         ///< Kd, reflectance, with `specular` 0..0.99 after checking; 0 for mirror and glass
+  Vec3d specular{0, 0, 0};        ///< Ks of a mirror, reflectance, 0..0.99; of a diffuse surface: of its glossy lobe
+  double exponent = 0;            ///< Ns, of the glossy lobe, >= 0
   Vec3d transmittance{1, 1, 1};   ///< Tf of glass, at each crossing, 0..1
   double refractive_index = 1.5;  ///< Ni of glass
   Vec3d emission{0, 0, 0};        ///< Ke, radiance [W/(m^2 sr)] from the front
 };
 
+/// Diffuse, with a lobe about the mirror direction.
+inline bool is_glossy(const SceneMaterial& material) {
+  return material.kind == SurfaceKind::diffuse && material.specular != Vec3d{0, 0, 0};
+}
+
 struct SceneTriangle {
   std::array<std::uint32_t, 3> position;  ///< into Scene::positions; equal positions have one index
-  std::array<std::uint32_t, 3> normal;    ///< into Scene::normals, or kNoNormal: flat. Only kept for mirror and glass
+  std::array<std::uint32_t, 3> normal;  ///< into Scene::normals, or kNoNormal: flat. Not kept for what is only diffuse
   std::uint32_t material;
 };
 inline constexpr std::uint32_t kNoNormal = 0xFFFF'FFFFU;

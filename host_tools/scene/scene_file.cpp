@@ -42,9 +42,15 @@ MaterialOverride read_material(const std::string& name, TomlTable table) {
   material.emission = table.triple("emission", 0, kMost, true);
   material.mirror = table.triple("mirror", 0, kMost, true);
   material.glass = table.number("glass", 0.2, 5);
+  material.glossy = table.triple("glossy", 0, kMost, true);
+  material.exponent = table.number("exponent", 0, kMost);
   material.transmittance = table.triple("transmittance", 0, 1, true);
   if ((material.diffuse ? 1 : 0) + (material.mirror ? 1 : 0) + (material.glass ? 1 : 0) > 1)
     refuse(material.place, "material '" + name + "' can have one of diffuse, mirror and glass");
+  if (material.glossy && (material.mirror || material.glass))
+    refuse(material.place, "material '" + name + "' can be glossy beside diffuse, not beside mirror or glass");
+  if (material.exponent && !material.glossy)
+    refuse(material.place, "material '" + name + "' has an exponent, which only glossy uses");
   table.finish();
   return material;
 }

@@ -28,8 +28,9 @@ struct MeshEntry {
 
 struct MaterialOverride {
   std::string name;
-  std::optional<Vec3d> diffuse, emission, mirror, transmittance;
-  std::optional<double> glass;  ///< refractive index
+  std::optional<Vec3d> diffuse, emission, mirror, glossy, transmittance;
+  std::optional<double> glass;     ///< refractive index
+  std::optional<double> exponent;  ///< of glossy
   Place place;
 };
 

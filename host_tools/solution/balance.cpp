@@ -59,7 +59,8 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   for (const Flux* part : {&tally.absorbed_specular, &tally.escaped, &tally.cut_off, &tally.back_side}) {
     add_to(arrived, *part);
   }
-  require_equal(shot, arrived, "flux shot and flux that arrived");
+  add_to(shot, tally.reflected_glossy);
+  require_equal(shot, arrived, "flux shot or reflected by glossy lobes, and flux that arrived");
   Flux left = solution.emitted_shot;
   add_to(left, sums.unshot_emission);
   require_equal(sums.emitted, left, "flux emitted and flux of emitters' shots and rests");
@@ -68,7 +69,8 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   const auto watts = [&units](std::int64_t quanta) { return static_cast<double>(quanta) * units.watts_per_quantum; };
   for (std::size_t c = 0; c < 3; ++c) {
     energy.emitted[c] = watts(sums.emitted[c]);
-    energy.absorbed[c] = watts(sums.incident[c] - solution.reflected_shot[c] - sums.unshot_reflected[c]);
+    energy.absorbed[c] =
+        watts(sums.incident[c] - solution.reflected_shot[c] - sums.unshot_reflected[c] - tally.reflected_glossy[c]);
     energy.absorbed_specular[c] = watts(tally.absorbed_specular[c]);
     energy.unshot[c] = watts(sums.unshot_emission[c] + sums.unshot_reflected[c]);
     energy.escaped[c] = watts(tally.escaped[c]);

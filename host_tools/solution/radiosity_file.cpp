@@ -33,7 +33,7 @@ struct SavedSums {
   protocol::Flux reflected_shot;
   std::uint64_t shots;
 };
-static_assert(sizeof(SavedSums) == 160);
+static_assert(sizeof(SavedSums) == 184);
 
 constexpr auto make_crc_table() {
   std::array<std::uint32_t, 256> table{};
@@ -230,8 +230,9 @@ Solution unpack_radiosity(const SavedRadiosity& saved, const RadiosityOrigin& ex
   solution.emitted_shot = sums.emitted_shot;
   solution.reflected_shot = sums.reflected_shot;
   solution.shots = sums.shots;
-  for (const protocol::Flux* flux : {&sums.tally.absorbed_specular, &sums.tally.escaped, &sums.tally.cut_off,
-                                     &sums.tally.back_side, &sums.emitted_shot, &sums.reflected_shot}) {
+  for (const protocol::Flux* flux :
+       {&sums.tally.absorbed_specular, &sums.tally.reflected_glossy, &sums.tally.escaped, &sums.tally.cut_off,
+        &sums.tally.back_side, &sums.emitted_shot, &sums.reflected_shot}) {
     check_flux(*flux, name);
   }
   FluxSum side_sum;

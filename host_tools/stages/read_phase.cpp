@@ -53,6 +53,7 @@ void ReadPhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
     protocol::Tally& sum = solution_.tally;
     for (std::size_t c = 0; c < 3; ++c) {
       sum.absorbed_specular[c] += tally.absorbed_specular[c];
+      sum.reflected_glossy[c] += tally.reflected_glossy[c];
       sum.escaped[c] += tally.escaped[c];
       sum.cut_off[c] += tally.cut_off[c];
       sum.back_side[c] += tally.back_side[c];

@@ -12,15 +12,22 @@ struct Errors {
   double mean, rmse, noise;
 };
 
-Errors errors_of(const RenderCase& render_case, std::uint32_t paths) {
+references::TracedPicture traced(const RenderCase& render_case, std::uint32_t paths) {
   const Scene scene = load_scene(render_case.scene, {});
   references::TraceChoice choice;
   choice.width = render_case.quality.width;
   choice.height = render_case.quality.height;
   choice.samples = paths;
-  const auto reference = references::trace(references::World(scene, false), scene.camera.value(), choice);
+  return references::trace(references::World(scene, false), scene.camera.value(), choice);
+}
+
+Errors errors_of(const RenderCase& render_case, const references::TracedPicture& reference) {
   const auto error = references::picture_error(run_case(render_case).picture, reference.picture);
   return {error.plain_mean, error.rmse, references::reference_noise(reference)};
+}
+
+Errors errors_of(const RenderCase& render_case, std::uint32_t paths) {
+  return errors_of(render_case, traced(render_case, paths));
 }
 
 RenderCase small(const char* name, double patches) {
@@ -97,6 +104,32 @@ TEST(ShadowRays, BringAsMuchLightAsElements) {
   const double by_shadow_rays = mean_of(run_case(box).picture);
   std::filesystem::remove(file);
   EXPECT_NEAR(by_shadow_rays / by_elements, 1, 0.003);
+}
+
+/// Of the tests' own scenes, in rooms of edge 1.
+RenderCase small_room(const char* name) {
+  RenderCase result = native_case(data_dir() / "scenes" / name);
+  result.quality.width = result.quality.height = 64;
+  result.quality.samples = 16;
+  result.quality.patch_length = 0.25;
+  result.quality.element_length = 0.07;
+  result.quality.unshot = 0.003;
+  result.machine.subspaces = {4, 4, 4};
+  return result;
+}
+
+// A glossy floor under a glossy block: by exponents 60 and 8, in both stages. Seen: mean +0.1 %, RMSE 2.7 %; with
+// shadow rays -0.1 %, 1.6 %.
+TEST(TracedPicture, GlossyRoom) {
+  RenderCase room = small_room("glossy_room");
+  const references::TracedPicture reference = traced(room, 256);
+  for (const bool shadow_rays : {false, true}) {
+    room.quality.shadow_rays = shadow_rays;
+    const Errors errors = errors_of(room, reference);
+    EXPECT_LT(errors.noise, 0.01);
+    EXPECT_NEAR(errors.mean, 0, 0.01) << shadow_rays;
+    EXPECT_LT(errors.rmse, 0.04) << shadow_rays;
+  }
 }
 
 }  // namespace

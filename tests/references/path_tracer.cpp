@@ -82,7 +82,8 @@ class Path {
   /// Light from emitters at a diffuse or glossy surface, and the way on. False: the path has ended.
   bool scatter(const Hit& hit, const Colour& diffuse, const Colour& specular, double exponent) {
     const Vec& front = world_.triangles()[hit.triangle].normal;
-    const Reflection reflection(hit.front ? front : Vec(-front), -direction_, diffuse, specular, exponent);
+    const Reflection reflection(hit.front ? front : Vec(-front), mirror(direction_, front, world_.shading_normal(hit)),
+                                diffuse, specular, exponent);
     const unsigned dimension = 1 + 3 * turns_;
     const auto [emitter, lobe] = samples_.pair(dimension);
     if (finding_ != LightFinding::directions_only) ask_emitters(hit, reflection, emitter, samples_.pair(dimension + 1));

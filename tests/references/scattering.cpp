@@ -45,9 +45,9 @@ Vec around(const Vec& axis, double cosine, double turn) {
   return x * (sine * std::cos(2 * kPi * turn)) + y * (sine * std::sin(2 * kPi * turn)) + axis * cosine;
 }
 
-Reflection::Reflection(const Vec& normal, const Vec& view, const Colour& diffuse, const Colour& specular,
+Reflection::Reflection(const Vec& normal, const Vec& mirrored, const Colour& diffuse, const Colour& specular,
                        double exponent)
-    : normal_(normal), mirrored_(mirrored(-view, normal)), diffuse_(diffuse), specular_(specular), exponent_(exponent) {
+    : normal_(normal), mirrored_(mirrored), diffuse_(diffuse), specular_(specular), exponent_(exponent) {
   const double both = diffuse.maxCoeff() + specular.maxCoeff();
   specular_chance_ = both > 0 ? specular.maxCoeff() / both : 0;
 }

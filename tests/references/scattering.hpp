@@ -11,8 +11,8 @@ namespace torolux::references {
 /// physically based rendering"). It reflects at most kd + ks.
 class Reflection {
  public:
-  /// normal: unit, on the side that is seen. view: unit, from the surface to where it is seen from.
-  Reflection(const Vec& normal, const Vec& view, const Colour& diffuse, const Colour& specular, double exponent);
+  /// normal: unit, on the side that is seen. mirrored: unit, the direction about which the lobe lies.
+  Reflection(const Vec& normal, const Vec& mirrored, const Colour& diffuse, const Colour& specular, double exponent);
 
   /// f(view, out); 0 for directions below the surface. out: unit.
   Colour value(const Vec& out) const;
@@ -24,7 +24,7 @@ class Reflection {
 
  private:
   Vec normal_;
-  Vec mirrored_;  // of the view
+  Vec mirrored_;
   Colour diffuse_, specular_;
   double exponent_;
   double specular_chance_;  // of sample() taking the lobe

@@ -34,7 +34,8 @@ Vec view_at(double degrees) {
 }
 
 Reflection glossy(const Vec& view, double exponent) {
-  return {{0, 0, 1}, view, Colour::Constant(0.3), Colour::Constant(0.6), exponent};
+  const Vec up(0, 0, 1);
+  return {up, mirror(-view, up, up), Colour::Constant(0.3), Colour::Constant(0.6), exponent};
 }
 
 /// Seen from above, kd + ks comes back; from the side less, as half of the lobe is below the surface, never more.

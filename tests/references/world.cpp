@@ -18,6 +18,10 @@ Material read_material(const SceneMaterial& from) {
   material.emission = colour(from.emission);
   switch (from.kind) {
     case SurfaceKind::diffuse:
+      if (!is_glossy(from)) break;
+      material.model = Model::glossy;
+      material.specular = colour(from.specular);
+      material.exponent = from.exponent;
       break;
     case SurfaceKind::mirror:
       material.model = Model::mirror;

@@ -17,15 +17,18 @@ using protocol::Stage;
 
 constexpr std::int64_t kEmitted = std::int64_t{1} << 40U;
 
-/// A room with a lamp, a mirror ball and a glass ball, all polygons with elements, both sides of the lamp.
+/// A room with a lamp, a mirror ball and a glass ball, all polygons with elements, both sides of the lamp. Its floor is
+/// glossy, with a lobe so wide that a share of it may be more than came.
 TestScene room_with_balls(std::uint32_t pes, std::array<std::uint32_t, 3> cells) {
   TestScene s;
   s.pes = pes;
   s.cells = cells;
   s.hemicube_size = 8;
   s.points = 2;
-  s.materials = {diffuse_material(0.7F), diffuse_material(0.3F, 1), mirror_material(0.9F), glass_material(1.5F, 0.95F)};
+  s.materials = {diffuse_material(0.7F), diffuse_material(0.3F, 1), mirror_material(0.9F), glass_material(1.5F, 0.95F),
+                 glossy_material(0.2F, 0.7F, 1)};
   add_room(s, {0, 0, 0}, {1, 1, 1}, 2, 0);
+  for (std::size_t i = 0; i < 8; ++i) s.polygons[i].material = 4;  // z low
   for (TestPolygon& p : s.polygons) p.element_level = 2;
   for (std::size_t i = 0; i < s.polygons.size(); i += 3) s.polygons[i].patch_level = 1;
   add_wall(s, {0.4F, 0.4F, 0.97F}, {0, 0.2F, 0}, {0.2F, 0, 0}, 1, 1);
@@ -34,7 +37,7 @@ TestScene room_with_balls(std::uint32_t pes, std::array<std::uint32_t, 3> cells)
   add_ball(s, {0.3F, 0.3F, 0.3F}, 0.2F, 6, 2, true);
   add_ball(s, {0.7F, 0.6F, 0.4F}, 0.2F, 6, 3, true);
   for (TestPolygon& p : s.polygons) {
-    if (p.material >= 2) p.sides = 0;
+    if (p.material == 2 || p.material == 3) p.sides = 0;
   }
   return s;
 }
@@ -51,7 +54,7 @@ void light_lamp(PeStores& stores) {
 struct Outcome {
   /// By global patch and side: incident flux and elements' flux, direct apart.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Flux>> flux;
-  Flux specular{}, escaped{}, cut_off{}, back{};
+  Flux specular{}, glossy{}, escaped{}, cut_off{}, back{};
   std::int64_t carried = 0;  ///< by all shots, R + G + B
   std::uint64_t records = 0;
 };
@@ -64,6 +67,7 @@ void gather(FakeMachine& machine, Outcome& out) {
   for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
     const auto tally = machine.tally(p);
     add_to(out.specular, tally.absorbed_specular);
+    add_to(out.glossy, tally.reflected_glossy);
     add_to(out.escaped, tally.escaped);
     add_to(out.cut_off, tally.cut_off);
     add_to(out.back, tally.back_side);
@@ -116,13 +120,13 @@ Outcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_s
   return out;
 }
 
-/// Everything that shots carried has landed somewhere. R + G + B.
+/// Everything that shots carried or glossy lobes sent on has landed somewhere. R + G + B.
 void expect_balance(const Outcome& out) {
   std::int64_t ended = 0;
   const auto count = [&](const Flux& f) { ended += f[0] + f[1] + f[2]; };
   for (const auto& [place, list] : out.flux) count(list[0]);
   for (const Flux* f : {&out.specular, &out.escaped, &out.cut_off, &out.back}) count(*f);
-  EXPECT_EQ(ended, out.carried);
+  EXPECT_EQ(ended, out.carried + out.glossy[0] + out.glossy[1] + out.glossy[2]);
 }
 
 TEST(Radiosity, FluxIsNeitherLostNorMade) {
@@ -131,6 +135,7 @@ TEST(Radiosity, FluxIsNeitherLostNorMade) {
   EXPECT_EQ(out.escaped, Flux{});
   EXPECT_EQ(out.back, Flux{});
   EXPECT_GT(out.specular[0], 0);
+  EXPECT_GT(out.glossy[0], 0);
   EXPECT_GT(out.records, 5'000U);
 }
 
@@ -159,8 +164,32 @@ TEST(Radiosity, SameSumsWhateverTheMachine) {
     const Outcome other = radiate(room_with_balls(m.pes, m.cells), 10, m.slots, m.credits);
     EXPECT_EQ(other.flux, one.flux) << m.pes << " PEs";
     EXPECT_EQ(other.specular, one.specular);
+    EXPECT_EQ(other.glossy, one.glossy);
     EXPECT_EQ(other.records, one.records);
   }
+}
+
+// All flux falls on the floor's elements, none by chance; beside that, part of it goes on.
+TEST(Radiosity, AGlossyFloorReceivesWhatADiffuseOneDoes) {
+  TestScene glossy = room_with_balls(3, {3, 3, 3});
+  glossy.polygons.erase(glossy.polygons.begin() + 50, glossy.polygons.end());  // without the balls
+  TestScene diffuse = glossy;
+  diffuse.materials[4] = diffuse_material(0.2F);
+  const Outcome with = radiate(glossy, 5, 64, 200);  // the lamp has five patches: emission only
+  const Outcome without = radiate(diffuse, 5, 64, 200);
+  std::int64_t on_floor = 0;
+  for (const auto& [place, list] : without.flux) {
+    const std::vector<Flux>& other = with.flux.at(place);
+    for (std::size_t e = 1; e + 1 < list.size(); e += 2) {
+      EXPECT_EQ(other[e + 1], list[e + 1]) << "direct flux, patch " << place.first;
+      EXPECT_GE(other[e][0], list[e][0]);
+      if (place.first < 8 + 3 * 3) on_floor += list[e][0];  // eight polygons, three of them of four patches
+    }
+  }
+  EXPECT_EQ(without.glossy, Flux{});
+  // Of 0.7; less where half of the lobe is below the floor.
+  EXPECT_GT(static_cast<double>(with.glossy[0]), 0.4 * static_cast<double>(on_floor));
+  EXPECT_LT(static_cast<double>(with.glossy[0]), 0.7 * static_cast<double>(on_floor));
 }
 
 // Direct flux: only what came straight from the lamp. Behind a mirror or glass the mark is gone.
@@ -179,6 +208,7 @@ TEST(Radiosity, DirectFluxIsKeptApart) {
   EXPECT_GT(direct, all / 2);
   EXPECT_LT(direct, all);
   scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
+  scene.materials[4] = diffuse_material(0.2F);
   const Outcome bare = radiate(scene, 5, 64, 200);
   for (const auto& [place, list] : bare.flux) {
     for (std::size_t e = 1; e + 1 < list.size(); e += 2) EXPECT_EQ(list[e], list[e + 1]);
@@ -197,8 +227,8 @@ TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
     s.points = pick(1, 4);
     s.seed = pick(0, 1'000'000);
     s.bounces = pick(1, 9);
-    s.materials = {diffuse_material(0.5F), diffuse_material(0.5F, 1), mirror_material(0.9F),
-                   glass_material(1.5F, 0.9F)};
+    s.materials = {diffuse_material(0.5F), diffuse_material(0.5F, 1), mirror_material(0.9F), glass_material(1.5F, 0.9F),
+                   glossy_material(0.3F, 0.69F, static_cast<float>(pick(0, 30)))};
     const std::uint32_t polygons = pick(2, 30);
     for (std::uint32_t p = 0; p < polygons; ++p) {
       TestPolygon polygon{};
@@ -208,8 +238,9 @@ TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
       const glm::vec3 a = pe::to_vector(polygon.corner[1]) - pe::to_vector(polygon.corner[0]);
       const glm::vec3 b = pe::to_vector(polygon.corner[2]) - pe::to_vector(polygon.corner[0]);
       if (glm::length(glm::cross(a, b)) == 0.0F) continue;
-      polygon.material = p == 0 ? std::uint16_t{1} : static_cast<std::uint16_t>(pick(0, 4));
-      polygon.sides = polygon.material >= 2 ? std::uint8_t{0} : static_cast<std::uint8_t>(pick(1, 4));
+      polygon.material = p == 0 ? std::uint16_t{1} : static_cast<std::uint16_t>(pick(0, 5));
+      polygon.sides =
+          polygon.material == 2 || polygon.material == 3 ? std::uint8_t{0} : static_cast<std::uint8_t>(pick(1, 4));
       polygon.patch_level = static_cast<std::uint8_t>(pick(0, 2));
       polygon.element_level = static_cast<std::uint8_t>(polygon.patch_level + pick(0, 3));
       s.polygons.push_back(polygon);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "firmware/protocol/random.hpp"
@@ -126,6 +127,47 @@ TEST(RayTracing, ClearGlassInUniformLightIsInvisible) {
   double sum = 0;
   for (const auto& [pixel, value] : machine.pixels) sum += static_cast<double>(value[0]) * 0x1p-20;
   EXPECT_NEAR(sum / 4000, 1.0, 0.005);  // chance acts on what is left after two branches: below 0.2 % of deviation each
+}
+
+/// What a ray straight down sees of a glossy floor in the furnace, on the average. waiting: branches that it already
+/// has, of no weight. With shadow rays the lattice has none of the emitters' light.
+double seen_of_glossy_floor(bool shadow_rays, std::uint8_t waiting) {
+  TestScene scene = furnace(2, {2, 3, 4});
+  scene.materials.push_back(glossy_material(0.3F, 0.5F, 2000));
+  scene.materials.back().emission = {0.25F, 0.25F, 0.25F};
+  for (std::size_t i = 72; i < 90; ++i) scene.polygons[i].material = 3;  // y low
+  const auto add_emitters = [&](PeStores& stores) {
+    for (std::uint32_t p = 0; shadow_rays && p < scene.polygons.size(); ++p) {  // all of one size: equal chances
+      const auto until = static_cast<std::uint32_t>((std::uint64_t{p + 1} << 32U) / scene.polygons.size() - 1);
+      const float area_over_chance = 6 / std::numbers::pi_v<float>;
+      stores.emitters.push_back({scene.polygons[p].corner, {0.25F, 0.25F, 0.25F}, area_over_chance, until, p, 0});
+    }
+  };
+  FakeMachine machine(2);
+  machine.load(scene, Stage::ray_tracing, 64, shadow_rays ? 1.5F - 0.25F : 1.5F, add_emitters);
+  for (std::uint16_t p = 0; p < 2; ++p) machine.message(p, protocol::MessageKind::begin);
+  machine.run();
+  constexpr std::uint32_t count = 4000;
+  std::vector<RayRecord> rays;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    RayRecord& ray = rays.emplace_back(ray_from(scene, {0.5F, 0.95F, 0.5F}, {0.5F, 0, 0.5F}, i));
+    ray.pixel = 0;
+    ray.waiting = waiting;
+    for (protocol::Branch& branch : ray.branches) branch = {{0.1F, 0.1F, 0.1F}, {1, 0, 0}, {}, 0, 0, 0, 0, 0, 0};
+  }
+  EXPECT_EQ(trace(machine, scene, rays), count);
+  return static_cast<double>(machine.pixels.at(0)[0]) * 0x1p-20 / count;
+}
+
+// It shows what it emits and reflects diffusely, 0.25 + 0.3 * 1.5, and of the walls' 1 what its lobe reflects.
+TEST(RayTracing, AGlossySurfaceShowsBothOfItsParts) {
+  constexpr double expected = 0.25 + 0.3 * 1.5 + 0.5 * 1.0;
+  EXPECT_NEAR(seen_of_glossy_floor(false, 0), expected, 0.001);  // the lobe is 1.3 degrees wide
+  EXPECT_NEAR(seen_of_glossy_floor(false, protocol::kMostBranches), expected, 0.001);
+  // A sample's direct light, 0.075 on the average, and up to 0.5: below 0.002 of deviation in the mean.
+  EXPECT_NEAR(seen_of_glossy_floor(true, 0), expected, 0.008);
+  // No room for both ways: one of them by chance, twice.
+  EXPECT_NEAR(seen_of_glossy_floor(true, protocol::kMostBranches), expected, 0.03);
 }
 
 TEST(RayTracing, SamePictureWhateverTheMachine) {

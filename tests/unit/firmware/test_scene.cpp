@@ -196,6 +196,16 @@ protocol::Material glass_material(float refractive_index, float transmittance) {
   m.transmittance_fraction.fill(protocol::to_fraction(static_cast<double>(transmittance)));
   return m;
 }
+protocol::Material glossy_material(float diffuse, float specular, float exponent) {
+  protocol::Material m = diffuse_material(diffuse);
+  m.kind = protocol::MaterialKind::glossy;
+  const float weight = specular * (exponent + 2) / (exponent + 1);
+  m.specular = {weight, weight, weight};
+  m.lobe_power = 1 / (exponent + 1);
+  m.lobe_chance = std::min(1.0F, weight);
+  m.specular_fraction.fill(static_cast<protocol::Fraction>(static_cast<double>(weight / m.lobe_chance) * 0x1p32));
+  return m;
+}
 
 void aim_at(TestScene& scene, std::uint16_t material) {
   for (std::uint32_t p = 0; p < scene.polygons.size(); ++p) {

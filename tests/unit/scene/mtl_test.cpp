@@ -51,9 +51,36 @@ TEST(Mtl, MirrorWithoutKsIsDiffuse) {
 }
 
 TEST(Mtl, KsOfADiffuseSurfaceIsTold) {
-  const Scene scene = with_material("Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nillum 2\n");
-  EXPECT_EQ(scene.materials[0].kind, SurfaceKind::diffuse);
-  EXPECT_THAT(scene.warnings, Contains(HasSubstr("Ks is used for mirrors")));
+  for (const char* illum : {"", "illum 0\n", "illum 1\n"}) {
+    const Scene scene = with_material(std::string("Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 10\n") + illum);
+    EXPECT_EQ(scene.materials[0].kind, SurfaceKind::diffuse);
+    EXPECT_FALSE(is_glossy(scene.materials[0]));
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("Ks is used for glossy surfaces")));
+  }
+}
+
+TEST(Mtl, Illum2WithKsIsGlossy) {
+  const Scene scene = with_material("Kd 0.5 0.4 0.3\nKs 0 0.2 0.1\nNs 30\nillum 2\n");
+  EXPECT_TRUE(is_glossy(scene.materials[0]));
+  expect_colour(scene.materials[0].diffuse, 0.5, 0.4, 0.3);
+  expect_colour(scene.materials[0].specular, 0, 0.2, 0.1);
+  EXPECT_DOUBLE_EQ(scene.materials[0].exponent, 30);
+  EXPECT_THAT(scene.warnings, testing::Not(Contains(HasSubstr("K"))));
+  EXPECT_FALSE(is_glossy(with_material("Kd 0.5\nKs 0 0 0\nNs 30\nillum 2\n").materials[0]));
+}
+
+TEST(Mtl, GlossyWithoutNsIsToldAndIs1) {
+  const Scene scene = with_material("Kd 0.5\nKs 0.2\nillum 2\n");
+  EXPECT_DOUBLE_EQ(scene.materials[0].exponent, 1);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("without Ns")));
+}
+
+TEST(Mtl, DiffuseAndGlossyTogetherAreScaled) {
+  const Scene scene = with_material("Kd 0.8 0.5 0.1\nKs 0.5 0.5 0.5\nNs 9\nillum 2\n");
+  expect_colour(scene.materials[0].diffuse, 0.8 * 0.99 / 1.3, 0.5 * 0.99 / 1.3, 0.1 * 0.99 / 1.3);
+  expect_colour(scene.materials[0].specular, 0.5 * 0.99 / 1.3, 0.5 * 0.99 / 1.3, 0.5 * 0.99 / 1.3);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("a.mtl:1: reflectances (Kd + Ks) of one or more")));
+  EXPECT_THAT(with_material("Kd 0.7\nKs 0.29\nNs 9\nillum 2\n").warnings, testing::Not(Contains(HasSubstr("scaled"))));
 }
 
 TEST(Mtl, Illum7IsGlassWithFilter) {
@@ -78,7 +105,7 @@ TEST(Mtl, GlassWithoutIndexIsToldAndIs1Point5) {
 TEST(Mtl, ReflectancesOfOneOrMoreAreScaled) {
   const Scene white = with_material("Kd 1 0.5 0\n");
   expect_colour(white.materials[0].diffuse, 0.99, 0.495, 0);
-  EXPECT_THAT(white.warnings, Contains(HasSubstr("a.mtl:1: a reflectance of one or more")));
+  EXPECT_THAT(white.warnings, Contains(HasSubstr("a.mtl:1: reflectances (Kd + Ks) of one or more")));
   expect_colour(with_material("Ks 2 1 1\nillum 3\n").materials[0].specular, 0.99, 0.495, 0.495);
   expect_colour(with_material("Kd 0.99 0.98 0.97\n").materials[0].diffuse, 0.99, 0.98, 0.97);
 }

@@ -108,12 +108,14 @@ TEST(Obj, ManyDuplicatesMakeOneWarning) {
   EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("(and 2 more)")));
 }
 
-TEST(Obj, NormalsAreKeptForMirrorAndGlassAlone) {
+TEST(Obj, NormalsAreKeptForMirrorGlassAndGlossyAlone) {
   const std::string faces = "vn 0 0 2\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl m\nf 1//1 2//1 3//1\n";
   const Texts mirror{{"a.obj", "mtllib a.mtl\n" + faces}, {"a.mtl", "newmtl m\nillum 3\nKs 0.9 0.9 0.9\n"}};
   const Scene smooth = load_texts(mirror, "a.obj");
   ASSERT_NE(smooth.triangles[0].normal[0], kNoNormal);
   EXPECT_EQ(smooth.normals[smooth.triangles[0].normal[0]], (Vec3d{0, 0, 1}));
+  const Texts glossy{{"a.obj", "mtllib a.mtl\n" + faces}, {"a.mtl", "newmtl m\nillum 2\nKs 0.9 0.9 0.9\n"}};
+  EXPECT_NE(load_texts(glossy, "a.obj").triangles[0].normal[0], kNoNormal);
   const Texts diffuse{{"a.obj", "mtllib a.mtl\n" + faces}, {"a.mtl", "newmtl m\nKd 0.9 0.9 0.9\n"}};
   EXPECT_EQ(load_texts(diffuse, "a.obj").triangles[0].normal[0], kNoNormal);
   EXPECT_TRUE(load_texts(diffuse, "a.obj").normals.empty());

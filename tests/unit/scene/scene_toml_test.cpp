@@ -64,6 +64,23 @@ TEST(SceneToml, MaterialForAMeshWithoutLibrary) {
   EXPECT_EQ(scene.materials[0].emission, (Vec3d{3, 2, 1}));
 }
 
+TEST(SceneToml, GlossyStandsBesideDiffuse) {
+  const Texts texts{{"s.toml", kMesh + "[material.m]\nglossy = [0.1, 0.2, 0.3]\nexponent = 40\n"},
+                    {"a.obj", "mtllib a.mtl\nusemtl m\n" + kTriangle},
+                    {"a.mtl", "newmtl m\nKd 0.5 0.5 0.5\n"}};
+  const SceneMaterial material = load_texts(texts, "s.toml").materials[0];
+  EXPECT_TRUE(is_glossy(material));
+  EXPECT_EQ(material.specular, (Vec3d{0.1, 0.2, 0.3}));
+  EXPECT_DOUBLE_EQ(material.exponent, 40);
+  EXPECT_DOUBLE_EQ(material.diffuse[0], 0.5);
+  const std::string gold = kMesh + "material = 'gold'\n[material.gold]\n";
+  EXPECT_FALSE(is_glossy(with(gold + "diffuse = 0.25\n").materials[0]));
+  EXPECT_THAT(refusal({{"s.toml", gold + "glossy = 0.5\nmirror = 0.5\n"}, {"a.obj", kTriangle}}, "s.toml"),
+              HasSubstr("not beside mirror or glass"));
+  EXPECT_THAT(refusal({{"s.toml", gold + "exponent = 5\n"}, {"a.obj", kTriangle}}, "s.toml"),
+              HasSubstr("which only glossy uses"));
+}
+
 TEST(SceneToml, MaterialsAreRenamedPerMesh) {
   const Scene scene = with(kMesh + "materials = {'(none)' = 'clear'}\n[material.clear]\nglass = 1.33\n" + kMesh +
                            "translate = [0, 0, 1]\n");
