@@ -86,14 +86,14 @@ Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hi
   const float eta = hit.front ? 1.0F / glass.refractive_index : glass.refractive_index;
   const Refraction way = refract(in, flat, round, eta);
   Ways ways{reflect(in, flat, round), way.direction, weight * way.reflectance, glm::vec3(0.0F), way.reflectance};
-  if (way.reflectance < 1.0F) {
-    ways.refracted_weight = (weight * (1.0F - way.reflectance)) * to_vector(glass.transmittance);
-  }
+  // A ray keeps its radiance over the square of the refractive index (Born & Wolf, Principles of Optics, 4.8).
+  const glm::vec3 passes = to_vector(glass.transmittance) * (eta * eta);
+  if (way.reflectance < 1.0F) ways.refracted_weight = (weight * (1.0F - way.reflectance)) * passes;
   if (record.waiting == protocol::kMostBranches &&
       way.reflectance < 1.0F) {  // no room for a branch: take one by chance
     const bool reflects = protocol::uniform(record.key, Dimension::fresnel) < way.reflectance;
     ways.reflected_weight = reflects ? weight : glm::vec3(0.0F);
-    ways.refracted_weight = reflects ? glm::vec3(0.0F) : weight * to_vector(glass.transmittance);
+    ways.refracted_weight = reflects ? glm::vec3(0.0F) : weight * passes;
   }
   return ways;
 }
