@@ -32,7 +32,7 @@ class LoadReadTest : public testing::Test {
 
   /// What a PE answers to `report`.
   static protocol::Tally tally_of(PeNumber pe) {
-    return {{pe, 1, 0}, {2, 0, 0}, {0, 0, pe * 10}, {7, 7, 7}, 1000U + pe};
+    return {{pe, 1, 0}, {3, pe, 0}, {2, 0, 0}, {0, 0, pe * 10}, {7, 7, 7}, 1000U + pe};
   }
 
   /// The PE's bytes from `address` on.
@@ -183,6 +183,7 @@ TEST_F(LoadReadTest, TalliesAreAddedUp) {
   answer_all(phase, 3);
   const protocol::Tally tally = phase.take_solution().tally;
   EXPECT_EQ(tally.absorbed_specular, (protocol::Flux{15, 6, 0}));
+  EXPECT_EQ(tally.reflected_glossy, (protocol::Flux{18, 15, 0}));
   EXPECT_EQ(tally.escaped, (protocol::Flux{12, 0, 0}));
   EXPECT_EQ(tally.cut_off, (protocol::Flux{0, 0, 150}));
   EXPECT_EQ(tally.back_side, (protocol::Flux{42, 42, 42}));
