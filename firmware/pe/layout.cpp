@@ -29,6 +29,9 @@ enum class LayoutField : std::uint32_t {
   facets,
   hemicube,
   lattice,
+  textures,
+  texels,
+  texture_points,
   emitters,
   stage,
   cells,
@@ -45,7 +48,7 @@ struct Extent {
   Store store;
   std::uint32_t element_bytes;
 };
-constexpr std::uint32_t kStores = 15;
+constexpr std::uint32_t kStores = 18;
 
 std::array<Extent, kStores> extents(const StageLayout& l) {
   return {{
@@ -63,6 +66,9 @@ std::array<Extent, kStores> extents(const StageLayout& l) {
       {l.facets, sizeof(protocol::Facet)},
       {l.hemicube, sizeof(std::uint32_t)},
       {l.lattice, sizeof(protocol::LatticeTriangle)},
+      {l.textures, sizeof(protocol::Texture)},
+      {l.texels, sizeof(protocol::Texel)},
+      {l.texture_points, sizeof(protocol::TexturePoint)},
       {l.emitters, sizeof(protocol::Emitter)},
   }};
 }

@@ -31,7 +31,7 @@ bool worth_following(const Pe& pe, const glm::vec3& weight) {
 void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
   const Material& material = pe.scene.materials[polygon.material];
-  glm::vec3 radiance = to_vector(material.diffuse) * interpolated_irradiance(pe.scene, polygon, hit);
+  glm::vec3 radiance = diffuse_reflectance(pe.scene, polygon, hit) * interpolated_irradiance(pe.scene, polygon, hit);
   if (hit.front || material.emits_from_back != 0) radiance += to_vector(material.emission);
   pe.homecoming.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
 }
@@ -55,7 +55,7 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
                       unit_normal(polygon) * to_side, sample)) {
     return false;
   }
-  const glm::vec3 diffuse = to_vector(pe.scene.materials[polygon.material].diffuse);
+  const glm::vec3 diffuse = diffuse_reflectance(pe.scene, polygon, hit);
   const glm::vec3 weight = to_vector(record.weight) * diffuse * sample.irradiance_over_pi;
   if (!worth_following(pe, weight)) return false;
   record.weight = to_array(weight);

@@ -27,6 +27,9 @@ struct Scene {
   std::span<const std::uint32_t> hemicube;
   // Ray tracing stage.
   std::span<const protocol::LatticeTriangle> lattice;
+  std::span<const protocol::Texture> textures;
+  std::span<const protocol::Texel> texels;
+  std::span<const protocol::TexturePoint> texture_points;
   std::span<const protocol::Emitter> emitters;
 
   void set(const Memory& memory, const protocol::StageLayout& from) {
@@ -44,6 +47,9 @@ struct Scene {
     facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const std::uint32_t>(layout.hemicube);
     lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
+    textures = memory.store<const protocol::Texture>(layout.textures);
+    texels = memory.store<const protocol::Texel>(layout.texels);
+    texture_points = memory.store<const protocol::TexturePoint>(layout.texture_points);
     emitters = memory.store<const protocol::Emitter>(layout.emitters);
   }
 };

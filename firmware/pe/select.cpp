@@ -33,8 +33,7 @@ Flux amount_of(const protocol::PatchSide& side, ShotKind kind) {
 Flux flux_of(const Scene& scene, const protocol::Patch& patch, std::uint32_t side, ShotKind kind) {
   Flux flux = amount_of(scene.patch_sides[patch.side[side]], kind);
   if (kind == ShotKind::emitted) return flux;
-  const protocol::Material& material = scene.materials[patch.material];
-  for (std::size_t c = 0; c < 3; ++c) flux[c] = protocol::scale_down(flux[c], material.diffuse_fraction[c]);
+  for (std::size_t c = 0; c < 3; ++c) flux[c] = protocol::scale_down(flux[c], patch.reflectance[c]);
   return flux;
 }
 

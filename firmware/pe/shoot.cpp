@@ -32,7 +32,6 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
   const Patch& patch = pe.scene.patches[shoot.patch];
   require(niu, patch.side[shoot.side] != protocol::kNoSide, ShootField::side, shoot.side);
   protocol::PatchSide& side = pe.scene.patch_sides[patch.side[shoot.side]];
-  const protocol::Material& material = pe.scene.materials[patch.material];
   Flux flux{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int64_t there = shoot.kind == ShotKind::emitted ? side.emission[c] : side.incident[c] - side.shot[c];
@@ -42,7 +41,7 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
       flux[c] = shoot.amount[c];
     } else {
       side.shot[c] += shoot.amount[c];
-      flux[c] = protocol::scale_down(shoot.amount[c], material.diffuse_fraction[c]);
+      flux[c] = protocol::scale_down(shoot.amount[c], patch.reflectance[c]);
     }
   }
   return flux;

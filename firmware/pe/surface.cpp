@@ -14,6 +14,18 @@ glm::vec3 shading_normal(const Scene& scene, const protocol::Polygon& polygon, c
                         to_vector(corner[2]) * hit.b2);
 }
 
+glm::vec3 diffuse_reflectance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit) {
+  const protocol::Material& material = scene.materials[polygon.material];
+  if (material.texture == protocol::kNoTexture) return to_vector(material.diffuse);
+  const protocol::Texture& texture = scene.textures[material.texture];
+  const protocol::TexturePoint* corner = &scene.texture_points[polygon.texture_points];
+  const auto between = [&hit](float a, float b, float c) { return (a + (b - a) * hit.b1) + (c - a) * hit.b2; };
+  const protocol::TexturePoint at{between(corner[0].u, corner[1].u, corner[2].u),
+                                  between(corner[0].v, corner[1].v, corner[2].v)};
+  return to_vector(material.diffuse) *
+         to_vector(texture_colour(&scene.texels[texture.first_texel], texture.width, texture.height, at));
+}
+
 glm::vec3 interpolated_irradiance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit) {
   const std::uint8_t side = hit.front ? protocol::kFrontPresent : protocol::kBackPresent;
   if ((polygon.sides & side) == 0) return glm::vec3(0.0F);

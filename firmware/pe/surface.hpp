@@ -30,6 +30,9 @@ inline glm::vec3 leaving_point(const protocol::Polygon& polygon, const glm::vec3
 /// The normal with which a specular surface reflects: interpolated where the polygon has corner normals.
 glm::vec3 shading_normal(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
 
+/// Diffuse reflectance at a hit: the material's, times its texture.
+glm::vec3 diffuse_reflectance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
+
 /// Irradiance / pi at a hit, interpolated over the element of the side that was hit; zero where it has none.
 glm::vec3 interpolated_irradiance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
 

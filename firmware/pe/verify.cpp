@@ -36,7 +36,6 @@ enum class Index : std::uint32_t {
   reference_patch,
   reference_side,
   patch_subspace,
-  patch_material,
   facet,
   facet_polygon,
   facet_code,
@@ -47,6 +46,10 @@ enum class Index : std::uint32_t {
   hemicube_sum,
   refractive_index,
   lobe,
+  texture,
+  texture_size,
+  texture_points,
+  texture_point,
   emitter_corner,
   emitter_chance,
 };
@@ -59,6 +62,7 @@ class Verifier {
     for (const Subspace& subspace : scene_.subspaces) check(subspace);
     for (const Polygon& polygon : scene_.polygons) check(polygon);
     for (const protocol::Material& material : scene_.materials) check(material);
+    check_textures();
     check_emitters();
     if (scene_.layout.stage != Stage::radiosity) return;
     for (const protocol::Patch& patch : scene_.patches) check(patch);
@@ -109,6 +113,20 @@ class Verifier {
     }
   }
 
+  void check_textures() {
+    for (const protocol::Texture& texture : scene_.textures) {
+      const bool fits = texture.width >= 1 && texture.width <= protocol::kMostTextureEdge && texture.height >= 1 &&
+                        texture.height <= protocol::kMostTextureEdge;
+      require(fits, Index::texture_size, texture.width, texture.height);
+      range(Index::texture, texture.first_texel, texture.width * texture.height, scene_.texels.size());
+    }
+    for (const protocol::TexturePoint& point : scene_.texture_points) {
+      constexpr float most = protocol::kMostTexturePoint;
+      const bool near = point.u >= -most && point.u <= most && point.v >= -most && point.v <= most;
+      require(near, Index::texture_point, 0, 0);
+    }
+  }
+
   /// Whatever the random bits are, one of them is chosen.
   void check_emitters() {
     std::uint32_t before = 0;
@@ -125,6 +143,9 @@ class Verifier {
     below(Index::material, p.material, scene_.materials.size());
     if (p.normals != protocol::kNoPolygon) range(Index::normals, p.normals, 3, scene_.normals.size());
     require(p.patch_level <= protocol::kMostLevels, Index::level, p.patch_level, protocol::kMostLevels);
+    if (scene_.layout.stage == Stage::ray_tracing && scene_.materials[p.material].texture != protocol::kNoTexture) {
+      range(Index::texture_points, p.texture_points, 3, scene_.texture_points.size());
+    }
     if (p.sides == 0) return;
     require(p.sides <= (protocol::kFrontPresent | protocol::kBackPresent), Index::surface, p.sides, 3);
     if (scene_.layout.stage == Stage::radiosity) {
@@ -172,11 +193,13 @@ class Verifier {
     const bool spreads =
         material.kind != protocol::MaterialKind::glossy || (material.lobe_power > 0.0F && material.lobe_power <= 1.0F);
     require(spreads, Index::lobe, 0, 1);
+    if (scene_.layout.stage == Stage::ray_tracing && material.texture != protocol::kNoTexture) {
+      below(Index::texture, material.texture, scene_.textures.size());
+    }
   }
 
   void check(const protocol::Patch& patch) {
     below(Index::patch_subspace, patch.subspace, scene_.subspaces.size());
-    below(Index::patch_material, patch.material, scene_.materials.size());
     require(patch.facets > 0, Index::facet, patch.number, 0);
     range(Index::facet, patch.first_facet, patch.facets, scene_.facets.size());
     for (const protocol::Facet& facet : scene_.facets.subspan(patch.first_facet, patch.facets)) check(patch, facet);

@@ -9,6 +9,7 @@
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/texture.hpp"
 
 namespace torolux::protocol {
 
@@ -39,12 +40,13 @@ struct Polygon {
   std::uint32_t surface;  ///< radiosity: index of its first PatchReference. Ray tracing: node (triangle_grid.hpp) whose
                           ///< leaves are indices of lattice triangles (the front's first, then the back's, as present)
   std::uint32_t normals;  ///< index of its first of three corner normals, or kNoPolygon: flat
+  std::uint32_t texture_points;  ///< ray tracing, textured: index of its first of three texture points
   std::uint16_t material;
   std::uint8_t sides;        ///< kFrontPresent | kBackPresent
   std::uint8_t patch_level;  ///< it has part in 4^patch_level patches; radiosity only
   std::uint8_t unused[4];
 };
-static_assert(sizeof(Polygon) == 56);
+static_assert(sizeof(Polygon) == 60);
 
 enum class MaterialKind : std::uint32_t {
   diffuse,
@@ -60,20 +62,20 @@ constexpr bool is_specular(MaterialKind kind) {
 
 struct Material {
   MaterialKind kind;
-  Vec3f diffuse;           ///< reflectance, 0..0.99
+  Vec3f diffuse;           ///< reflectance, 0..0.99; times the texture's colour where there is one
   Vec3f specular;          ///< mirror: reflectance. Glossy: Ks (n + 2) / (n + 1), n the lobe's exponent; at most 2
   Vec3f transmittance;     ///< glass: at each crossing, 0..1
   float refractive_index;  ///< glass: inside over outside
   Vec3f emission;          ///< radiance from the front, in units of the scene's greatest
-  std::uint32_t emits_from_back;  ///< 0 or 1 (--two-sided-lights)
-  float lobe_power;               ///< glossy: 1 / (n + 1), above 0 and at most 1
-  float lobe_chance;              ///< glossy: the greatest of `specular`, at most 1
-  std::uint32_t unused;
-  std::array<Fraction, 3> diffuse_fraction;   ///< the same as `diffuse`, `specular`, `transmittance`: flux is exact
-  std::array<Fraction, 3> specular_fraction;  ///< glossy: `specular` over `lobe_chance`; at most 2
+  std::uint32_t emits_from_back;              ///< 0 or 1 (--two-sided-lights)
+  float lobe_power;                           ///< glossy: 1 / (n + 1), above 0 and at most 1
+  float lobe_chance;                          ///< glossy: the greatest of `specular`, at most 1
+  std::uint32_t texture;                      ///< ray tracing: index, or kNoTexture
+  std::array<Fraction, 3> specular_fraction;  ///< the same as `specular` (glossy: over `lobe_chance`, at most 2) and
+                                              ///< `transmittance`: flux is exact
   std::array<Fraction, 3> transmittance_fraction;
 };
-static_assert(sizeof(Material) == 144);
+static_assert(sizeof(Material) == 120);
 
 // ---- Radiosity stage only ----
 
@@ -96,9 +98,9 @@ struct Patch {
   std::uint32_t elements;             ///< of each side
   std::uint32_t subspace;             ///< local number of the subspace that holds its centre
   std::array<std::uint32_t, 2> side;  ///< front, back: index into the patch sides, or kNoSide
-  std::uint32_t material;             ///< index into the PE's materials
+  std::array<std::uint32_t, 3> reflectance;  ///< diffuse, a texture's mean over the patch; in units of 2^-32
 };
-static_assert(sizeof(Patch) == 32);
+static_assert(sizeof(Patch) == 40);
 
 /// A flat part of one element: the whole of it where a polygon is cut into elements, one of many where an element is a
 /// cluster of small triangles. Facets of a patch follow its elements' order, so that those near each other lie
@@ -234,11 +236,14 @@ struct StageLayout {
   std::uint32_t shot_points;      ///< k: k * k points per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light
   // Ray tracing stage.
-  Store lattice;       ///< LatticeTriangle[]
-  Store emitters;      ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
-  float pixel_scale;   ///< quanta per unit of radiance
-  float least_weight;  ///< a ray whose weights are all below dies
+  Store lattice;         ///< LatticeTriangle[]
+  Store textures;        ///< Texture[]
+  Store texels;          ///< Texel[]
+  Store texture_points;  ///< TexturePoint[]
+  Store emitters;        ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
+  float pixel_scale;     ///< quanta per unit of radiance
+  float least_weight;    ///< a ray whose weights are all below dies
 };
-static_assert(sizeof(StageLayout) == 188);
+static_assert(sizeof(StageLayout) == 212);
 
 }  // namespace torolux::protocol

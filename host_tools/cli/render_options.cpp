@@ -190,6 +190,9 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
             "Path segments after which light is cut off, 1 to " + std::to_string(protocol::kMostBounces),
             options.bounces, 1, protocol::kMostBounces, built_in.bounces)
       ->group(group);
+  add_count(command, "--texels", "Texels of each texture, at most; larger images are averaged", options.texels, 1,
+            kMostTexels, built_in.texels)
+      ->group(group);
   add_value(
       command, "--direct", "HOW",
       "Light straight from emitters, at diffuse surfaces: radiosity (from the elements), or shadow-rays (one from "

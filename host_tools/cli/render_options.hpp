@@ -52,7 +52,7 @@ struct RenderOptions {
 
   // The light.
   std::optional<LengthOption> patches, elements;
-  std::optional<std::uint32_t> hemicube, shot_points, emission_records, max_shots, bounces;
+  std::optional<std::uint32_t> hemicube, shot_points, emission_records, max_shots, bounces, texels;
   std::optional<double> refine, unshot;
   std::optional<std::uint64_t> seed;
   bool two_sided_lights = false;

@@ -57,6 +57,7 @@ Quality settle_quality(const RenderOptions& options, const SceneDefaults& defaul
   pick(quality.max_shots, options.max_shots, defaults.max_shots);
   pick(quality.bounces, options.bounces, defaults.bounces);
   pick(quality.shadow_rays, options.shadow_rays, defaults.shadow_rays);
+  pick(quality.texels, options.texels, defaults.texels);
   pick(quality.seed, options.seed, defaults.seed);
   quality.two_sided_lights = options.two_sided_lights || defaults.two_sided_lights.value_or(false);
   return quality;

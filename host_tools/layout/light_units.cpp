@@ -104,10 +104,11 @@ protocol::Material machine_material(const SceneMaterial& material, const LightUn
     for (std::size_t c = 0; c < 3; ++c) fraction[c] = protocol::to_fraction(from[c]);
   };
   machine.refractive_index = 1;
+  machine.texture = protocol::kNoTexture;
   switch (material.kind) {
     case SurfaceKind::diffuse:
       machine.kind = protocol::MaterialKind::diffuse;
-      set(material.diffuse, machine.diffuse, machine.diffuse_fraction);
+      machine.diffuse = to_float(material.diffuse);
       machine.emission = to_float(vec::scale(material.emission, 1 / units.unit_radiance));
       machine.emits_from_back = units.two_sided_lights && emits(material) ? 1 : 0;
       if (is_glossy(material)) set_lobe(material, machine);

@@ -26,6 +26,7 @@ protocol::Flux patch_emission(const Scene& scene, const MeshPatch& patch, std::u
 /// All emitters, chosen by the flux that they emit. In the order of the mesh.
 std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, const LightUnits& units);
 
+/// Without its texture, whose number depends on the PE.
 protocol::Material machine_material(const SceneMaterial& material, const LightUnits& units);
 
 }  // namespace torolux

@@ -40,6 +40,7 @@ class ImageWriter {
 
   std::vector<std::byte> ray_tracing(const Lattice& lattice) {
     write_subspaces();
+    write_textures();
     write_polygons(&lattice);
     if (layout_.emitters.count > 0) put_all(layout_.emitters, emitters(scene_, mesh_, units_));
     return std::move(bytes_);
@@ -103,10 +104,17 @@ class ImageWriter {
   /// lattice: null in the radiosity stage.
   void write_polygons(const Lattice* lattice) {
     const std::vector<std::uint32_t> used = materials();
+    const std::vector<std::uint32_t> textures = textures_of_pe(mesh_, placement_, pe_);
     for (std::size_t m = 0; m < used.size(); ++m) {
-      put(layout_.materials, m, machine_material(scene_.materials[used[m]], units_));
+      protocol::Material material = machine_material(scene_.materials[used[m]], units_);
+      const auto texture = std::lower_bound(textures.begin(), textures.end(), scene_.materials[used[m]].texture);
+      if (lattice != nullptr && scene_.materials[used[m]].texture != kNoImage) {
+        material.texture = static_cast<std::uint32_t>(texture - textures.begin());
+      }
+      put(layout_.materials, m, material);
     }
     std::uint32_t normals = 0;
+    std::uint32_t texture_points = 0;
     std::uint32_t references = 0;
     for (std::size_t local = 0; local < placement_.polygons_of_pe[pe_].size(); ++local) {
       const std::uint32_t t = placement_.polygons_of_pe[pe_][local];
@@ -119,6 +127,12 @@ class ImageWriter {
         polygon.normals = normals;
         for (std::uint32_t i = 0; i < 3; ++i) put(layout_.normals, normals++, mesh_.normals[triangle.normals + i]);
       }
+      if (lattice != nullptr && triangle.texture != protocol::kNoTexture) {
+        polygon.texture_points = texture_points;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+          put(layout_.texture_points, texture_points++, mesh_.texture_points[triangle.texture_points + i]);
+        }
+      }
       polygon.material =
           static_cast<std::uint16_t>(std::lower_bound(used.begin(), used.end(), triangle.material) - used.begin());
       polygon.sides = triangle.sides;
@@ -126,6 +140,16 @@ class ImageWriter {
       if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_lattice(*lattice, t) : references;
       if (triangle.sides != 0) references += protocol::triangles_of_level(triangle.patch_level);
       put(layout_.polygons, local, polygon);
+    }
+  }
+
+  void write_textures() {
+    std::uint32_t number = 0;
+    std::uint32_t first = 0;
+    for (const std::uint32_t from : textures_of_pe(mesh_, placement_, pe_)) {
+      const MachineTexture& texture = mesh_.textures[from];
+      put(layout_.textures, number++, protocol::Texture{texture.width, texture.height, first});
+      for (const protocol::Texel texel : texture.texels) put(layout_.texels, first++, texel);
     }
   }
 
@@ -190,7 +214,6 @@ class ImageWriter {
     std::uint32_t sides = 0;
     std::uint32_t elements = 0;
     std::uint32_t facets = 0;
-    const std::vector<std::uint32_t> used = materials();
     for (std::size_t local = 0; local < placement_.patches_of_pe[pe_].size(); ++local) {
       const std::uint32_t number = placement_.patches_of_pe[pe_][local];
       const MeshPatch& from = mesh_.patches[number];
@@ -199,9 +222,8 @@ class ImageWriter {
       patch.first_facet = facets;
       patch.facets = from.facets;
       patch.elements = from.elements;
+      patch.reflectance = from.reflectance;
       patch.subspace = placement_.local_of_cell[placement_.patch_home[number].cell];
-      patch.material =
-          static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), from.material) - used.begin());
       for (std::uint32_t f = 0; f < from.facets; ++f) write_facet(from, mesh_.facets[from.first_facet + f], facets++);
       for (std::uint32_t side = 0; side < 2; ++side) {
         patch.side[side] = protocol::kNoSide;

@@ -18,6 +18,7 @@ struct Counts {
   std::uint64_t subspaces = 0, polygon_list = 0, polygons = 0, materials = 0, normals = 0;
   std::uint64_t nodes = 0, patch_references = 0, patches = 0, patch_sides = 0, elements = 0, facets = 0, hemicube = 0,
                 lattice = 0;
+  std::uint64_t textures = 0, texels = 0, texture_points = 0;
 };
 
 std::uint64_t sides_of(const MeshTriangle& triangle) {
@@ -36,6 +37,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
     const MeshTriangle& triangle = mesh.triangles[t];
     materials.push_back(triangle.material);
     if (triangle.normals != protocol::kNoPolygon) counts.normals += 3;
+    if (triangle.texture != protocol::kNoTexture) counts.texture_points += 3;
     if (triangle.sides == 0) continue;
     const std::uint32_t parts = protocol::triangles_of_level(triangle.patch_level);
     // Every four children add three leaves.
@@ -48,7 +50,14 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
   }
   std::sort(materials.begin(), materials.end());
   counts.materials = static_cast<std::uint64_t>(std::unique(materials.begin(), materials.end()) - materials.begin());
-  if (stage == Stage::ray_tracing) return counts;
+  if (stage == Stage::ray_tracing) {
+    for (const std::uint32_t texture : textures_of_pe(mesh, placement, pe)) {
+      ++counts.textures;
+      counts.texels += mesh.textures[texture].texels.size();
+    }
+    return counts;
+  }
+  counts.texture_points = 0;
   for (const std::uint32_t number : placement.patches_of_pe[pe]) {
     const MeshPatch& patch = mesh.patches[number];
     counts.facets += patch.facets;
@@ -89,6 +98,16 @@ const char* name_of(Stage stage) {
 
 }  // namespace
 
+std::vector<std::uint32_t> textures_of_pe(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe) {
+  std::vector<std::uint32_t> textures;
+  for (const std::uint32_t t : placement.polygons_of_pe[pe]) {
+    if (mesh.triangles[t].texture != protocol::kNoTexture) textures.push_back(mesh.triangles[t].texture);
+  }
+  std::sort(textures.begin(), textures.end());
+  textures.erase(std::unique(textures.begin(), textures.end()), textures.end());
+  return textures;
+}
+
 PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Stage stage,
                  const StageParameters& parameters, const MemoryMap& map) {
   const Counts counts = count(mesh, placement, pe, stage, parameters.hemicube);
@@ -114,6 +133,9 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
   layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(std::uint32_t));
   layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
+  layout.textures = allocator.place("textures", counts.textures, sizeof(protocol::Texture));
+  layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));
+  layout.texture_points = allocator.place("texture points", counts.texture_points, sizeof(protocol::TexturePoint));
   const std::uint32_t emitters = stage == Stage::ray_tracing ? parameters.emitters : 0;
   layout.emitters = allocator.place("emitters", emitters, sizeof(protocol::Emitter));
   result.load_end = allocator.next();
@@ -167,7 +189,7 @@ std::string MemoryNeed::refusal(std::uint64_t available) const {
     text += "--pe-memory " +
             (enough >= 1U << 20U ? std::to_string(enough >> 20U) + "M" : std::to_string(enough >> 10U) + "K") + ", ";
   }
-  return text + "more --pes, fewer --subspaces, or greater --elements and --patches";
+  return text + "more --pes, fewer --subspaces, fewer --texels, or greater --elements and --patches";
 }
 
 std::optional<std::uint32_t> choose_memory(const MemoryNeed& need, std::optional<std::uint32_t> given) {

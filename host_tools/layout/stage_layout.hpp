@@ -39,6 +39,9 @@ struct PeLayout {
   std::vector<std::pair<const char*, std::uint64_t>> bytes;  ///< of each store, by name
 };
 
+/// Numbers of the textures that the PE's polygons show, ascending.
+std::vector<std::uint32_t> textures_of_pe(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe);
+
 PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, protocol::Stage stage,
                  const StageParameters& parameters, const MemoryMap& map);
 

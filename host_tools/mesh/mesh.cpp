@@ -9,6 +9,7 @@
 #include "host_tools/mesh/clusters.hpp"
 #include "host_tools/mesh/element_trees.hpp"
 #include "host_tools/mesh/levels.hpp"
+#include "host_tools/mesh/reflectance.hpp"
 #include "host_tools/mesh/sides.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -56,6 +57,14 @@ void take_triangles(const Scene& scene, Mesh& mesh) {
     if (smooth && (material.kind != SurfaceKind::diffuse || is_glossy(material))) {
       triangle.normals = static_cast<std::uint32_t>(mesh.normals.size());
       for (const std::uint32_t normal : from.normal) mesh.normals.push_back(to_float(scene.normals[normal]));
+    }
+    if (material.texture != kNoImage) {
+      triangle.texture = material.texture;
+      triangle.texture_points = static_cast<std::uint32_t>(mesh.texture_points.size());
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const auto& [u, v] = scene.texture_points[from.texture_points + i];
+        mesh.texture_points.push_back({static_cast<float>(u), static_cast<float>(v)});
+      }
     }
     mesh.triangles.push_back(triangle);
   }
@@ -247,6 +256,8 @@ Mesh make_mesh(const Scene& scene, const MeshChoice& choice) {
   take_triangles(scene, mesh);
   choose_sides(scene, choice, mesh);
   make_patches(choose_cutting(scene, choice, mesh), choice.splits, mesh);
+  for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, choice.texels));
+  set_reflectances(scene, mesh);
   return mesh;
 }
 

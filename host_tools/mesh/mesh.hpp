@@ -13,6 +13,7 @@
 #include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/normalise.hpp"
 #include "host_tools/mesh/smooth_surfaces.hpp"
+#include "host_tools/mesh/textures.hpp"
 #include "host_tools/mesh/walls.hpp"
 #include "host_tools/scene/scene.hpp"
 
@@ -31,6 +32,7 @@ struct MeshChoice {
   std::optional<double> patch_length = std::nullopt;    ///< longest edge of a patch, user units, > 0; absent: auto
   std::optional<double> element_length = std::nullopt;  ///< likewise of an element
   bool two_sided_lights = false;
+  std::uint32_t texels = 16384;    ///< at most, of each texture
   std::vector<Split> splits = {};  ///< ascending
 };
 
@@ -39,6 +41,8 @@ struct MeshTriangle {
   std::array<std::uint32_t, 3> position{};       ///< into Scene::positions
   double area = 0;                               ///< [user units^2]
   std::uint32_t normals = protocol::kNoPolygon;  ///< index of its first of three Mesh::normals
+  std::uint32_t texture = protocol::kNoTexture;  ///< number of Mesh::textures
+  std::uint32_t texture_points = 0;  ///< where it has a texture: index of its first of three Mesh::texture_points
   std::uint32_t material = 0;
   std::uint8_t sides = 0;        ///< kFrontPresent | kBackPresent; 0 for mirror and glass
   std::uint8_t patch_level = 0;  ///< 4^patch_level parts, each of another patch
@@ -76,6 +80,8 @@ struct Mesh {
   SceneSpace space;
   std::vector<MeshTriangle> triangles;  ///< in scene order, those that vanish in float left out
   std::vector<protocol::Vec3f> normals;
+  std::vector<protocol::TexturePoint> texture_points;
+  std::vector<MachineTexture> textures;  ///< by number in the scene
   SmoothSurfaces smooth;
   Walls walls;  ///< of triangles that are cut
   std::vector<MeshPart> parts;

@@ -17,6 +17,9 @@
 
 namespace torolux {
 
+/// 16 MiB of a PE's memory.
+inline constexpr std::uint32_t kMostTexels = 4U << 20U;
+
 /// Everything that determines the picture, and nothing that does not.
 struct Quality {
   std::uint32_t width = 512, height = 512;
@@ -37,6 +40,7 @@ struct Quality {
   /// Light straight from emitters comes by a shadow ray from each diffuse point that is seen, not from the elements.
   bool shadow_rays = false;
   bool two_sided_lights = false;
+  std::uint32_t texels = 16384;  ///< of each texture, at most; 1..kMostTexels
   std::uint64_t seed = 1;
 };
 

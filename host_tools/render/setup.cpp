@@ -33,6 +33,7 @@ void check(const Quality& quality, const MachineChoice& machine) {
   require(quality.bounces > 0 && quality.bounces <= protocol::kMostBounces,
           "--bounces: 1 to " + std::to_string(protocol::kMostBounces));
   require(quality.refine >= 0 && quality.refine <= 100, "--refine: 0 to 100");
+  require(quality.texels > 0 && quality.texels <= kMostTexels, "--texels: 1 to " + std::to_string(kMostTexels));
   require(quality.unshot >= 0 && quality.unshot <= 1, "--unshot: a fraction from 0 to 1");
   require(!quality.patch_length || *quality.patch_length > 0, "--patches: a length greater than 0, or auto");
   require(!quality.element_length || *quality.element_length > 0, "--elements: a length greater than 0, or auto");
@@ -62,7 +63,8 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
                        const std::vector<Split>& splits) {
   check(quality, machine);
   RenderSetup setup;
-  setup.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, splits});
+  setup.mesh = make_mesh(
+      scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels, splits});
   setup.notes = setup.mesh.notes;
   setup.units = light_units(scene, setup.mesh, quality.two_sided_lights);
   setup.parameters.seed = machine_seed(quality.seed);
@@ -110,7 +112,7 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
   settings.max_shots = quality.max_shots;
   double emitted = 0;
   for (const MeshPatch& patch : mesh.patches) {
-    settings.reflectance.push_back(machine_material(scene.materials[patch.material], setup.units).diffuse_fraction);
+    settings.reflectance.push_back({patch.reflectance[0], patch.reflectance[1], patch.reflectance[2]});
     for (std::uint32_t side = 0; side < 2; ++side) {
       if (patch.side[side] == protocol::kNoSide) continue;
       for (const std::int64_t flux : patch_emission(scene, patch, side, setup.units)) {

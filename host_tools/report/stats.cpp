@@ -62,6 +62,7 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"max_shots", quality.max_shots},
           {"bounces", quality.bounces},
           {"direct", quality.shadow_rays ? "shadow-rays" : "radiosity"},
+          {"texels", quality.texels},
           {"two_sided_lights", quality.two_sided_lights},
           {"seed", quality.seed},
           {"pes", {machine.columns, machine.rows}},

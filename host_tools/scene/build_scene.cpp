@@ -107,10 +107,12 @@ ImportedMaterial resolved(const ImportedMesh& mesh, std::size_t number, const Me
     result.defined = own != mesh.materials.end();
     result.material = result.defined ? own->material : SceneMaterial{};
     result.material.name = name;
+    result.texture = result.defined ? own->texture : TextureUse{};
     result.place = entry.place;
   }
   if (const MaterialOverride* o = find(overrides, name)) {
     apply(*o, result.material);
+    if (o->diffuse) result.texture = {};
     result.defined = true;
     result.place = o->place;
   }
@@ -135,7 +137,12 @@ void SceneBuilder::check_material(SceneMaterial& material, const Place& place) {
   if (material.kind != SurfaceKind::diffuse && vec::largest(material.emission) > 0)
     refuse(place, "material " + in_quotes(material.name) +
                       " is a mirror or glass and emits; only diffuse surfaces can. Give it Ke 0, or illum 2");
-  const double most = vec::largest(vec::add(material.diffuse, material.specular));
+  Vec3d diffuse = material.diffuse;
+  if (material.texture != kNoImage) {
+    const Vec3d brightest = textures_.brightest(material.texture);
+    for (std::size_t c = 0; c < 3; ++c) diffuse[c] *= brightest[c];
+  }
+  const double most = vec::largest(vec::add(diffuse, material.specular));
   if (most >= 1) {
     notices_.note("reflectances (Kd + Ks) of one or more would never lose light: the material is scaled to 0.99",
                   place);
@@ -152,7 +159,8 @@ void SceneBuilder::check_material(SceneMaterial& material, const Place& place) {
   }
 }
 
-std::uint32_t SceneBuilder::add_material(SceneMaterial material, const Place& place) {
+std::uint32_t SceneBuilder::add_material(SceneMaterial material, const TextureUse& texture, const Place& place) {
+  if (material.kind == SurfaceKind::diffuse && !texture.file.empty()) material.texture = textures_.load(texture);
   check_material(material, place);
   materials_.push_back(std::move(material));
   return static_cast<std::uint32_t>(materials_.size() - 1);
@@ -166,10 +174,35 @@ void SceneBuilder::add_triangle(const SceneTriangle& triangle, const Place& plac
   origins_.push_back({static_cast<std::uint32_t>(files_.size() - 1), static_cast<std::uint32_t>(place.line)});
 }
 
+/// As the texture is looked up: scaled and moved, by whole periods as well, so that they are small.
+std::uint32_t SceneBuilder::add_texture_points(const ImportedMesh& mesh, const ImportedTriangle& triangle,
+                                               const TextureUse& use, const Place& place) {
+  const auto first = static_cast<std::uint32_t>(texture_points_.size());
+  texture_points_.resize(texture_points_.size() + 3, {0, 0});
+  if (triangle.texture_point[0] == kNoNormal) {
+    notices_.note("a face of a textured material without texture points (vt): it shows the texture's corner", place);
+    return first;
+  }
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    std::array<double, 3> x{};
+    for (std::size_t i = 0; i < 3; ++i)
+      x[i] = mesh.texture_points[triangle.texture_point[i]][axis] * use.scale[axis] + use.offset[axis];
+    const double least = std::floor(*std::min_element(x.begin(), x.end()));
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!(std::abs(x[i]) <= kMostCoordinate) || !(x[i] - least <= kMostRepeats))
+        refuse(place,
+               "a texture repeats more than 1,000,000 times over a face; its texture points (vt) are too far apart");
+      texture_points_[first + i][axis] = x[i] - least;
+    }
+  }
+  return first;
+}
+
 void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
                             const std::vector<MaterialOverride>& overrides) {
   constexpr std::uint32_t not_yet = 0xFFFF'FFFFU;
   std::vector<std::uint32_t> number(mesh.materials.size(), not_yet);
+  std::vector<TextureUse> textures(mesh.materials.size());
   const Transform transform(entry);
   const auto first_position = static_cast<std::uint32_t>(positions_.size());
   const auto first_normal = static_cast<std::uint32_t>(normals_.size());
@@ -186,16 +219,23 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
     if (number[read.material] == not_yet) {
       const ImportedMaterial material = resolved(mesh, read.material, entry, overrides);
       if (!material.defined) refuse_unknown(material, mesh, overrides);
-      number[read.material] = add_material(material.material, material.place);
+      number[read.material] = add_material(material.material, material.texture, material.place);
+      textures[read.material] = material.texture;
     }
     SceneTriangle triangle{read.position, read.normal, number[read.material]};
     for (std::size_t i = 0; i < 3; ++i) {
       triangle.position[i] += first_position;
       if (triangle.normal[i] != kNoNormal) triangle.normal[i] += first_normal;
     }
+    if (materials_[triangle.material].texture != kNoImage) {
+      const Place place{mesh.file, read.line};
+      triangle.texture_points = add_texture_points(mesh, read, textures[read.material], place);
+    }
     if (turn) {
       std::swap(triangle.position[1], triangle.position[2]);
       std::swap(triangle.normal[1], triangle.normal[2]);
+      if (triangle.texture_points != kNoImage)
+        std::swap(texture_points_[triangle.texture_points + 1], texture_points_[triangle.texture_points + 2]);
     }
     add_triangle(triangle, {mesh.file, read.line});
   }
@@ -203,7 +243,7 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
 
 void SceneBuilder::add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material,
                                  const Place& place) {
-  const std::uint32_t number = add_material(material, place);
+  const std::uint32_t number = add_material(material, {}, place);
   const auto first = static_cast<std::uint32_t>(positions_.size());
   positions_.insert(positions_.end(), corners.begin(), corners.end());
   const std::array<std::uint32_t, 3> flat{kNoNormal, kNoNormal, kNoNormal};

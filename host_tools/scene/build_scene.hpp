@@ -7,12 +7,14 @@
 
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/textures.hpp"
 
 namespace torolux {
 
 class SceneBuilder {
  public:
-  explicit SceneBuilder(Notices& notices) : notices_(notices) {}
+  /// files: where textures come from.
+  SceneBuilder(SceneFiles& files, Notices& notices) : notices_(notices), textures_(files, notices) {}
 
   /// Overrides by name apply to all meshes. Throws InputError: a material that neither the mesh nor an override
   /// defines.
@@ -30,13 +32,17 @@ class SceneBuilder {
   void finish(Scene& scene, const Place& place);
 
  private:
-  std::uint32_t add_material(SceneMaterial material, const Place& place);
+  std::uint32_t add_material(SceneMaterial material, const TextureUse& texture, const Place& place);
+  std::uint32_t add_texture_points(const ImportedMesh& mesh, const ImportedTriangle& triangle, const TextureUse& use,
+                                   const Place& place);
   void check_material(SceneMaterial& material, const Place& place);
   void add_triangle(const SceneTriangle& triangle, const Place& place);
 
   Notices& notices_;
+  TextureLibrary textures_;
   std::vector<Vec3d> positions_;
   std::vector<Vec3d> normals_;
+  std::vector<std::array<double, 2>> texture_points_;
   std::vector<SceneTriangle> triangles_;
   std::vector<SceneMaterial> materials_;
   std::vector<std::string> files_;

@@ -56,6 +56,7 @@ class DiskFiles final : public SceneFiles {
 };
 
 inline constexpr std::uintmax_t kMostMeshBytes = std::uintmax_t{1} << 30U;
+inline constexpr std::uintmax_t kMostImageBytes = std::uintmax_t{256} << 20U;
 inline constexpr std::uintmax_t kMostTextBytes = std::uintmax_t{4} << 20U;  ///< MTL and TOML
 
 }  // namespace torolux

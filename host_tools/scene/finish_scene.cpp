@@ -138,12 +138,18 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
     for (std::uint32_t& n : triangle.normal)
       if (n != kNoNormal) n = normals(n);
     triangle.material = materials(triangle.material);
+    if (triangle.texture_points != kNoImage) {
+      const auto from = texture_points_.begin() + triangle.texture_points;
+      triangle.texture_points = static_cast<std::uint32_t>(scene.texture_points.size());
+      scene.texture_points.insert(scene.texture_points.end(), from, from + 3);
+    }
     scene.triangles.push_back(triangle);
   }
   scene.positions = positions.take();
   scene.normals = normals.take();
   for (Vec3d& n : scene.normals) n = vec::unit(n);
   scene.materials = materials.take();
+  scene.textures = textures_.take();
 }
 
 }  // namespace torolux

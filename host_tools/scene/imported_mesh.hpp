@@ -12,11 +12,19 @@
 
 namespace torolux {
 
+/// map_Kd: an image, and what is done with texture points before it is looked up.
+struct TextureUse {
+  std::string file;  ///< as found from the material library; empty: none
+  std::array<double, 2> scale{1, 1}, offset{0, 0};
+  Place place;
+};
+
 /// A material as read; checks of its values come after scene.toml's overrides.
 struct ImportedMaterial {
   SceneMaterial material;
   bool defined = true;  ///< false: used by faces, but in no library (scene.toml may still define it)
   Place place;          ///< its newmtl, or its first use
+  TextureUse texture{};
 };
 
 struct ImportedTriangle {
@@ -24,12 +32,14 @@ struct ImportedTriangle {
   std::array<std::uint32_t, 3> normal;  ///< all kNoNormal where a corner has none
   std::uint32_t material;               ///< into ImportedMesh::materials
   std::uint32_t line;                   ///< of its face
+  std::array<std::uint32_t, 3> texture_point{kNoNormal, kNoNormal, kNoNormal};  ///< all kNoNormal where one has none
 };
 
 struct ImportedMesh {
   std::string file;
   std::vector<Vec3d> positions;
   std::vector<Vec3d> normals;  ///< as written, any length
+  std::vector<std::array<double, 2>> texture_points;
   std::vector<ImportedTriangle> triangles;
   std::vector<ImportedMaterial> materials;
 };

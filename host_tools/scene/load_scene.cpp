@@ -88,7 +88,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
 
   Notices notices;
-  SceneBuilder builder(notices);
+  SceneBuilder builder(files, notices);
   for (const MeshEntry& entry : file.meshes) {
     const std::filesystem::path mesh = path.parent_path() / entry.file;
     const Place asked_at = entry.place.file.empty() ? whole : entry.place;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
 #include "host_tools/scene/statements.hpp"
+#include "host_tools/scene/textures.hpp"
 #include "host_tools/scene/tinyobj.hpp"
 
 namespace torolux {
@@ -18,6 +20,7 @@ struct Checked {
   std::string name;
   Place place;
   bool has_kd = false, has_ni = false, has_ns = false;
+  TextureUse texture{};
 };
 
 /// The library as it may be handed on: known statements with good values, materials named 0, 1, ...
@@ -92,8 +95,10 @@ void check_statement(const Statement& statement, const Place& place, CheckedLibr
     library.text += "illum " + std::to_string(static_cast<int>(model)) + "\n";
   } else if (among(keyword, {"d", "Tr"})) {
     check_transparency(statement, place, notices);
+  } else if (keyword == "map_Kd") {
+    library.materials.back().texture = read_texture_use(statement, place, notices);
   } else if (keyword.starts_with("map_") || among(keyword, {"bump", "norm", "disp", "decal", "refl"})) {
-    notices.note("textures are not used", place);
+    notices.note("textures other than map_Kd are not used", place);
   } else if (!among(keyword, {"Ka", "sharpness", "Km", "Kr", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"})) {
     notices.note("statement " + in_quotes(keyword) + " is not known and not used", place);
   }
@@ -126,12 +131,17 @@ SceneMaterial mapped(const tinyobj::material_t& read, const Checked& checked, No
   if (mirror) {
     material.kind = SurfaceKind::mirror;
     material.specular = specular;
-    if (!is_zero(triple(read.diffuse)))
+    if (!is_zero(triple(read.diffuse)) || !checked.texture.file.empty())
       notices.note("a mirror reflects by Ks alone; its Kd is not used", checked.place);
     return material;
   }
   material.diffuse = triple(read.diffuse);
-  if (!checked.has_kd && is_zero(material.emission)) notices.note("material without Kd is black", checked.place);
+  if (!checked.texture.file.empty() && is_zero(material.diffuse)) {
+    if (checked.has_kd) notices.note("a texture (map_Kd) times Kd 0 would be black: Kd 1 is taken", checked.place);
+    material.diffuse = {1, 1, 1};
+  } else if (!checked.has_kd && is_zero(material.emission)) {
+    notices.note("material without Kd is black", checked.place);
+  }
   if (read.illum == 2 && !is_zero(specular)) {
     material.specular = specular;
     material.exponent = checked.has_ns ? read.shininess : 1;
@@ -165,8 +175,13 @@ void import_mtl(std::string_view text, const std::string& file, std::vector<Impo
   std::string error;
   tinyobj::LoadMtl(&names, &read, &stream, &warning, &error);
   // An empty library still gives tinyobjloader's own default material.
-  for (std::size_t i = 0; i < library.materials.size(); ++i)
-    materials.push_back({mapped(read.at(i), library.materials[i], notices), true, library.materials[i].place});
+  for (std::size_t i = 0; i < library.materials.size(); ++i) {
+    Checked& checked = library.materials[i];
+    TextureUse& texture = checked.texture;
+    if (!texture.file.empty())
+      texture.file = (std::filesystem::path(file).parent_path() / texture.file).lexically_normal().string();
+    materials.push_back({mapped(read.at(i), checked, notices), true, checked.place, texture});
+  }
 }
 
 }  // namespace torolux

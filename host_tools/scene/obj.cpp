@@ -31,7 +31,8 @@ class MeshBuilder {
     points_.clear();
     for (const tinyobj::index_t& index : indices) {
       const Corner corner{static_cast<std::uint32_t>(index.vertex_index - 1),
-                          index.normal_index > 0 ? static_cast<std::uint32_t>(index.normal_index - 1) : kNoNormal};
+                          index.normal_index > 0 ? static_cast<std::uint32_t>(index.normal_index - 1) : kNoNormal,
+                          index.texcoord_index > 0 ? static_cast<std::uint32_t>(index.texcoord_index - 1) : kNoNormal};
       const Vec3d& point = mesh_.positions.at(corner.position);
       if (!points_.empty() && (points_.back() == point)) continue;
       corners_.push_back(corner);
@@ -49,18 +50,22 @@ class MeshBuilder {
 
  private:
   struct Corner {
-    std::uint32_t position, normal;
+    std::uint32_t position, normal, texture_point;
   };
 
   void add(const std::array<std::uint32_t, 3>& triangle, const Place& place) {
     ImportedTriangle out{{}, {}, material(place), static_cast<std::uint32_t>(place.line)};
     bool normals = true;
+    bool texture_points = true;
     for (std::size_t i = 0; i < 3; ++i) {
       out.position[i] = corners_[triangle[i]].position;
       out.normal[i] = corners_[triangle[i]].normal;
+      out.texture_point[i] = corners_[triangle[i]].texture_point;
       normals = normals && out.normal[i] != kNoNormal;
+      texture_points = texture_points && out.texture_point[i] != kNoNormal;
     }
     if (!normals) out.normal.fill(kNoNormal);
+    if (!texture_points) out.texture_point.fill(kNoNormal);
     mesh_.triangles.push_back(out);
   }
 
@@ -138,6 +143,7 @@ ImportedMesh import_obj(const std::filesystem::path& path, SceneFiles& files, co
   CheckedObj checked = check_obj(files.read(path, asked_at, kMostMeshBytes), mesh.file, notices);
   mesh.positions = std::move(checked.positions);
   mesh.normals = std::move(checked.normals);
+  mesh.texture_points = std::move(checked.texture_points);
   import_libraries(checked, path.parent_path(), files, mesh, notices);
 
   MeshBuilder builder(mesh, checked, resolve_uses(checked, mesh), notices);

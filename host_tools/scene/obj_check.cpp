@@ -40,8 +40,8 @@ class ObjChecker {
       const Vec3d normal = triple(statement, 3, 3);
       result_.normals.push_back(normal);
     } else if (keyword == "vt") {
-      triple(statement, 1, 3);
-      ++texture_points_;
+      const Vec3d point = triple(statement, 1, 3);
+      result_.texture_points.push_back({point[0], point[1]});
     } else if (keyword == "f" || keyword == "fo") {
       check_face(statement);
     } else if (keyword == "usemtl") {
@@ -118,9 +118,11 @@ class ObjChecker {
       }
     }
     result_.text += ' ' + std::to_string(index(position, result_.positions.size(), "positions (v)", corner));
-    if (!texture.empty()) index(texture, texture_points_, "texture points (vt)", corner);
+    if (!texture.empty() || !normal.empty()) result_.text += '/';
+    if (!texture.empty())
+      result_.text += std::to_string(index(texture, result_.texture_points.size(), "texture points (vt)", corner));
     if (!normal.empty())
-      result_.text += "//" + std::to_string(index(normal, result_.normals.size(), "normals (vn)", corner));
+      result_.text += '/' + std::to_string(index(normal, result_.normals.size(), "normals (vn)", corner));
   }
 
   void check_face(const Statement& statement) {
@@ -154,7 +156,6 @@ class ObjChecker {
   std::string file_;
   Notices& notices_;
   Place place_;
-  std::size_t texture_points_ = 0;
   std::size_t corners_ = 0;
   CheckedObj result_;
 };

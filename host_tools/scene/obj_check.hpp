@@ -18,6 +18,7 @@ struct NameUse {
 struct CheckedObj {
   std::vector<Vec3d> positions;
   std::vector<Vec3d> normals;
+  std::vector<std::array<double, 2>> texture_points;
   std::vector<NameUse> libraries;
   std::vector<NameUse> materials;  ///< by first use; number i is called "i" in `text`
   /// `f` with indices from 1 and `usemtl` with numbers: what tinyobjloader is given.

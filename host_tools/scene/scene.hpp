@@ -14,15 +14,24 @@ using Vec3d = std::array<double, 3>;
 
 enum class SurfaceKind : std::uint8_t { diffuse, mirror, glass };
 
+/// An image that multiplies a diffuse reflectance.
+struct SceneTexture {
+  std::string file;
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::array<std::uint8_t, 3>> texels;  ///< sRGB (IEC 61966-2-1); row by row, the lowest first
+};
+inline constexpr std::uint32_t kNoImage = 0xFFFF'FFFFU;
+
 struct SceneMaterial {
   std::string name;
   SurfaceKind kind = SurfaceKind::diffuse;
-  Vec3d diffuse{0, 0, 0};         ///< Kd, reflectance, with `specular` 0..0.99 after checking; 0 for mirror and glass
-  Vec3d specular{0, 0, 0};        ///< Ks of a mirror, reflectance, 0..0.99; of a diffuse surface: of its glossy lobe
-  double exponent = 0;            ///< Ns, of the glossy lobe, >= 0
-  Vec3d transmittance{1, 1, 1};   ///< Tf of glass, at each crossing, 0..1
-  double refractive_index = 1.5;  ///< Ni of glass
-  Vec3d emission{0, 0, 0};        ///< Ke, radiance [W/(m^2 sr)] from the front
+  Vec3d diffuse{0, 0, 0};   ///< Kd, reflectance, with `specular` 0..0.99 after checking; 0 for mirror and glass
+  Vec3d specular{0, 0, 0};  ///< Ks of a mirror, reflectance, 0..0.99; of a diffuse surface: of its glossy lobe
+  std::uint32_t texture = kNoImage;  ///< into Scene::textures; of a diffuse surface
+  double exponent = 0;               ///< Ns, of the glossy lobe, >= 0
+  Vec3d transmittance{1, 1, 1};      ///< Tf of glass, at each crossing, 0..1
+  double refractive_index = 1.5;     ///< Ni of glass
+  Vec3d emission{0, 0, 0};           ///< Ke, radiance [W/(m^2 sr)] from the front
 };
 
 /// Diffuse, with a lobe about the mirror direction.
@@ -34,6 +43,7 @@ struct SceneTriangle {
   std::array<std::uint32_t, 3> position;  ///< into Scene::positions; equal positions have one index
   std::array<std::uint32_t, 3> normal;  ///< into Scene::normals, or kNoNormal: flat. Not kept for what is only diffuse
   std::uint32_t material;
+  std::uint32_t texture_points = kNoImage;  ///< textured: first of its three in Scene::texture_points
 };
 inline constexpr std::uint32_t kNoNormal = 0xFFFF'FFFFU;
 
@@ -46,7 +56,8 @@ struct Camera {
 
 /// Values that a scene.toml suggests for options the user did not give.
 struct SceneDefaults {
-  std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, emission_records, max_shots, bounces;
+  std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, emission_records, max_shots, bounces,
+      texels;
   std::optional<double> exposure_ev, patch_length, element_length, refine, unshot;
   std::optional<std::string> subspaces, allocation, filter;
   std::string subspaces_place, allocation_place, filter_place;  ///< FILE:LINE of these, for messages
@@ -57,9 +68,11 @@ struct SceneDefaults {
 struct Scene {
   std::string name;  ///< of the folder or file, for output names
   std::vector<Vec3d> positions;
-  std::vector<Vec3d> normals;  ///< unit
+  std::vector<Vec3d> normals;                         ///< unit
+  std::vector<std::array<double, 2>> texture_points;  ///< u rightwards, v upwards; textures repeat with period 1
   std::vector<SceneTriangle> triangles;
   std::vector<SceneMaterial> materials;
+  std::vector<SceneTexture> textures;
   std::optional<Camera> camera;
   SceneDefaults defaults;
   std::vector<std::string> warnings;

@@ -121,6 +121,7 @@ SceneDefaults read_defaults(TomlTable table) {
   d.emission_records = narrow(table.integer("emission_records", 0, 1'000'000'000));
   d.max_shots = narrow(table.integer("max_shots", 0, 0xFFFF'FFFFU));
   d.bounces = narrow(table.integer("bounces", 1, 255));
+  d.texels = narrow(table.integer("texels", 1, 4U << 20U));
   d.exposure_ev = table.number("exposure", -50, 50);
   d.patch_length = table.number("patches", 1e-15, kMost);
   d.element_length = table.number("elements", 1e-15, kMost);

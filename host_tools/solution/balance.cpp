@@ -29,7 +29,6 @@ struct Sums {
 
 void add_patch(const Scene& scene, const MeshPatch& patch, std::size_t number, const LightUnits& units,
                const Solution& solution, Sums& sums) {
-  const protocol::Material material = machine_material(scene.materials[patch.material], units);
   for (std::uint32_t s = 0; s < 2; ++s) {
     if (patch.side[s] == protocol::kNoSide) continue;
     const SolvedSide& side = solution.sides[patch.side[s]];
@@ -42,7 +41,7 @@ void add_patch(const Scene& scene, const MeshPatch& patch, std::size_t number, c
     add_to(sums.incident, side.incident);
     add_to(sums.unshot_emission, side.emission);
     for (std::size_t c = 0; c < 3; ++c) {
-      sums.unshot_reflected[c] += protocol::scale_down(side.incident[c] - side.shot[c], material.diffuse_fraction[c]);
+      sums.unshot_reflected[c] += protocol::scale_down(side.incident[c] - side.shot[c], patch.reflectance[c]);
     }
   }
 }

@@ -106,6 +106,7 @@ void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected,
   differ("--emission-records", saved.emission_records, expected.emission_records);
   differ("--max-shots", saved.max_shots, expected.max_shots);
   differ("--bounces", saved.bounces, expected.bounces);
+  differ("--texels", saved.texels, expected.texels);
   differ("--two-sided-lights", saved.two_sided_lights, expected.two_sided_lights);
   differ("patch sides", saved.patch_sides, expected.patch_sides);
   differ("elements", saved.elements, expected.elements);
@@ -140,19 +141,31 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   Hash geometry;
   for (const Vec3d& position : scene.positions) geometry.add(position);
   for (const Vec3d& normal : scene.normals) geometry.add(normal);
+  for (const auto& [u, v] : scene.texture_points) {
+    geometry.add(u);
+    geometry.add(v);
+  }
   for (const SceneTriangle& triangle : scene.triangles) {
     for (const std::uint32_t index : triangle.position) geometry.add(std::uint64_t{index});
     for (const std::uint32_t index : triangle.normal) geometry.add(std::uint64_t{index});
     geometry.add(std::uint64_t{triangle.material});
+    geometry.add(std::uint64_t{triangle.texture_points});
   }
   Hash materials;
   for (const SceneMaterial& material : scene.materials) {
     materials.add(static_cast<std::uint64_t>(material.kind));
     materials.add(material.diffuse);
     materials.add(material.specular);
+    materials.add(material.exponent);
+    materials.add(std::uint64_t{material.texture});
     materials.add(material.transmittance);
     materials.add(material.refractive_index);
     materials.add(material.emission);
+  }
+  for (const SceneTexture& texture : scene.textures) {
+    materials.add((std::uint64_t{texture.width} << 32U) | texture.height);
+    for (const auto& [r, g, b] : texture.texels)
+      materials.add((std::uint64_t{r} << 16U) | (std::uint64_t{g} << 8U) | b);
   }
   RadiosityOrigin origin;
   origin.geometry = geometry.value();
@@ -167,6 +180,7 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   origin.emission_records = quality.emission_records;
   origin.max_shots = quality.max_shots;
   origin.bounces = quality.bounces;
+  origin.texels = quality.texels;
   origin.two_sided_lights = quality.two_sided_lights ? 1 : 0;
   origin.patch_sides = mesh.patch_sides;
   origin.elements = mesh.elements;

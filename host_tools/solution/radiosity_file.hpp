@@ -26,6 +26,8 @@ struct RadiosityOrigin {
   std::uint32_t two_sided_lights = 0;
   std::uint32_t patch_sides = 0, elements = 0;  ///< of the mesh
   std::uint32_t emission_records = 0;
+  std::uint32_t texels = 0;
+  std::uint32_t unused = 0;
 };
 static_assert(sizeof(RadiosityOrigin) == 88);
 

@@ -15,6 +15,7 @@ namespace {
 Material read_material(const SceneMaterial& from) {
   Material material;
   material.diffuse = colour(from.diffuse);
+  material.texture = from.texture;
   material.emission = colour(from.emission);
   switch (from.kind) {
     case SurfaceKind::diffuse:
@@ -34,6 +35,12 @@ Material read_material(const SceneMaterial& from) {
       break;
   }
   return material;
+}
+
+/// sRGB, IEC 61966-2-1.
+double linear(std::uint8_t value) {
+  const double v = value / 255.0;
+  return v > 0.04045 ? std::pow((v + 0.055) / 1.055, 2.4) : v / 12.92;
 }
 
 /// What Embree hands through to the filter.
@@ -130,7 +137,7 @@ std::vector<Material> materials_of(const Scene& scene) {
 }
 
 World::World(const Scene& scene, std::vector<Material> materials, bool two_sided_lights)
-    : materials_(std::move(materials)), two_sided_lights_(two_sided_lights) {
+    : materials_(std::move(materials)), textures_(scene.textures), two_sided_lights_(two_sided_lights) {
   for (const SceneTriangle& from : scene.triangles) {
     Triangle& triangle = triangles_.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) triangle.corner[i] = vec(scene.positions[from.position[i]]);
@@ -138,6 +145,10 @@ World::World(const Scene& scene, std::vector<Material> materials, bool two_sided
     triangle.area = across.norm() / 2;
     triangle.normal = across.normalized();
     triangle.material = from.material;
+    if (from.texture_points != kNoImage) {
+      auto& points = triangle.texture_points.emplace();
+      for (std::size_t i = 0; i < 3; ++i) points[i] = scene.texture_points[from.texture_points + i];
+    }
     if (from.normal[0] == kNoNormal) continue;
     auto& normals = triangle.corner_normals.emplace();
     for (std::size_t i = 0; i < 3; ++i) normals[i] = vec(scene.normals[from.normal[i]]);
@@ -169,6 +180,33 @@ double World::expected_light(const Emitter& emitter, const Vec& point) const {
   const Vec way = point - emitter.centre;
   if (!two_sided_lights_ && way.dot(triangle.normal) <= 0) return 0;
   return emitter.power / (way.squaredNorm() + triangle.area);
+}
+
+Colour World::diffuse_at(const Hit& hit) const {
+  const Material& surface = material(hit);
+  const Triangle& triangle = triangles_[hit.triangle];
+  if (surface.texture == kNoImage || !triangle.texture_points) return surface.diffuse;
+  const SceneTexture& texture = textures_[surface.texture];
+  const auto& points = *triangle.texture_points;
+  const auto size = std::array<double, 2>{static_cast<double>(texture.width), static_cast<double>(texture.height)};
+  std::array<double, 2> at{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double place = points[0][axis] * (1 - hit.b1 - hit.b2) + points[1][axis] * hit.b1 + points[2][axis] * hit.b2;
+    at[axis] = (place - std::floor(place)) * size[axis] - 0.5;
+  }
+  Colour sum = Colour::Zero();
+  for (const double up : {0.0, 1.0}) {
+    for (const double across : {0.0, 1.0}) {
+      const double x = std::floor(at[0]) + across;
+      const double y = std::floor(at[1]) + up;
+      const double share = (1 - std::fabs(at[0] - x)) * (1 - std::fabs(at[1] - y));
+      const auto column = static_cast<std::size_t>(x < 0 ? x + size[0] : x >= size[0] ? x - size[0] : x);
+      const auto row = static_cast<std::size_t>(y < 0 ? y + size[1] : y >= size[1] ? y - size[1] : y);
+      const auto& texel = texture.texels[row * texture.width + column];
+      for (int c = 0; c < 3; ++c) sum[c] += share * linear(texel[static_cast<std::size_t>(c)]);
+    }
+  }
+  return surface.diffuse * sum;
 }
 
 Colour World::emission_at(const Hit& hit) const {

@@ -30,6 +30,7 @@ enum class Model : std::uint8_t { diffuse, mirror, glass, glossy };
 struct Material {
   Model model = Model::diffuse;
   Colour diffuse = Colour::Zero();        ///< Kd, of diffuse and glossy
+  std::uint32_t texture = kNoImage;       ///< that multiplies it
   Colour specular = Colour::Zero();       ///< Ks: of a mirror its reflectance, of glossy the lobe's at normal incidence
   double exponent = 0;                    ///< Ns of glossy, >= 0
   Colour transmittance = Colour::Ones();  ///< Tf of glass, at each crossing
@@ -41,9 +42,10 @@ inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>:
 
 struct Triangle {
   std::array<Vec, 3> corner;
-  Vec normal;                                        ///< unit, towards the front
-  double area = 0;                                   ///< [user units^2]
-  std::optional<std::array<Vec, 3>> corner_normals;  ///< unit
+  Vec normal;                                                          ///< unit, towards the front
+  double area = 0;                                                     ///< [user units^2]
+  std::optional<std::array<Vec, 3>> corner_normals;                    ///< unit
+  std::optional<std::array<std::array<double, 2>, 3>> texture_points;  ///< u, v by corner
   std::uint32_t material = 0;
 };
 
@@ -85,8 +87,8 @@ class World {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const Material& material(const Hit& hit) const { return materials_[triangles_[hit.triangle].material]; }
 
-  /// Diffuse reflectance at a hit: the place for textures.
-  Colour diffuse_at(const Hit& hit) const { return material(hit).diffuse; }
+  /// Diffuse reflectance at a hit, the texture as its file has it, bilinear, in linear light.
+  Colour diffuse_at(const Hit& hit) const;
   /// Radiance emitted towards the side that was hit.
   Colour emission_at(const Hit& hit) const;
   /// An emitter for the light at a point: near and strong ones more often, none whose back is towards it.
@@ -115,6 +117,7 @@ class World {
 
   std::vector<Triangle> triangles_;
   std::vector<Material> materials_;
+  std::vector<SceneTexture> textures_;
   std::vector<Emitter> emitters_;
   std::vector<std::uint32_t> emitter_of_;  // by triangle; kNoTriangle: none
   bool two_sided_lights_;

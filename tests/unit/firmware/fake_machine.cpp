@@ -247,6 +247,9 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.elements, s.elements);
   place(l.hemicube, s.hemicube);
   place(l.lattice, s.lattice);
+  place(l.textures, s.textures);
+  place(l.texels, s.texels);
+  place(l.texture_points, s.texture_points);
   place(l.emitters, s.emitters);
   l.record_slots = {next, l.own_slots + niu_slots};
   message(pe, MessageKind::configure, l);

@@ -189,33 +189,48 @@ TEST(Walk, SeekFindsTheCellThatHoldsTheOrigin) {
   EXPECT_TRUE(holds);
 }
 
-// Interpolation gives a linear function back everywhere, and no index leaves the lattice.
-TEST(Lattice, InterpolationIsExactForLinearFunctions) {
+// Whatever the tree, the leaf that is found holds the point, and the weights there give its place back.
+TEST(TriangleGrid, LeavesHoldTheirPoints) {
   const bool holds = rc::check([] {
     const auto level = *rc::gen::inRange<std::uint32_t>(0, 7);
-    const float n = static_cast<float>(1U << level);
-    float b1 = static_cast<float>(*rc::gen::inRange(0, 4097)) / 4096.0F;
-    float b2 = (1.0F - b1) * static_cast<float>(*rc::gen::inRange(0, 4097)) / 4096.0F;
+    const float b1 = static_cast<float>(*rc::gen::inRange(0, 4097)) / 4096.0F;
+    const float b2 = (1.0F - b1) * static_cast<float>(*rc::gen::inRange(0, 4097)) / 4096.0F;
     const float slip = static_cast<float>(*rc::gen::inRange(-2, 3)) * 0x1p-23F;  // weights off the triangle by rounding
-    const pe::LatticeWeights at = pe::lattice_weights(b1 + slip, b2 + slip, level);
-    float x = 0, y = 0, sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      RC_ASSERT(at.index[k] < protocol::lattice_size(level));
-      for (std::uint32_t j = 0; j <= 1U << level; ++j) {
-        for (std::uint32_t i = 0; i + j <= 1U << level; ++i) {
-          if (protocol::lattice_index(i, j, level) != at.index[k]) continue;
-          x += at.weight[k] * static_cast<float>(i) / n;
-          y += at.weight[k] * static_cast<float>(j) / n;
-        }
-      }
-      RC_ASSERT(at.weight[k] > -1e-4F);
-      sum += at.weight[k];
-    }
-    RC_ASSERT(std::abs(sum - 1.0F) < 1e-5F);
-    RC_ASSERT(std::abs(x - b1) < 2e-6F);
-    RC_ASSERT(std::abs(y - b2) < 2e-6F);
+    protocol::Weights at{1.0F - (b1 + slip) - (b2 + slip), b1 + slip, b2 + slip};
+    const protocol::Weights whole = at;
+    const std::uint32_t path = protocol::enter_level(at, level);
+    const std::uint32_t code = protocol::location_code(path, level);
+    RC_ASSERT(protocol::level_of_code(code) == level);
+    RC_ASSERT(protocol::path_of_code(code) == path);
+    RC_ASSERT(path < protocol::triangles_of_level(level));
+    const float most = 4.0F * 0x1p-23F * static_cast<float>(2U << level);
+    RC_ASSERT(std::min({at.b0, at.b1, at.b2}) >= -most);
+    const protocol::GridTriangle grid = protocol::grid_triangle(path, level);
+    const auto weight = [&](std::size_t w) {
+      constexpr float unit = 1.0F / (1U << protocol::kMostLevels);
+      return unit * (at.b0 * static_cast<float>(grid.corner[0][w]) + at.b1 * static_cast<float>(grid.corner[1][w]) +
+                     at.b2 * static_cast<float>(grid.corner[2][w]));
+    };
+    RC_ASSERT(std::abs(weight(1) - whole.b1) < 2e-6F);
+    RC_ASSERT(std::abs(weight(2) - whole.b2) < 2e-6F);
   });
   EXPECT_TRUE(holds);
+}
+
+// A tree that is cut in one corner only: points find the small leaf there and the large ones elsewhere.
+TEST(TriangleGrid, TreesMayBeCutUnevenly) {
+  using protocol::kLeaf;
+  const std::array<std::uint32_t, 8> nodes{4, kLeaf | 1U, kLeaf | 2U, kLeaf | 3U,
+                                           kLeaf | 10U, kLeaf | 11U, kLeaf | 12U, kLeaf | 13U};
+  const auto leaf_at = [&](float b0, float b1) {
+    protocol::Weights at{b0, b1, 1.0F - b0 - b1};
+    return protocol::find_leaf(nodes.data(), 0, at);
+  };
+  EXPECT_EQ(leaf_at(0.9F, 0.05F), 10U);
+  EXPECT_EQ(leaf_at(0.6F, 0.35F), 11U);
+  EXPECT_EQ(leaf_at(0.66F, 0.17F), 13U);
+  EXPECT_EQ(leaf_at(0.1F, 0.8F), 1U);
+  EXPECT_EQ(leaf_at(0.3F, 0.4F), 3U);
 }
 
 }  // namespace

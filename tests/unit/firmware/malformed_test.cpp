@@ -99,15 +99,26 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
       [](PeStores& s) { s.polygons[0].corner[1][1] = 1.5F; },
       [](PeStores& s) { s.polygons[2].material = 3; },
       [](PeStores& s) { s.polygons[2].normals = 0; },
-      [](PeStores& s) { s.polygons[2].patch_level = 2; },
-      [](PeStores& s) { s.polygons[2].element_level = 255; },
+      [](PeStores& s) { s.polygons[2].patch_level = 11; },
       [](PeStores& s) { s.polygons[2].surface = 0xFFFF'FFFF; },
       [](PeStores& s) { s.polygons[2].sides = 3; },
       [](PeStores& s) { s.materials[1].kind = protocol::MaterialKind{9}; },
+      [](PeStores& s) { s.materials[1].kind = protocol::MaterialKind::glossy; },
       [](PeStores& s) { s.references[1].patch = 999; },
-      [](PeStores& s) { s.references[1].patch = 0; },
+      [](PeStores& s) { s.references[1].tree = protocol::kLeaf | 4U; },
+      [](PeStores& s) { s.references[1].tree = 0x1000; },
+      [](PeStores& s) { s.nodes[0] = 0; },  // a child that is its own parent
+      [](PeStores& s) { s.nodes[2] = protocol::kLeaf | 4U; },
       [](PeStores& s) { s.references[1].pe = 4; },
-      [](PeStores& s) { s.patches[1].polygon = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.patches[1].facets = 0; },
+      [](PeStores& s) { s.patches[1].first_facet = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.patches[1].elements = 3; },
+      [](PeStores& s) { s.facets[5].polygon = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.facets[5].code = 0; },
+      [](PeStores& s) { s.facets[5].code = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.facets[5].element = 4; },
+      [](PeStores& s) { s.facets[5].of_patch = 0; },
+      [](PeStores& s) { s.facets[5].of_element = std::numeric_limits<float>::quiet_NaN(); },
       [](PeStores& s) { s.patches[1].subspace = 8; },
       [](PeStores& s) { s.patches[1].side[0] = 0x1000'0000; },
       [](PeStores& s) { s.sides[0].first_element = static_cast<std::uint32_t>(s.elements.size()) - 3; },
@@ -145,6 +156,42 @@ TEST(Malformed, EmittersThatDoNotHoldAreRefused) {
               }),
               i == 0 ? 0U : code(FaultCode::outside_store))
         << "change " << i;
+  }
+}
+
+TEST(Malformed, TexturesThatLeaveTheirStoresAreRefused) {
+  const auto fault = [](const std::function<void(PeStores&)>& change) {
+    FakeMachine machine(1);
+    machine.load(small_scene(), Stage::ray_tracing, 64, 1, [&](PeStores& s) {
+      s.textures = {{4, 3, 2}};
+      s.texels.assign(14, 0);
+      s.texture_points.assign(5, {0.5F, -2});
+      s.materials[0].texture = 0;
+      for (protocol::Polygon& polygon : s.polygons) polygon.texture_points = 2;
+      change(s);
+    });
+    return fault_of([&] {
+      machine.message(0, MessageKind::begin);
+      machine.run();
+    });
+  };
+  EXPECT_EQ(fault([](PeStores&) {}), 0U);
+  const std::vector<std::function<void(PeStores&)>> changes = {
+      [](PeStores& s) { s.materials[0].texture = 1; },
+      [](PeStores& s) { s.textures[0].first_texel = 3; },
+      [](PeStores& s) {
+        s.textures[0] = {0, 3, 2};
+      },
+      [](PeStores& s) {
+        s.textures[0] = {0x1'0001, 0x1'0000, 0};
+      },
+      [](PeStores& s) { s.polygons[0].texture_points = 3; },
+      [](PeStores& s) { s.polygons[0].texture_points = 0xFFFF'FFFF; },
+      [](PeStores& s) { s.texture_points[1].u = std::numeric_limits<float>::quiet_NaN(); },
+      [](PeStores& s) { s.texture_points[1].v = 1e9F; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
   }
 }
 

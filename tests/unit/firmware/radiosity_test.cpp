@@ -45,7 +45,7 @@ TestScene room_with_balls(std::uint32_t pes, std::array<std::uint32_t, 3> cells)
 /// Sets all emission of the lamp, unevenly by channel.
 void light_lamp(PeStores& stores) {
   for (const protocol::Patch& patch : stores.patches) {
-    if (stores.polygons[patch.polygon].material == 1 && patch.side[0] != protocol::kNoSide) {
+    if (stores.polygons[stores.facets[patch.first_facet].polygon].material == 1 && patch.side[0] != protocol::kNoSide) {
       stores.sides[patch.side[0]].emission = {kEmitted, kEmitted / 3, 12345};
     }
   }
@@ -75,14 +75,13 @@ void gather(FakeMachine& machine, Outcome& out) {
     const auto sides = machine.store<protocol::PatchSide>(p, stores.layout.patch_sides);
     const auto elements = machine.store<protocol::Element>(p, stores.layout.elements);
     for (const protocol::Patch& patch : stores.patches) {
-      const protocol::Polygon& polygon = stores.polygons[patch.polygon];
       for (std::uint32_t side = 0; side < 2; ++side) {
         if (patch.side[side] == protocol::kNoSide) continue;
         const protocol::PatchSide& s = sides[patch.side[side]];
         auto& list = out.flux[{patch.number, side}];
         Flux sum{};
         list.push_back(s.incident);
-        for (std::uint32_t e = 0; e < pe::Scene::elements_per_patch(polygon); ++e) {
+        for (std::uint32_t e = 0; e < patch.elements; ++e) {
           list.push_back(elements[s.first_element + e].flux);
           list.push_back(elements[s.first_element + e].direct);
           add_to(sum, elements[s.first_element + e].flux);

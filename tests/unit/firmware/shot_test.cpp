@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "firmware/pe/hemicube.hpp"
+#include "firmware/pe/shot_points.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
 #include "tests/unit/firmware/fake_machine.hpp"
 
 namespace torolux::test {
@@ -20,24 +23,58 @@ TEST(Hemicube, WeightsAddUpToExactlyOne) {
   for (const std::uint32_t n : {2U, 4U, 6U, 16U, 64U, 256U}) {
     const auto table = hemicube_table(n);
     std::uint64_t sum = 0;
-    for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p) sum += table[pe::hemicube_pixel(n, p).weight];
+    for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p) sum += table[pe::weight_of(n, pe::hemicube_pixel(n, p))];
     EXPECT_EQ(sum, protocol::kOne) << n;
   }
 }
+
+/// The place on the cube of half-width 1 that a direction in the frame x, y, z goes through.
+glm::vec3 on_cube(const glm::vec3& d) {
+  return d * (1.0F / std::max({std::abs(d.x), std::abs(d.y), d.z}));
+}
+constexpr pe::Frame kAxes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 // Every direction is on its own side of the surface, and the pixel's weight is its delta form factor there.
 TEST(Hemicube, PixelsLieWhereTheirWeightsSay) {
   const std::uint32_t n = 32;
   const auto table = hemicube_table(n);
   for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p) {
-    const pe::HemicubePixel at = pe::hemicube_pixel(n, p);
+    const pe::HemicubePixel pixel = pe::hemicube_pixel(n, p);
+    const glm::vec3 at = on_cube(pe::pixel_direction(kAxes, n, pixel, {}));
     ASSERT_GT(at.z, 0.0F);
-    ASSERT_EQ(std::max({std::abs(at.x), std::abs(at.y), at.z}), 1.0F);
-    const double r2 = static_cast<double>(at.x * at.x + at.y * at.y + at.z * at.z);
-    const double area = 4.0 / (n * n);  // cos * cos' / (pi r^2) * area at the centre, cos' = 1 / r on any face
+    const double r2 = static_cast<double>(glm::dot(at, at));
+    const double area = 4.0 / (n * n);  // cos * cos' / (pi r^2) * area at a point, cos' = 1 / r on any face
     const double mid = static_cast<double>(at.z) * area / (std::numbers::pi * r2 * r2);
-    ASSERT_NEAR(table[at.weight] * 0x1p-32, mid, 0.004 * mid + 1e-9) << p;  // mid-point rule, N = 32: below 0.3 %
+    // At the half of its light in either direction, which for a pixel at a side's foot is off its middle.
+    const bool foot = pixel.face != pe::HemicubePixel::kTop && pixel.row == 0;
+    ASSERT_NEAR(table[pe::weight_of(n, pixel)] * 0x1p-32, mid, (foot ? 0.45 : 0.06) * mid + 1e-9) << p;
   }
+}
+
+// Light goes through a pixel as its delta form factor is spread there, not evenly: else a coarse hemi-cube sends too
+// much along the surface. Of a bottom pixel's light a quarter leaves below half its height (its density rises from the
+// surface like z).
+TEST(Hemicube, LightIsSpreadOverAPixelAsItsFormFactor) {
+  const std::uint32_t n = 8;
+  std::mt19937 random(5);
+  const auto uniform = [&] { return static_cast<float>(random() >> 8U) * 0x1p-24F; };
+  int low = 0;
+  int top_inner = 0;
+  constexpr int kDraws = 20'000;
+  for (int i = 0; i < kDraws; ++i) {
+    const glm::vec3 side = on_cube(pe::pixel_direction(kAxes, n, {0, 0, 3}, {uniform(), uniform()}));
+    ASSERT_EQ(side.x, 1.0F);
+    ASSERT_GE(side.y, -0.25F - 1e-6F);
+    ASSERT_LE(side.y, 1e-6F);
+    low += side.z < 0.125F ? 1 : 0;
+    const glm::vec3 top = on_cube(pe::pixel_direction(kAxes, n, {pe::HemicubePixel::kTop, 7, 7}, {uniform(), uniform()}));
+    ASSERT_GE(top.x, 0.75F - 1e-6F);
+    top_inner += top.x < 0.875F ? 1 : 0;
+  }
+  // Standard deviation of a share of 20,000 draws: below 0.36 %.
+  EXPECT_NEAR(static_cast<double>(low) / kDraws, 0.25, 0.02);
+  // (1 + x^2 + y^2)^-2 over the corner pixel, integrated by hand over both halves: 0.541.
+  EXPECT_NEAR(static_cast<double>(top_inner) / kDraws, 0.541, 0.015);
 }
 
 // Parallel unit squares at distance 1, facing: from the centre of one, the closed form of the corner view factor, four
@@ -51,13 +88,13 @@ TEST(Hemicube, DirectionsFollowTheCosineLaw) {
   double sum = 0;
   const int spins = 64;
   for (int s = 0; s < spins; ++s) {
-    const pe::Frame frame = pe::spun({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, static_cast<float>(random() >> 8U) * 0x1p-24F);
+    const pe::Frame frame = pe::spun(kAxes, static_cast<float>(random() >> 8U) * 0x1p-24F);
     for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p) {
       const pe::HemicubePixel pixel = pe::hemicube_pixel(n, p);
-      const glm::vec3 d = pe::pixel_direction(frame, pixel);
+      const glm::vec3 d = pe::pixel_direction(frame, n, pixel, {});
       ASSERT_NEAR(glm::length(d), 1.0F, 2e-7F);
       ASSERT_GT(d.z, 0.0F);
-      if (std::abs(d.x / d.z) < 0.5F && std::abs(d.y / d.z) < 0.5F) sum += table[pixel.weight] * 0x1p-32;
+      if (std::abs(d.x / d.z) < 0.5F && std::abs(d.y / d.z) < 0.5F) sum += table[pe::weight_of(n, pixel)] * 0x1p-32;
     }
   }
   EXPECT_NEAR(sum / spins, expected, 0.005 * expected);  // 64 spins of 32 pixels: some 0.1 % of noise
@@ -65,7 +102,7 @@ TEST(Hemicube, DirectionsFollowTheCosineLaw) {
 
 TEST(Hemicube, SpinTurnsByTheAngleGiven) {
   for (const float turn : {0.0F, 0.25F, 0.5F, 0.99F}) {
-    const pe::Frame f = pe::spun({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, turn);
+    const pe::Frame f = pe::spun(kAxes, turn);
     const double angle = (static_cast<double>(turn) - 0.5) * std::numbers::pi / 2;
     EXPECT_NEAR(f.x.x, std::cos(angle), 1e-7);
     EXPECT_NEAR(f.x.y, std::sin(angle), 1e-7);
@@ -73,26 +110,91 @@ TEST(Hemicube, SpinTurnsByTheAngleGiven) {
   }
 }
 
-// The k * k points are the centroids of equal triangles: inside, all different, their mean the patch's centre.
-TEST(Hemicube, PointsOfAPatchAreStratified) {
-  for (std::uint32_t k = 1; k <= 6; ++k) {
-    double a = 0, b = 0;
-    std::vector<std::pair<int, int>> seen;
+/// A patch of four elements, whose unshot flux is given, and its shot of k * k points.
+struct PointsOfAPatch {
+  TestScene scene;
+  std::vector<PeStores> stores;
+  pe::Scene view;
+  pe::Shot shot;
+
+  PointsOfAPatch(std::uint32_t k, const std::array<protocol::Vec3f, 4>& unshot, protocol::ShotKind kind) {
+    scene.materials = {diffuse_material(0.5F)};
+    scene.polygons.push_back({{{{0, 0, 0.5F}, {1, 0, 0.5F}, {0, 1, 0.5F}}}, 0, 1, 0, 1});
+    stores = build_stores(scene, protocol::Stage::radiosity);
+    view = stores[0].scene();
+    for (std::size_t e = 0; e < 4; ++e) view.elements[e].unshot = unshot[e];
+    shot.command.kind = kind;
+    shot.flux = {1'000'003, 600'011, 7};
+    shot.grid = k;
+    pe::begin_points(view, shot);
+  }
+
+  void place(std::uint32_t point) {
+    shot.point = point;
+    shot.key = protocol::hash_combine(77, point);
+    pe::place_point(view, shot);
+  }
+  /// Which element the point lies on.
+  std::uint32_t element() const {
+    protocol::Weights at{1.0F - shot.origin.x - shot.origin.y, shot.origin.x, shot.origin.y};
+    return protocol::enter_level(at, 1);
+  }
+};
+
+// Emitted light leaves evenly: with k a power of two each of the k * k equal triangles gets one point.
+TEST(ShotPoints, EmittedLightLeavesFromEqualParts) {
+  for (const std::uint32_t k : {1U, 2U, 4U, 8U}) {
+    PointsOfAPatch points(k, {}, protocol::ShotKind::emitted);
+    std::vector<std::uint32_t> seen;
+    protocol::Flux sum{};
     for (std::uint32_t p = 0; p < k * k; ++p) {
-      const pe::PatchPoint at = pe::patch_point(k, p);
-      ASSERT_GT(at.a, 0.0F);
-      ASSERT_GT(at.b, 0.0F);
-      ASSERT_LT(at.a + at.b, 1.0F);
-      seen.emplace_back(std::lround(at.a * 3.0F * static_cast<float>(k)),
-                        std::lround(at.b * 3.0F * static_cast<float>(k)));
-      a += static_cast<double>(at.a);
-      b += static_cast<double>(at.b);
+      points.place(p);
+      protocol::Weights at{1.0F - points.shot.origin.x - points.shot.origin.y, points.shot.origin.x,
+                           points.shot.origin.y};
+      ASSERT_GT(std::min({at.b0, at.b1, at.b2}), 0.0F);
+      seen.push_back(protocol::enter_level(at, static_cast<std::uint32_t>(std::bit_width(k)) - 1U));
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += points.shot.share[c];
+      EXPECT_NEAR(static_cast<double>(points.shot.share[0]), 1'000'003.0 / (k * k), 2.0);
     }
     std::sort(seen.begin(), seen.end());
-    EXPECT_EQ(std::unique(seen.begin(), seen.end()), seen.end());
-    EXPECT_NEAR(a / (k * k), 1.0 / 3, 1e-6);
-    EXPECT_NEAR(b / (k * k), 1.0 / 3, 1e-6);
+    EXPECT_EQ(std::unique(seen.begin(), seen.end()), seen.end()) << k;
+    EXPECT_EQ(sum, points.shot.flux);
   }
+}
+
+// Reflected light leaves where it came, in each channel its own share; the shares add up to the quantum.
+TEST(ShotPoints, ReflectedLightLeavesWhereItCame) {
+  // Red came to element 0, three times as much green to element 2, nothing to the others.
+  PointsOfAPatch points(8, {{{10, 0, 0}, {0, 0, 0}, {0, 30, 0}, {0, 0, 0}}}, protocol::ShotKind::reflected);
+  std::array<protocol::Flux, 4> by_element{};
+  protocol::Flux sum{};
+  std::array<int, 4> count{};
+  for (std::uint32_t p = 0; p < 64; ++p) {
+    points.place(p);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_GE(points.shot.share[c], 0);
+      by_element[points.element()][c] += points.shot.share[c];
+      sum[c] += points.shot.share[c];
+    }
+    ++count[points.element()];
+  }
+  EXPECT_EQ(sum, points.shot.flux);
+  EXPECT_EQ(count, (std::array{16, 0, 48, 0}));
+  EXPECT_EQ(by_element[0][0], 1'000'003);
+  EXPECT_EQ(by_element[2][1], 600'011);
+  // Once shot, it is not shot again; what comes later is.
+  EXPECT_EQ(points.view.elements[2].shot, (protocol::Vec3f{0, 30, 0}));
+}
+
+// So little that it is lost in rounding: it leaves from anywhere, and not a quantum is lost.
+TEST(ShotPoints, WhatNoElementKnowsOfLeavesByArea) {
+  PointsOfAPatch points(3, {}, protocol::ShotKind::reflected);
+  protocol::Flux sum{};
+  for (std::uint32_t p = 0; p < 9; ++p) {
+    points.place(p);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += points.shot.share[c];
+  }
+  EXPECT_EQ(sum, points.shot.flux);
 }
 
 /// One lamp triangle in a black room that takes everything.
@@ -189,13 +291,12 @@ TEST(Select, BestFirstTiesByNumberSideAndKind) {
   for (const protocol::Candidate& c : all) {
     const auto& patch = stores.patches[c.patch];
     const auto& side = stores.sides[patch.side[c.side]];
-    const auto& m = stores.materials[stores.polygons[patch.polygon].material];
     EXPECT_EQ(c.number, patch.number);
     std::int64_t unshot = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int64_t amount = c.kind == ShotKind::emitted ? side.emission[k] : side.incident[k] - side.shot[k];
       EXPECT_EQ(c.amount[k], amount);
-      unshot += c.kind == ShotKind::emitted ? amount : protocol::scale_down(amount, m.diffuse_fraction[k]);
+      unshot += c.kind == ShotKind::emitted ? amount : protocol::scale_down(amount, patch.reflectance[k]);
     }
     EXPECT_EQ(c.unshot, unshot);
   }

@@ -106,18 +106,38 @@ class Builder {
     polygon.material = from.material;
     polygon.sides = from.sides;
     polygon.patch_level = from.patch_level;
-    polygon.element_level = from.element_level;
     if (stage_ == protocol::Stage::ray_tracing) {
-      polygon.surface = static_cast<std::uint32_t>(out.lattice.size());
       const std::uint32_t lattices = from.sides == 3 ? 2 : from.sides == 0 ? 0 : 1;
-      out.lattice.insert(out.lattice.end(), lattices * protocol::lattice_size(from.element_level),
-                         {{lattice_value_, lattice_value_, lattice_value_}});
+      auto leaf = static_cast<std::uint32_t>(out.lattice.size());
+      polygon.surface = add_tree(out, from.element_level, lattices, leaf);
+      const protocol::Vec3f value{lattice_value_, lattice_value_, lattice_value_};
+      out.lattice.resize(leaf, {{value, value, value}});
     } else {
       polygon.surface = static_cast<std::uint32_t>(out.references.size());
-      for (const PatchPlace& place : places_[number]) out.references.push_back({place.local, place.pe, 0});
+      for (const PatchPlace& place : places_[number]) {
+        std::uint32_t element = 0;
+        const std::uint32_t tree = add_tree(out, from.element_level - from.patch_level, 1, element);
+        out.references.push_back({place.local, place.pe, 0, tree});
+      }
     }
     out.polygons.push_back(polygon);
     if (stage_ == protocol::Stage::radiosity) add_patches(out, pe, number);
+  }
+
+  /// A tree cut evenly; its leaves are numbered from `leaf` on, `step` apart. Returns its node.
+  static std::uint32_t add_tree(PeStores& out, std::uint32_t levels, std::uint32_t step, std::uint32_t& leaf) {
+    if (levels == 0) {
+      const std::uint32_t here = protocol::kLeaf | leaf;
+      leaf += step;
+      return here;
+    }
+    const auto first = static_cast<std::uint32_t>(out.nodes.size());
+    out.nodes.resize(first + 4);
+    for (std::uint32_t child = 0; child < 4; ++child) {
+      const std::uint32_t node = add_tree(out, levels - 1, step, leaf);
+      out.nodes[first + child] = node;
+    }
+    return first;
   }
 
   void add_patches(PeStores& out, std::uint16_t pe, std::uint32_t number) {
@@ -126,13 +146,28 @@ class Builder {
     for (std::uint32_t p = 0; p < number; ++p) global += static_cast<std::uint32_t>(places_[p].size());
     for (std::uint32_t path = 0; path < places_[number].size(); ++path) {
       if (places_[number][path].pe != pe) continue;
-      protocol::Patch patch{
-          global + path, number, path, places_[number][path].subspace, {protocol::kNoSide, protocol::kNoSide}};
+      const std::uint32_t levels = from.element_level - from.patch_level;
+      const std::uint32_t elements = protocol::triangles_of_level(levels);
+      protocol::Patch patch{global + path,
+                            static_cast<std::uint32_t>(out.facets.size()),
+                            elements,
+                            elements,
+                            places_[number][path].subspace,
+                            {protocol::kNoSide, protocol::kNoSide},
+                            {}};
+      for (std::uint32_t e = 0; e < elements; ++e) {
+        const std::uint32_t code = protocol::location_code((path << (2U * levels)) | e, from.element_level);
+        out.facets.push_back({number, code, e, 1.0F / static_cast<float>(elements), 1.0F});
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        patch.reflectance[c] = static_cast<std::uint32_t>(
+            protocol::to_fraction(static_cast<double>(scene_.materials[from.material].diffuse[c])));
+      }
       for (std::uint32_t side = 0; side < 2; ++side) {
         if ((from.sides & (1U << side)) == 0) continue;
         patch.side[side] = static_cast<std::uint32_t>(out.sides.size());
         out.sides.push_back({{}, {}, {}, static_cast<std::uint32_t>(out.elements.size()), 0});
-        out.elements.resize(out.elements.size() + (1U << (2U * (from.element_level - from.patch_level))));
+        out.elements.resize(out.elements.size() + elements);
       }
       out.patches.push_back(patch);
     }
@@ -178,12 +213,13 @@ protocol::Material diffuse_material(float reflectance, float emission) {
   m.kind = protocol::MaterialKind::diffuse;
   m.diffuse = {reflectance, reflectance, reflectance};
   m.emission = {emission, emission, emission};
-  m.diffuse_fraction.fill(protocol::to_fraction(static_cast<double>(reflectance)));
+  m.texture = protocol::kNoTexture;
   return m;
 }
 protocol::Material mirror_material(float reflectance) {
   protocol::Material m{};
   m.kind = protocol::MaterialKind::mirror;
+  m.texture = protocol::kNoTexture;
   m.specular = {reflectance, reflectance, reflectance};
   m.specular_fraction.fill(protocol::to_fraction(static_cast<double>(reflectance)));
   return m;
@@ -191,6 +227,7 @@ protocol::Material mirror_material(float reflectance) {
 protocol::Material glass_material(float refractive_index, float transmittance) {
   protocol::Material m{};
   m.kind = protocol::MaterialKind::glass;
+  m.texture = protocol::kNoTexture;
   m.refractive_index = refractive_index;
   m.transmittance = {transmittance, transmittance, transmittance};
   m.transmittance_fraction.fill(protocol::to_fraction(static_cast<double>(transmittance)));
@@ -231,12 +268,17 @@ pe::Scene PeStores::scene() {
   s.polygons = polygons;
   s.materials = materials;
   s.normals = normals;
+  s.nodes = nodes;
   s.patch_references = references;
   s.patches = patches;
   s.patch_sides = sides;
   s.elements = elements;
+  s.facets = facets;
   s.hemicube = hemicube;
   s.lattice = lattice;
+  s.textures = textures;
+  s.texels = texels;
+  s.texture_points = texture_points;
   s.emitters = emitters;
   return s;
 }

@@ -57,12 +57,17 @@ struct PeStores {
   std::vector<protocol::Polygon> polygons;
   std::vector<protocol::Material> materials;
   std::vector<protocol::Vec3f> normals;
+  std::vector<std::uint32_t> nodes;  ///< uniform trees
   std::vector<protocol::PatchReference> references;
   std::vector<protocol::Patch> patches;
   std::vector<protocol::PatchSide> sides;
   std::vector<protocol::Element> elements;
+  std::vector<protocol::Facet> facets;
   std::vector<std::uint32_t> hemicube;
-  std::vector<protocol::LatticeValue> lattice;  ///< all `lattice_value`
+  std::vector<protocol::LatticeTriangle> lattice;  ///< all `lattice_value`
+  std::vector<protocol::Texture> textures;      ///< none, as those that follow
+  std::vector<protocol::Texel> texels;
+  std::vector<protocol::TexturePoint> texture_points;
   std::vector<protocol::Emitter> emitters;      ///< ray tracing stage
 
   /// Spans over these vectors, for handlers called directly.

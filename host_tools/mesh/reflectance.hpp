@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The diffuse reflectance of every patch: the material's, times its texture's mean over the patch.
+#pragma once
+
+#include "host_tools/mesh/mesh.hpp"
+
+namespace torolux {
+
+/// Fills MeshPatch::reflectance from the rest of the mesh.
+void set_reflectances(const Scene& scene, Mesh& mesh);
+
+}  // namespace torolux
