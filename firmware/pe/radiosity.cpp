@@ -126,7 +126,7 @@ bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch) {
     return false;
   }
   const protocol::Patch& from = pe.scene.patches[patch];
-  const Material& material = pe.scene.materials[pe.scene.polygons[from.polygon].material];
+  const Material& material = pe.scene.materials[pe.scene.polygons[pe.scene.facets[from.first_facet].polygon].material];
   std::int64_t any = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     record.flux[c] = protocol::scale_by(record.flux[c], material.specular_fraction[c]);

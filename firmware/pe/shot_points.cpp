@@ -27,7 +27,8 @@ glm::vec3 sent_by(const Scene& scene, const Shot& shot, const Facet& facet) {
   const Patch& patch = scene.patches[shot.command.patch];
   const Element& element =
       scene.elements[scene.patch_sides[patch.side[shot.command.side]].first_element + facet.element];
-  return to_vector(element.unshot) * glm::vec3(static_cast<float>(patch.reflectance[0]), static_cast<float>(patch.reflectance[1]),
+  return to_vector(element.unshot) *
+         glm::vec3(static_cast<float>(patch.reflectance[0]), static_cast<float>(patch.reflectance[1]),
                    static_cast<float>(patch.reflectance[2])) *
          0x1p-32F * facet.of_element;
 }

@@ -95,9 +95,9 @@ struct Patch {
   std::uint32_t number;       ///< global: ties are broken by it
   std::uint32_t first_facet;  ///< index into the facets
   std::uint32_t facets;
-  std::uint32_t elements;             ///< of each side
-  std::uint32_t subspace;             ///< local number of the subspace that holds its centre
-  std::array<std::uint32_t, 2> side;  ///< front, back: index into the patch sides, or kNoSide
+  std::uint32_t elements;                    ///< of each side
+  std::uint32_t subspace;                    ///< local number of the subspace that holds its centre
+  std::array<std::uint32_t, 2> side;         ///< front, back: index into the patch sides, or kNoSide
   std::array<std::uint32_t, 3> reflectance;  ///< diffuse, a texture's mean over the patch; in units of 2^-32
 };
 static_assert(sizeof(Patch) == 40);

@@ -78,7 +78,8 @@ void add_tone_options(CLI::App& command, ToneOptions& options, const std::string
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);
-/// --patches, --elements, --refine, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights, --seed.
+/// --patches, --elements, --refine, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights,
+/// --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
 /// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);

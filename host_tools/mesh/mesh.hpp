@@ -68,9 +68,10 @@ struct MeshPatch {
   std::uint32_t material = 0;
   std::uint32_t first_facet = 0;
   std::uint32_t facets = 0;
-  std::uint32_t elements = 0;                                                        ///< of each side
-  double area = 0;                                                                   ///< [user units^2]
-  Vec3d centre{0, 0, 0};                                                             ///< normalised
+  std::uint32_t elements = 0;                  ///< of each side
+  double area = 0;                             ///< [user units^2]
+  Vec3d centre{0, 0, 0};                       ///< normalised
+  std::array<std::uint32_t, 3> reflectance{};  ///< diffuse, a texture's mean; in units of 2^-32
   std::array<std::uint32_t, 2> side{protocol::kNoSide, protocol::kNoSide};           ///< front, back: global number
   std::array<std::uint32_t, 2> first_element{protocol::kNoSide, protocol::kNoSide};  ///< likewise
 };

@@ -25,7 +25,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 3;
+constexpr std::uint16_t kVersion = 4;
 
 struct SavedSums {
   protocol::Tally tally;

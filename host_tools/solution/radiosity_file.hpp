@@ -29,7 +29,7 @@ struct RadiosityOrigin {
   std::uint32_t texels = 0;
   std::uint32_t unused = 0;
 };
-static_assert(sizeof(RadiosityOrigin) == 88);
+static_assert(sizeof(RadiosityOrigin) == 96);
 
 RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, const Mesh& mesh);
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "firmware/protocol/triangle_grid.hpp"
 #include "tests/support/cornell_cells.hpp"
 #include "tests/support/cornell_means.hpp"
 
@@ -22,10 +21,8 @@ std::array<double, 3> cell_mean(const CornellSolution& cornell, const ReferenceQ
     const double u = (cu + (column + 0.5) / kPoints) / kCells;
     const double v = (cv + (row + 0.5) / kPoints) / kCells;
     const PlaceOnQuad place = place_on_quad(cornell.scene, reference, quad, u, v);
-    const MeshTriangle& triangle = cornell.mesh.triangles[place.triangle];
-    const std::uint32_t path =
-        protocol::path_of_point(static_cast<float>(place.b1), static_cast<float>(place.b2), triangle.element_level);
-    const auto radiance = element_radiance(cornell, triangle, path);
+    const auto radiance = radiance_at(cornell, static_cast<std::uint32_t>(place.triangle), static_cast<float>(place.b1),
+                                      static_cast<float>(place.b2));
     for (std::size_t c = 0; c < 3; ++c) sum[c] += radiance[c] / (kPoints * kPoints);
   }
   return sum;

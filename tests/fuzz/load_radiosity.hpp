@@ -31,15 +31,13 @@ class RadiosityFuzz {
     Solution solution;
     solution.elements.resize(mesh_.elements);
     solution.sides.resize(mesh_.patch_sides);
-    for (const MeshTriangle& triangle : mesh_.triangles) {
+    for (const MeshPatch& patch : mesh_.patches) {
       for (std::uint32_t s = 0; s < 2; ++s) {
-        if (triangle.first_side[s] == protocol::kNoSide) continue;
-        for (std::uint32_t p = 0; p < protocol::triangles_of_level(triangle.patch_level); ++p) {
-          solution.sides[triangle.first_side[s] + p].emission = patch_emission(scene_, triangle, s, units_);
-        }
+        if (patch.side[s] == protocol::kNoSide) continue;
+        solution.sides[patch.side[s]].emission = patch_emission(scene_, patch, s, units_);
       }
     }
-    return pack_radiosity(origin_, solution);
+    return pack_radiosity(origin_, std::vector<Split>{{0, 1}, {2, 1}}, solution);
   }
 
   /// True: taken, as it is or with its head set right.
@@ -72,7 +70,7 @@ class RadiosityFuzz {
 
   bool unpack(std::span<const std::byte> bytes) const {
     try {
-      const Solution solution = unpack_radiosity(bytes, origin_, mesh_, "fuzz.rad");
+      const Solution solution = unpack_radiosity(parse_radiosity(bytes, "fuzz.rad"), origin_, mesh_);
       if (solution.sides.size() != mesh_.patch_sides || solution.elements.size() != mesh_.elements) __builtin_trap();
       balance(scene_, mesh_, units_, solution);
       return true;

@@ -127,8 +127,8 @@ std::vector<DenseElement> dense_elements(const Scene& scene, const Mesh& mesh, b
       const MeshFacet& facet = mesh.facets[patch.first_facet + e];
       for (std::size_t side = 0; side < 2; ++side) {
         if (patch.side[side] == protocol::kNoSide) continue;
-        elements.at(patch.first_element[side] + e) = dense_element(scene, mesh.triangles[facet.triangle], facet,
-                                                                   side == 1, side == 0 || two_sided_lights);
+        elements.at(patch.first_element[side] + e) =
+            dense_element(scene, mesh.triangles[facet.triangle], facet, side == 1, side == 0 || two_sided_lights);
       }
     }
   }

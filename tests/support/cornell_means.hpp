@@ -26,9 +26,8 @@ CornellSolution solve_cornell(RenderCase cornell);
 /// over each. [W/(m^2 sr)]
 std::vector<std::array<double, 3>> mean_radiance(const CornellSolution& cornell);
 
-/// The same, of one element [W/(m^2 sr)].
-std::array<double, 3> element_radiance(const CornellSolution& cornell, const MeshTriangle& triangle,
-                                       std::uint32_t element);
+/// The same, of the element at a point of a triangle; b1, b2: weights of its corners 1 and 2 [W/(m^2 sr)].
+std::array<double, 3> radiance_at(const CornellSolution& cornell, std::uint32_t triangle, float b1, float b2);
 
 /// Path traced means of B / pi, to 0.1 % (../shared/data/references.md). The floor's counts what the blocks hide as
 /// dark.

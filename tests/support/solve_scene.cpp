@@ -27,9 +27,11 @@ SolvedScene solve_scene(const Scene& scene, RenderCase render_case) {
   const Camera camera = render_case.camera ? *render_case.camera : scene.camera.value();
   SolvedScene result{scene, {}, 0, {}, {}};
   result.figures = render(scene, camera, quality, render_case.machine, render_case.files, pe_image(), {}).figures;
-  result.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights});
+  const SavedRadiosity saved = read_radiosity(file);
+  result.mesh = make_mesh(
+      scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels, saved.splits});
   result.watts_per_quantum = light_units(scene, result.mesh, quality.two_sided_lights).watts_per_quantum;
-  result.solution = load_radiosity(file, radiosity_origin(scene, quality, result.mesh), result.mesh);
+  result.solution = unpack_radiosity(saved, radiosity_origin(scene, quality, result.mesh), result.mesh);
   return result;
 }
 

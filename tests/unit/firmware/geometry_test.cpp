@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "firmware/pe/intersect.hpp"
-#include "firmware/pe/surface.hpp"
 #include "firmware/pe/traverse.hpp"
 #include "firmware/pe/walk.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
 #include "tests/unit/firmware/test_scene.hpp"
 
 namespace torolux::test {
@@ -220,7 +220,7 @@ TEST(TriangleGrid, LeavesHoldTheirPoints) {
 // A tree that is cut in one corner only: points find the small leaf there and the large ones elsewhere.
 TEST(TriangleGrid, TreesMayBeCutUnevenly) {
   using protocol::kLeaf;
-  const std::array<std::uint32_t, 8> nodes{4, kLeaf | 1U, kLeaf | 2U, kLeaf | 3U,
+  const std::array<std::uint32_t, 8> nodes{4,           kLeaf | 1U,  kLeaf | 2U,  kLeaf | 3U,
                                            kLeaf | 10U, kLeaf | 11U, kLeaf | 12U, kLeaf | 13U};
   const auto leaf_at = [&](float b0, float b1) {
     protocol::Weights at{b0, b1, 1.0F - b0 - b1};

@@ -6,6 +6,7 @@
 #include <functional>
 #include <random>
 
+#include "firmware/protocol/triangle_grid.hpp"
 #include "tests/unit/firmware/fake_machine.hpp"
 
 namespace torolux::test {

@@ -11,6 +11,7 @@
 
 #include "firmware/pe/hemicube.hpp"
 #include "firmware/pe/shot_points.hpp"
+#include "firmware/protocol/random.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "tests/unit/firmware/fake_machine.hpp"
 
@@ -23,7 +24,8 @@ TEST(Hemicube, WeightsAddUpToExactlyOne) {
   for (const std::uint32_t n : {2U, 4U, 6U, 16U, 64U, 256U}) {
     const auto table = hemicube_table(n);
     std::uint64_t sum = 0;
-    for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p) sum += table[pe::weight_of(n, pe::hemicube_pixel(n, p))];
+    for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p)
+      sum += table[pe::weight_of(n, pe::hemicube_pixel(n, p))];
     EXPECT_EQ(sum, protocol::kOne) << n;
   }
 }
@@ -67,7 +69,8 @@ TEST(Hemicube, LightIsSpreadOverAPixelAsItsFormFactor) {
     ASSERT_GE(side.y, -0.25F - 1e-6F);
     ASSERT_LE(side.y, 1e-6F);
     low += side.z < 0.125F ? 1 : 0;
-    const glm::vec3 top = on_cube(pe::pixel_direction(kAxes, n, {pe::HemicubePixel::kTop, 7, 7}, {uniform(), uniform()}));
+    const glm::vec3 top =
+        on_cube(pe::pixel_direction(kAxes, n, {pe::HemicubePixel::kTop, 7, 7}, {uniform(), uniform()}));
     ASSERT_GE(top.x, 0.75F - 1e-6F);
     top_inner += top.x < 0.875F ? 1 : 0;
   }

@@ -65,10 +65,10 @@ struct PeStores {
   std::vector<protocol::Facet> facets;
   std::vector<std::uint32_t> hemicube;
   std::vector<protocol::LatticeTriangle> lattice;  ///< all `lattice_value`
-  std::vector<protocol::Texture> textures;      ///< none, as those that follow
+  std::vector<protocol::Texture> textures;         ///< none, as those that follow
   std::vector<protocol::Texel> texels;
   std::vector<protocol::TexturePoint> texture_points;
-  std::vector<protocol::Emitter> emitters;      ///< ray tracing stage
+  std::vector<protocol::Emitter> emitters;  ///< ray tracing stage
 
   /// Spans over these vectors, for handlers called directly.
   pe::Scene scene();

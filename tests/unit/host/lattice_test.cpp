@@ -14,26 +14,41 @@
 namespace torolux {
 namespace {
 
-/// Value of a triangle's front lattice at a point of its edge, by linear interpolation between lattice vertices.
-/// along: 0..1 from corner `edge` to corner edge + 1.
+/// Value at a point of a triangle, by linear interpolation over the facet that holds it.
+double value_at(const Mesh& mesh, const Lattice& lattice, std::uint32_t t, float b1, float b2, std::uint32_t side = 0) {
+  const std::uint32_t f = mesh.facet_at(t, b1, b2);
+  protocol::Weights at{(1.0F - b1) - b2, b1, b2};
+  protocol::enter_level(at, protocol::level_of_code(mesh.facets[f].code));
+  const auto& corner = lattice.triangles[lattice.first[f] + side].irradiance_over_pi;
+  return static_cast<double>(at.b0 * corner[0][0] + at.b1 * corner[1][0] + at.b2 * corner[2][0]);
+}
+
+/// along: 0..1 from corner `edge` to corner edge + 1, a little inside.
 double on_edge(const Mesh& mesh, const Lattice& lattice, std::uint32_t t, std::uint32_t edge, double along) {
-  const std::uint32_t level = mesh.triangles[t].element_level;
-  const std::uint32_t n = 1U << level;
-  const auto vertex = [&](std::uint32_t k) {
-    const std::uint32_t i = edge == 0 ? k : edge == 1 ? n - k : 0;
-    const std::uint32_t j = edge == 0 ? 0 : edge == 1 ? k : n - k;
-    return static_cast<double>(
-        lattice.values[lattice.first[t][0] + protocol::lattice_index(i, j, level)].irradiance_over_pi[0]);
-  };
-  const double at = along * n;
-  const auto k = std::min(static_cast<std::uint32_t>(at), n - 1);
-  return vertex(k) + (vertex(k + 1) - vertex(k)) * (at - k);
+  std::array<float, 3> weight{1e-6F, 1e-6F, 1e-6F};
+  weight[edge] = static_cast<float>(1 - along);
+  weight[(edge + 1) % 3] = static_cast<float>(along);
+  return value_at(mesh, lattice, t, weight[1], weight[2]);
 }
 
 /// Flux that rises over the scene: a hash would do as well, but this shows in failures where it comes from.
 std::vector<protocol::Flux> uneven_flux(const Mesh& mesh) {
   std::vector<protocol::Flux> flux(mesh.elements);
   for (std::uint32_t e = 0; e < mesh.elements; ++e) flux[e] = {1000 + (e * 7919) % 10007, 5, 0};
+  return flux;
+}
+
+/// 3 W/m^2 of red everywhere, in quanta of 1e-12 W.
+std::vector<protocol::Flux> equal_irradiance(const Mesh& mesh) {
+  std::vector<protocol::Flux> flux(mesh.elements);
+  for (const MeshPatch& patch : mesh.patches) {
+    for (const std::uint32_t first : patch.first_element) {
+      if (first == protocol::kNoSide) continue;
+      for (std::uint32_t e = 0; e < patch.elements; ++e) {
+        flux[first + e] = {std::llround(mesh.element_area(patch, e) * 3e12), 0, 0};
+      }
+    }
+  }
   return flux;
 }
 
@@ -49,28 +64,24 @@ Scene strip() {
 
 TEST(Lattice, EqualIrradianceStaysEqual) {
   const Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.6, .element_length = 0.2});
-  std::vector<protocol::Flux> flux(mesh.elements);
-  for (const MeshTriangle& triangle : mesh.triangles) {
-    const std::uint32_t count = protocol::triangles_of_level(triangle.element_level);
-    for (const std::uint32_t first : triangle.first_element) {
-      if (first == protocol::kNoSide) continue;
-      for (std::uint32_t e = 0; e < count; ++e) {
-        flux[first + e] = {std::llround(triangle.area / count * 3e12), 0, 0};
-      }
-    }
-  }
+  const std::vector<protocol::Flux> flux = equal_irradiance(mesh);
   const Lattice lattice = make_lattice(mesh, flux, 1e-12, 2.0);
   // 3 W/m^2 over pi, in units of 2; the flux is rounded to 1e-12 of it, floats to 6e-8.
   const double expected = 3 / std::numbers::pi / 2;
-  for (const auto& value : lattice.values) {
-    EXPECT_NEAR(static_cast<double>(value.irradiance_over_pi[0]), expected, 1e-6 * expected);
-    EXPECT_EQ(value.irradiance_over_pi[1], 0.0F);
+  for (const auto& triangle : lattice.triangles) {
+    for (const protocol::Vec3f& value : triangle.irradiance_over_pi) {
+      EXPECT_NEAR(static_cast<double>(value[0]), expected, 1e-6 * expected);
+      EXPECT_EQ(value[1], 0.0F);
+    }
   }
 }
 
 TEST(Lattice, ContinuousOverSharedEdgesWithHangingVertices) {
   const Mesh mesh = make_mesh(strip(), {.patch_length = 10, .element_length = 0.8});
-  ASSERT_NE(mesh.triangles[0].element_level, mesh.triangles[2].element_level) << "no hanging vertices to test";
+  const auto level = [&](std::uint32_t t) {
+    return protocol::level_of_code(mesh.facets[mesh.parts[mesh.triangles[t].first_part].facet].code);
+  };
+  ASSERT_NE(level(0), level(2)) << "no hanging vertices to test";
   const Lattice lattice = make_lattice(mesh, uneven_flux(mesh), 1.0, 1.0);
   int edges = 0;
   for (std::uint32_t a = 0; a < 3; ++a) {
@@ -101,30 +112,122 @@ TEST(Lattice, SharpEdgesKeepTheirOwnValues) {
   builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 2}, {0, 1, 2}, {1, 1, 2});
   const Mesh mesh = make_mesh(builder.scene, {.patch_length = 10, .element_length = 10});
   std::vector<protocol::Flux> flux(mesh.elements);
-  flux[mesh.triangles[0].first_element[0]] = {100, 0, 0};
+  flux[mesh.patches[0].first_element[0]] = {100, 0, 0};
   const Lattice lattice = make_lattice(mesh, flux, std::numbers::pi, 1.0);
-  EXPECT_FLOAT_EQ(lattice.values[lattice.first[0][0]].irradiance_over_pi[0], 200.0F);
-  EXPECT_EQ(lattice.values[lattice.first[1][0]].irradiance_over_pi[0], 0.0F);
-  EXPECT_EQ(lattice.values[lattice.first[0][1]].irradiance_over_pi[0], 0.0F) << "the back has sums of its own";
+  EXPECT_FLOAT_EQ(lattice.triangles[lattice.first[0]].irradiance_over_pi[0][0], 200.0F);
+  EXPECT_EQ(lattice.triangles[lattice.first[1]].irradiance_over_pi[0][0], 0.0F);
+  EXPECT_EQ(lattice.triangles[lattice.first[0] + 1].irradiance_over_pi[0][0], 0.0F) << "the back has sums of its own";
+}
+
+/// A square floor of edge 2, cut in eight right triangles around its middle: (0, 0) .. (2, 2), y up.
+test::SceneBuilder floor_around_a_vertex(std::uint32_t& white) {
+  test::SceneBuilder builder;
+  white = builder.material({0.5, 0.5, 0.5});
+  const std::array<Vec3d, 9> rim{
+      {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}};
+  for (std::size_t i = 0; i < 8; ++i) builder.triangle(white, {1, 1, 0}, rim[i], rim[i + 1]);
+  builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 4}, {0, 1, 4}, {1, 1, 4});
+  return builder;
 }
 
 TEST(Lattice, VertexTakesAllElementsAroundIt) {
+  std::uint32_t white = 0;
+  const Mesh mesh = make_mesh(floor_around_a_vertex(white).scene, {.patch_length = 10, .element_length = 1.5});
+  std::vector<protocol::Flux> flux(mesh.elements);
+  for (std::size_t p = 0; p < 8; ++p) flux[mesh.patches[p].first_element[0]] = {100 * static_cast<int>(p + 1), 0, 0};
+  const Lattice lattice = make_lattice(mesh, flux, std::numbers::pi, 1.0);
+  for (std::uint32_t f = 0; f < 8; ++f) {
+    EXPECT_FLOAT_EQ(lattice.triangles[lattice.first[f]].irradiance_over_pi[0][0], 900.0F) << "3600 over an area of 4";
+  }
+}
+
+// What interpolation gives each element on the average is the light that came to it: also at borders, where the mean
+// of the elements around a vertex lies inside.
+TEST(Lattice, FollowsAGradientToTheBorder) {
   test::SceneBuilder builder;
   const std::uint32_t white = builder.material({0.5, 0.5, 0.5});
-  builder.quad(white, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});  // triangles 0-1-2 and 0-2-3, area 0.5 each
-  builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 2}, {0, 1, 2}, {1, 1, 2});
-  const Mesh mesh = make_mesh(builder.scene, {.patch_length = 10, .element_length = 10});
+  builder.quad(white, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 4}, {0, 1, 4}, {1, 1, 4});
+  const Mesh mesh = make_mesh(builder.scene, {.patch_length = 10, .element_length = 0.2});
   std::vector<protocol::Flux> flux(mesh.elements);
-  flux[mesh.triangles[0].first_element[0]] = {100, 0, 0};
-  flux[mesh.triangles[1].first_element[0]] = {300, 0, 0};
-  const Lattice lattice = make_lattice(mesh, flux, std::numbers::pi, 1.0);
-  const auto value = [&](std::uint32_t t, std::uint32_t vertex) {
-    return lattice.values[lattice.first[t][0] + vertex].irradiance_over_pi[0];
-  };
-  EXPECT_FLOAT_EQ(value(0, 0), 400.0F);  // both, over an area of 1
-  EXPECT_FLOAT_EQ(value(0, 1), 200.0F);  // only the first
-  EXPECT_FLOAT_EQ(value(0, 2), 400.0F);
-  EXPECT_FLOAT_EQ(value(1, 2), 600.0F);  // only the second
+  for (std::size_t p = 0; p < 2; ++p) {
+    const MeshPatch& patch = mesh.patches[p];
+    for (std::uint32_t e = 0; e < patch.elements; ++e) {
+      const auto corner = grid_corners(mesh.triangles[p], mesh.facets[patch.first_facet + e].code);
+      const double x = (corner[0][0] + corner[1][0] + corner[2][0]) / 3 / mesh.space.scale;  // from about 0 to 1
+      flux[patch.first_element[0] + e] = {std::llround(mesh.element_area(patch, e) * (1 + x) * 1e9), 0, 0};
+    }
+  }
+  const Lattice lattice = make_lattice(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
+  // One step of half an element, 0.06, would be missing without; after three steps an eighth of it is left.
+  const double low = value_at(mesh, lattice, 0, 0.0F, 0.0F);
+  const double high = value_at(mesh, lattice, 0, 1.0F, 0.0F);
+  EXPECT_NEAR(high - low, 1.0, 0.05);
+}
+
+// A wall on the floor: light on one side of it must not show on the other, nor the dark of what it covers.
+TEST(Lattice, NothingPassesUnderAWall) {
+  for (const double height : {0.0, 0.0005}) {  // standing on it, or hanging close over it
+    test::SceneBuilder builder;
+    const std::uint32_t white = builder.material({0.5, 0.5, 0.5});
+    builder.quad(white, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    // Off the lines between elements, at x = 0.3; through the floor's diagonal.
+    builder.quad(white, {0.3, 0, height}, {0.3, 1, height}, {0.3, 1, 1}, {0.3, 0, 1});
+    builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 4}, {0, 1, 4}, {1, 1, 4});
+    const Mesh mesh = make_mesh(builder.scene, {.patch_length = 0.5, .element_length = 0.25});
+    std::vector<protocol::Flux> flux(mesh.elements);
+    double widest = 0;
+    for (const MeshPatch& patch : mesh.patches) {
+      if (mesh.facets[patch.first_facet].triangle > 1) continue;
+      for (std::uint32_t e = 0; e < patch.elements; ++e) {
+        const MeshFacet& facet = mesh.facets[patch.first_facet + e];
+        const auto corner = grid_corners(mesh.triangles[facet.triangle], facet.code);
+        const auto x = [&](std::size_t c) {
+          return (corner[c][0] - mesh.triangles[0].corner[0][0]) / mesh.space.scale;
+        };
+        const auto [least, most] = std::minmax({x(0), x(1), x(2)});
+        if (least < 0.299 && most > 0.301) widest = std::max(widest, most - least);
+        const bool lit = (x(0) + x(1) + x(2)) / 3 > 0.3;
+        flux[patch.first_element[0] + e] = {lit ? std::llround(mesh.element_area(patch, e) * 1e9) : 0, 0, 0};
+      }
+    }
+    EXPECT_LT(widest, 0.07) << "elements that a wall crosses are cut";
+    const Lattice lattice = make_lattice(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
+    for (const float y : {0.2F, 0.5F, 0.9F}) {
+      const auto at = [&](float x) {  // triangle 0: below the diagonal, corners (0,0) (1,0) (1,1)
+        return x > y ? value_at(mesh, lattice, 0, x - y, y) : value_at(mesh, lattice, 1, x, y - x);
+      };
+      EXPECT_NEAR(at(0.30F - 0.07F), 0.0, 1e-6) << "height " << height << " y " << y;
+      EXPECT_NEAR(at(0.30F + 0.07F), 1.0, 1e-6) << "height " << height << " y " << y;
+    }
+  }
+}
+
+// Small triangles of a round surface receive together, and their light is smooth over all of them.
+TEST(Lattice, ClustersAreSmooth) {
+  const Mesh mesh = make_mesh(test::finely_tessellated_floor(), {.patch_length = 2, .element_length = 0.3});
+  std::size_t clustered = 0;
+  for (const MeshPatch& patch : mesh.patches) clustered += patch.facets > patch.elements ? 1 : 0;
+  ASSERT_GT(clustered, 0U);
+  EXPECT_LT(mesh.elements, mesh.facets.size() / 4);
+  const Lattice even = make_lattice(mesh, equal_irradiance(mesh), 1e-12, 1);
+  for (const auto& triangle : even.triangles) {
+    for (const protocol::Vec3f& value : triangle.irradiance_over_pi) {
+      EXPECT_NEAR(static_cast<double>(value[0]), 3 / std::numbers::pi, 1e-5);
+    }
+  }
+  // One vertex, one value: continuous over all triangles.
+  const Lattice lattice = make_lattice(mesh, uneven_flux(mesh), 1.0, 1.0);
+  std::map<std::uint32_t, float> value_of;
+  for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
+    const MeshTriangle& triangle = mesh.triangles[mesh.facets[f].triangle];
+    if (triangle.material != 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = lattice.triangles[lattice.first[f]].irradiance_over_pi[c][0];
+      const auto [found, fresh] = value_of.emplace(triangle.position[c], value);
+      if (!fresh) EXPECT_EQ(found->second, value);
+    }
+  }
 }
 
 }  // namespace

@@ -111,14 +111,15 @@ TEST_F(LayoutTest, ReferencesNameTheOwnersPatch) {
         const auto reference = pe.at<protocol::PatchReference>(l.patch_references, polygon.surface + path);
         const Loaded& owner = pes_[reference.pe];
         const auto patch = owner.at<protocol::Patch>(owner.layout.layout.patches, reference.patch);
-        EXPECT_EQ(patch.number, mesh_.triangles[polygon.number].first_patch + path);
-        EXPECT_EQ(patch.path, path);
-        EXPECT_EQ(owner.at<protocol::Polygon>(owner.layout.layout.polygons, patch.polygon).number, polygon.number);
+        const MeshPart& part = mesh_.parts[mesh_.triangles[polygon.number].first_part + path];
+        EXPECT_EQ(patch.number, part.patch);
+        const auto facet = owner.at<protocol::Facet>(owner.layout.layout.facets, patch.first_facet);
+        EXPECT_EQ(owner.at<protocol::Polygon>(owner.layout.layout.polygons, facet.polygon).number, polygon.number);
         owned.insert(patch.number);
       }
     }
   }
-  EXPECT_EQ(owned.size(), mesh_.patches);
+  EXPECT_EQ(owned.size(), mesh_.patches.size());
 }
 
 TEST_F(LayoutTest, PatchesShareOutElementsAndEmission) {
@@ -130,12 +131,11 @@ TEST_F(LayoutTest, PatchesShareOutElementsAndEmission) {
     std::uint32_t next = 0;
     for (std::uint32_t p = 0; p < l.patches.count; ++p) {
       const auto patch = pe.at<protocol::Patch>(l.patches, p);
-      const auto polygon = pe.at<protocol::Polygon>(l.polygons, patch.polygon);
       for (const std::uint32_t s : patch.side) {
         if (s == protocol::kNoSide) continue;
         const auto side = pe.at<protocol::PatchSide>(l.patch_sides, s);
         EXPECT_EQ(side.first_element, next);
-        next += protocol::triangles_of_level(std::uint32_t{polygon.element_level} - polygon.patch_level);
+        next += patch.elements;
         red += side.emission[0];
         ++sides;
       }
@@ -146,7 +146,7 @@ TEST_F(LayoutTest, PatchesShareOutElementsAndEmission) {
   EXPECT_EQ(elements, mesh_.elements);
   EXPECT_EQ(sides, mesh_.patch_sides);
   // The greatest channel's emitted flux is 2^48 quanta, but for rounding of each patch by half a quantum.
-  EXPECT_NEAR(static_cast<double>(red), 0x1p48, mesh_.patches);
+  EXPECT_NEAR(static_cast<double>(red), 0x1p48, static_cast<double>(mesh_.patches.size()));
 }
 
 TEST_F(LayoutTest, RayTracingImageHoldsTheLatticeOfEachPolygon) {
@@ -160,12 +160,16 @@ TEST_F(LayoutTest, RayTracingImageHoldsTheLatticeOfEachPolygon) {
     const protocol::StageLayout& l = loaded.layout.layout;
     for (std::uint32_t p = 0; p < l.polygons.count; ++p) {
       const auto polygon = loaded.at<protocol::Polygon>(l.polygons, p);
-      std::uint32_t next = polygon.surface;
-      for (const std::uint32_t first : lattice.first[polygon.number]) {
-        if (first == protocol::kNoSide) continue;
-        for (std::uint32_t i = 0; i < protocol::lattice_size(polygon.element_level); ++i) {
-          EXPECT_EQ(loaded.at<protocol::LatticeValue>(l.lattice, next++).irradiance_over_pi,
-                    lattice.values[first + i].irradiance_over_pi);
+      if (polygon.sides == 0) continue;
+      std::vector<std::uint32_t> nodes;
+      for (std::uint32_t n = 0; n < l.nodes.count; ++n) nodes.push_back(loaded.at<std::uint32_t>(l.nodes, n));
+      for (const auto& [b1, b2] : {std::pair{0.1F, 0.2F}, {0.7F, 0.1F}, {0.3F, 0.3F}, {0.05F, 0.9F}}) {
+        protocol::Weights at{1 - b1 - b2, b1, b2};
+        const std::uint32_t leaf = protocol::find_leaf(nodes.data(), polygon.surface, at);
+        const std::uint32_t first = lattice.first[mesh_.facet_at(polygon.number, b1, b2)];
+        for (std::uint32_t side = 0; side < (polygon.sides == 3 ? 2U : 1U); ++side) {
+          EXPECT_EQ(loaded.at<protocol::LatticeTriangle>(l.lattice, leaf + side).irradiance_over_pi,
+                    lattice.triangles[first + side].irradiance_over_pi);
         }
       }
     }

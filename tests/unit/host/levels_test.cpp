@@ -21,42 +21,46 @@ TEST(Levels, LeastLevelThatIsShortEnough) {
 }
 
 TEST(Levels, ElementsAreNeverCoarserThanPatches) {
-  const std::vector<double> edges{1.0, 4.0};
-  for (const Levels& level : choose_levels(edges, 0.1, 3.0)) EXPECT_EQ(level.element, level.patch);
+  const Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.1, .element_length = 3.0});
+  for (const MeshPatch& patch : mesh.patches) EXPECT_EQ(patch.elements, 1U);
 }
 
 TEST(Levels, AutomaticCountsSuitASmallScene) {
   const Mesh mesh = make_mesh(test::room_with_box(), {});
-  EXPECT_GE(mesh.patches, 200U);
-  EXPECT_LE(mesh.patches, 600U);
+  EXPECT_GE(mesh.patches.size(), 200U);
+  EXPECT_LE(mesh.patches.size(), 600U);
   EXPECT_GE(mesh.elements, 2500U);
   EXPECT_LE(mesh.elements, 9000U);
 }
 
-TEST(Levels, LargeScenesGetAboutOnePatchForEachTriangle) {
-  const std::vector<double> edges(70'000, 0.01);
-  for (const Levels& level : choose_levels(edges, {}, {})) EXPECT_EQ(level.patch, 0);
+// What a surface is made of does not matter: 70,000 small triangles of one surface get no more patches than a few.
+TEST(Levels, FineTessellationMakesNoMorePatches) {
+  const std::vector<CutTriangle> few(8, {1.0, 0.5});
+  const std::vector<CutTriangle> many(70'000, {0.011, 4.0 / 70'000});
+  const MeshLengths a = choose_lengths(few, 1, {}, {});
+  const MeshLengths b = choose_lengths(many, 1, {}, {});
+  EXPECT_NEAR(b.patch / a.patch, 1, 0.5);
+  EXPECT_NEAR(b.element / a.element, 1, 0.5);
+  const MeshLengths surfaces = choose_lengths(many, 70'000, {}, {});
+  EXPECT_LE(surfaces.patch, 0.012) << "each triangle a surface of its own: each needs a patch";
 }
 
 TEST(Levels, MeshNumbersRunOn) {
   const Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.5, .element_length = 0.2});
-  std::uint32_t patches = 0;
   std::uint32_t sides = 0;
   std::uint32_t elements = 0;
-  for (const MeshTriangle& triangle : mesh.triangles) {
-    EXPECT_EQ(triangle.first_patch, patches);
-    const std::uint32_t here = protocol::triangles_of_level(triangle.patch_level);
-    for (std::uint32_t p = 0; p < here; ++p) EXPECT_EQ(&mesh.triangles[mesh.triangle_of_patch[patches + p]], &triangle);
-    patches += here;
+  std::uint32_t facets = 0;
+  for (const MeshPatch& patch : mesh.patches) {
+    EXPECT_EQ(patch.first_facet, facets);
+    facets += patch.facets;
     for (std::uint32_t s = 0; s < 2; ++s) {
-      if (triangle.first_side[s] == protocol::kNoSide) continue;
-      EXPECT_EQ(triangle.first_side[s], sides);
-      EXPECT_EQ(triangle.first_element[s], elements);
-      sides += here;
-      elements += protocol::triangles_of_level(triangle.element_level);
+      if (patch.side[s] == protocol::kNoSide) continue;
+      EXPECT_EQ(patch.side[s], sides++);
+      EXPECT_EQ(patch.first_element[s], elements);
+      elements += patch.elements;
     }
   }
-  EXPECT_EQ(mesh.patches, patches);
+  EXPECT_EQ(mesh.facets.size(), facets);
   EXPECT_EQ(mesh.patch_sides, sides);
   EXPECT_EQ(mesh.elements, elements);
 }

@@ -53,7 +53,7 @@ class LoadReadTest : public testing::Test {
       std::memcpy(at.data(), &side, sizeof side);
       first[i] = side.first_element;
       for (std::uint32_t e = side.first_element; e < first[i + 1]; ++e) {
-        const protocol::Element element{{pe, i, e - side.first_element}, {}};
+        const protocol::Element element{{pe, i, e - side.first_element}, {}, {}, {}};
         std::memcpy(memory(pe, layout.elements.address + e * static_cast<std::uint32_t>(sizeof element)).data(),
                     &element, sizeof element);
       }
@@ -158,20 +158,16 @@ TEST_F(LoadReadTest, SidesAndElementsFindTheirGlobalPlaces) {
     answer_all(phase, seed);
     ASSERT_TRUE(phase.done());
     const Solution solution = phase.take_solution();
-    for (const MeshTriangle& triangle : mesh_.triangles) {
-      const std::uint32_t patches = protocol::triangles_of_level(triangle.patch_level);
-      const std::uint32_t per_patch = protocol::triangles_of_level(triangle.element_level) / patches;
+    for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+      const MeshPatch& patch = mesh_.patches[p];
       for (std::uint32_t s = 0; s < 2; ++s) {
-        if (triangle.first_side[s] == protocol::kNoSide) continue;
-        for (std::uint32_t p = 0; p < patches; ++p) {
-          const SolvedSide& side = solution.sides[triangle.first_side[s] + p];
-          const PatchHome& home = placement_.patch_home[triangle.first_patch + p];
-          EXPECT_EQ(side.shot[0], home.pe) << "read from its owner";
-          EXPECT_EQ(side.emission, patch_emission(scene_, triangle, s, units_)) << "this side and no other";
-          for (std::uint32_t e = 0; e < per_patch; ++e) {
-            const auto& flux = solution.elements[triangle.first_element[s] + p * per_patch + e].flux;
-            ASSERT_EQ(flux, (protocol::Flux{side.shot[0], side.shot[1], e}));
-          }
+        if (patch.side[s] == protocol::kNoSide) continue;
+        const SolvedSide& side = solution.sides[patch.side[s]];
+        EXPECT_EQ(side.shot[0], placement_.patch_home[p].pe) << "read from its owner";
+        EXPECT_EQ(side.emission, patch_emission(scene_, patch, s, units_)) << "this side and no other";
+        for (std::uint32_t e = 0; e < patch.elements; ++e) {
+          const auto& flux = solution.elements[patch.first_element[s] + e].flux;
+          ASSERT_EQ(flux, (protocol::Flux{side.shot[0], side.shot[1], e}));
         }
       }
     }

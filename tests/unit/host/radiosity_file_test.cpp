@@ -24,7 +24,7 @@ class RadiosityFileTest : public testing::Test {
 
   std::string refusal(std::span<const std::byte> bytes, const RadiosityOrigin& expected) const {
     try {
-      unpack_radiosity(bytes, expected, mesh_, "file");
+      unpack_radiosity(parse_radiosity(bytes, "file"), expected, mesh_);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -39,21 +39,23 @@ class RadiosityFileTest : public testing::Test {
   }();
   Mesh mesh_ = make_mesh(scene_, {quality_.patch_length, quality_.element_length, false});
   RadiosityOrigin origin_ = radiosity_origin(scene_, quality_, mesh_);
+  std::vector<Split> splits_{{2, 1}, {2, 6}, {5, 1}};
   Solution solution_;
 };
 
 TEST_F(RadiosityFileTest, ComesBackAsItWas) {
-  const auto bytes = pack_radiosity(origin_, solution_);
-  const Solution back = unpack_radiosity(bytes, origin_, mesh_, "file");
-  EXPECT_EQ(pack_radiosity(origin_, back), bytes);
+  const auto bytes = pack_radiosity(origin_, splits_, solution_);
+  const Solution back = unpack_radiosity(parse_radiosity(bytes, "file"), origin_, mesh_);
+  EXPECT_EQ(pack_radiosity(origin_, splits_, back), bytes);
   EXPECT_EQ(back.sides[3].incident, solution_.sides[3].incident);
   EXPECT_EQ(back.elements[5].direct, solution_.elements[5].direct);
   EXPECT_EQ(back.tally.escaped, solution_.tally.escaped);
   EXPECT_EQ(back.shots, 99U);
+  EXPECT_EQ(parse_radiosity(bytes, "file").splits, splits_);
 }
 
 TEST_F(RadiosityFileTest, EveryDamagedByteIsRefused) {
-  auto bytes = pack_radiosity(origin_, solution_);
+  auto bytes = pack_radiosity(origin_, splits_, solution_);
   for (std::size_t at = 0; at < bytes.size(); at += at < 400 ? 1 : 37) {
     bytes[at] ^= std::byte{0x10};
     EXPECT_NE(refusal(bytes, origin_), "") << "byte " << at;
@@ -63,7 +65,7 @@ TEST_F(RadiosityFileTest, EveryDamagedByteIsRefused) {
 }
 
 TEST_F(RadiosityFileTest, EveryLengthButTheRightOneIsRefused) {
-  auto bytes = pack_radiosity(origin_, solution_);
+  auto bytes = pack_radiosity(origin_, splits_, solution_);
   for (std::size_t length = 0; length < bytes.size(); length += length < 400 ? 1 : 37) {
     EXPECT_NE(refusal(std::span(bytes).first(length), origin_), "") << length;
   }
@@ -71,8 +73,15 @@ TEST_F(RadiosityFileTest, EveryLengthButTheRightOneIsRefused) {
   EXPECT_NE(refusal(bytes, origin_), "");
 }
 
+TEST_F(RadiosityFileTest, SplitsOutOfOrderAreRefused) {
+  splits_ = {{5, 1}, {2, 1}};
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("splits"), std::string::npos);
+  splits_ = {{5, 1}, {5, 1}};
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("splits"), std::string::npos);
+}
+
 TEST_F(RadiosityFileTest, SaysWhatDiffers) {
-  const auto bytes = pack_radiosity(origin_, solution_);
+  const auto bytes = pack_radiosity(origin_, splits_, solution_);
   Quality quality = quality_;
   quality.hemicube = 32;
   EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("--hemicube 20, this run has 32"),
@@ -91,10 +100,10 @@ TEST_F(RadiosityFileTest, SaysWhatDiffers) {
 
 TEST_F(RadiosityFileTest, ImpossibleFluxIsRefused) {
   solution_.sides[2].shot = {1000000, 0, 0};
-  EXPECT_NE(refusal(pack_radiosity(origin_, solution_), origin_), "");
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_), "");
   solution_.sides[2].shot = {};
   solution_.elements[0].flux[0] = -1;
-  EXPECT_NE(refusal(pack_radiosity(origin_, solution_), origin_), "");
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_), "");
 }
 
 }  // namespace

@@ -67,4 +67,18 @@ Scene room_with_box() {
   return builder.scene;
 }
 
+Scene finely_tessellated_floor() {
+  SceneBuilder builder;
+  const std::uint32_t white = builder.material({0.5, 0.5, 0.5});
+  const auto at = [](int i, int j) {
+    const double x = i / 20.0;
+    return Vec3d{x, j / 20.0, 0.2 * x * x};
+  };
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 20; ++j) builder.quad(white, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+  }
+  builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 2}, {0, 1, 2}, {1, 1, 2});
+  return builder.scene;
+}
+
 }  // namespace torolux::test

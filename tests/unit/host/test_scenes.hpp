@@ -28,4 +28,7 @@ class SceneBuilder {
 /// A unit room with a lamp of 0.4 x 0.4 that hangs 0.1 below its ceiling, and a box on stilts in it.
 Scene room_with_box();
 
+/// A floor of edge 1 with 20 x 20 x 2 triangles, a little bent, of material 0, and a lamp above.
+Scene finely_tessellated_floor();
+
 }  // namespace torolux::test
