@@ -56,20 +56,39 @@ struct PixelBox {
   float along, across, size;
 };
 
-/// Where light goes through the pixel. weight(a, b): delta form factor per area there; between the pixel's corners
-/// taken as bilinear, whose error falls with the square of the pixel's size. Were light spread evenly instead, pixels
-/// at the foot of the side faces would send too much of it along the surface, into the nearest corner.
-template <class Weight>
-PixelPoint through(const PixelBox& box, PixelPoint at, const Weight& weight) {
-  const float a1 = box.along + box.size;
-  const float b1 = box.across + box.size;
+/// Where light goes through a pixel of the top. Its delta form factor per area is 1 / (pi (1 + x^2 + y^2)^2), taken as
+/// bilinear between the pixel's corners: an error that falls with the square of the pixel's size.
+inline PixelPoint through_top(const PixelBox& box, PixelPoint at) {
+  const auto weight = [](float x, float y) {
+    const float root = 1.0F / (1.0F + (x * x + y * y));
+    return root * root;
+  };
+  const float x1 = box.along + box.size;
+  const float y1 = box.across + box.size;
   const float w00 = weight(box.along, box.across);
-  const float w10 = weight(a1, box.across);
-  const float w01 = weight(box.along, b1);
-  const float w11 = weight(a1, b1);
-  const float across = on_slope(at.across, w00 + w10, w01 + w11);
-  const float along = on_slope(at.along, w00 + (w01 - w00) * across, w10 + (w11 - w10) * across);
-  return {box.along + along * box.size, box.across + across * box.size};
+  const float w10 = weight(x1, box.across);
+  const float w01 = weight(box.along, y1);
+  const float w11 = weight(x1, y1);
+  const float y = on_slope(at.across, w00 + w10, w01 + w11);
+  const float x = on_slope(at.along, w00 + (w01 - w00) * y, w10 + (w11 - w10) * y);
+  return {box.along + x * box.size, box.across + y * box.size};
+}
+
+/// Likewise of a side: z / (pi (1 + y^2 + z^2)^2), z up from the surface. Its integral over z is known, so that z is
+/// exact. Were light spread evenly over the pixels at a side's foot, too much of it would go along the surface, into
+/// the nearest corner.
+inline PixelPoint through_side(const PixelBox& box, PixelPoint at) {
+  const float low = box.across * box.across;
+  const float high = (box.across + box.size) * (box.across + box.size);
+  const auto over_z = [low, high](float y) {
+    const float from = 1.0F + y * y;
+    return 1.0F / (from + low) - 1.0F / (from + high);
+  };
+  const float y = box.along + on_slope(at.along, over_z(box.along), over_z(box.along + box.size)) * box.size;
+  const float from = 1.0F + y * y;
+  const float begin = 1.0F / (from + low);
+  const float square = 1.0F / (begin + (1.0F / (from + high) - begin) * at.across) - from;
+  return {y, square > low ? std::sqrt(square) : box.across};
 }
 
 /// Unit length. at: where in the pixel.
@@ -78,16 +97,10 @@ inline glm::vec3 pixel_direction(const Frame& frame, std::uint32_t n, const Hemi
   const float column = static_cast<float>(pixel.column) * size - 1.0F;
   const float row = static_cast<float>(pixel.row) * size;
   if (pixel.face == HemicubePixel::kTop) {
-    const PixelPoint top = through({column, row - 1.0F, size}, at, [](float x, float y) {
-      const float square = 1.0F / (1.0F + (x * x + y * y));
-      return square * square;
-    });
+    const PixelPoint top = through_top({column, row - 1.0F, size}, at);
     return glm::normalize((frame.x * top.along + frame.y * top.across) + frame.z);
   }
-  const PixelPoint side = through({column, row, size}, at, [](float y, float z) {
-    const float square = 1.0F / (1.0F + (y * y + z * z));
-    return z * square * square;
-  });
+  const PixelPoint side = through_side({column, row, size}, at);
   const bool odd = (pixel.face & 1U) != 0;
   const glm::vec3 to_face = odd ? frame.y : frame.x;
   const glm::vec3 along = odd ? -frame.x : frame.y;

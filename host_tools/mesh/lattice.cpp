@@ -14,7 +14,7 @@ namespace torolux {
 namespace {
 
 /// An element's own light against that of its corners is made up for at borders so many times.
-constexpr int kBorderSteps = 3;
+constexpr int kBorderSteps = 1;
 
 /// Irradiance at all vertices of one side [quanta / user unit^2].
 class SideLight {

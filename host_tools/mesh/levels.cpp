@@ -22,13 +22,19 @@ double count_for(std::span<const CutTriangle> triangles, double most) {
   return sum;
 }
 
-/// The length whose count is nearest to `target` by ratio, among the longest edge divided by powers of 2^(1/4).
+/// The length whose count is nearest to `target` by ratio, among the longest edge times powers of 2^(1/4).
 double length_for(std::span<const CutTriangle> triangles, double target) {
   double longest = 0;
-  for (const CutTriangle& triangle : triangles) longest = std::max(longest, triangle.longest_edge);
+  double area = 0;
+  for (const CutTriangle& triangle : triangles) {
+    longest = std::max(longest, triangle.longest_edge);
+    area += triangle.area;
+  }
+  // Where all triangles are small, longer than any of them.
+  const auto above = static_cast<int>(std::ceil(4 * std::log2(std::max(1.0, std::sqrt(2 * area) / longest))));
   double best = longest;
   double best_ratio = HUGE_VAL;
-  for (std::uint32_t step = 0; step <= 4 * protocol::kMostLevels; ++step) {
+  for (int step = -above; step <= 4 * static_cast<int>(protocol::kMostLevels); ++step) {
     // A little above the fraction, so that edges equal but for rounding get the same level.
     const double length = longest * std::exp2(-0.25 * step) * (1 + 1e-9);
     const double count = count_for(triangles, length);

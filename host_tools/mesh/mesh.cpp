@@ -117,7 +117,7 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh)
       const double edge = cut[next++].longest_edge;
       cutting.patch_level[t] = level_for(edge, lengths.patch);
       cutting.element_level[t] = std::max<int>(cutting.patch_level[t], level_for(edge, lengths.element));
-      small[t] = cutting.element_level[t] == 0;
+      small[t] = edge <= lengths.element / 2;
     }
   }
   mesh.smooth = find_smooth_surfaces(mesh, small);

@@ -12,7 +12,7 @@ struct Mesh;
 
 /// Triangles of one material, wound alike, whose normals differ by less than this pass radiance on smoothly.
 inline constexpr double kSmoothCosine = 0.9396926207859084;  ///< 20 degrees
-/// Where both are smaller than an element they stand for something round.
+/// Where both are smaller than half an element they stand for something round.
 inline constexpr double kSmoothCosineOfSmall = 0.7071067811865476;  ///< 45 degrees
 
 /// Edge e of a triangle runs from corner e to corner (e + 1) % 3. Corners or edges with the same node are one vertex
@@ -25,7 +25,7 @@ struct SmoothSurfaces {
 };
 inline constexpr std::uint32_t kNoNeighbour = 0xFFFF'FFFFU;
 
-/// small: by triangle, whether it is smaller than an element.
+/// small: by triangle, whether it is smaller than half an element.
 SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small);
 
 /// Names a vertex of a triangle's grid, the same for all triangles of a smooth surface that meet there.

@@ -72,7 +72,7 @@ RenderJob job_of(const Scene& scene, const Camera& camera, const Quality& qualit
           setup,
           radiosity_settings(scene, setup, quality),
           CameraRays(camera, setup.mesh.space, quality.width, quality.height,
-                     pixel_places(quality.filter, quality.samples, setup.parameters.seed), setup.parameters.seed),
+                     PixelSamples(quality.filter, quality.samples, setup.parameters.seed), setup.parameters.seed),
           {setup.credits, quality.width, quality.height, quality.samples, machine.skip_empty_subspaces},
           std::nullopt,
           radiosity_only};

@@ -13,11 +13,11 @@
 namespace torolux {
 
 CameraRays::CameraRays(const Camera& camera, const SceneSpace& space, std::uint32_t width, std::uint32_t height,
-                       std::vector<PixelPlace> places, std::uint32_t seed)
+                       PixelSamples samples, std::uint32_t seed)
     : width_(width),
       height_(height),
       seed_(seed),
-      places_(std::move(places)),
+      samples_(std::move(samples)),
       eye_(to_float(space.to_normalised(camera.eye))) {
   const Vec3d view = vec::subtract(camera.look_at, camera.eye);
   const double view_length = vec::length(view);
@@ -46,9 +46,9 @@ CameraRay CameraRays::ray(std::uint32_t pixel, std::uint32_t sample) const {
   CameraRay ray{};
   ray.origin = eye_;
   ray.key = protocol::hash_combine(protocol::hash_combine(seed_, pixel), sample);
-  const PixelPlace place = places_[sample];
   const std::uint32_t column = pixel % width_;
   const std::uint32_t row = pixel / width_;
+  const PixelPlace place = samples_.place(column, row, sample);
   const double x = 2 * (column + place.x) / width_ - 1;
   const double y = 2 * (row + place.y) / height_ - 1;
   ray.direction = to_float(vec::unit(vec::add(forward_, vec::add(vec::scale(right_, x), vec::scale(down_, y)))));

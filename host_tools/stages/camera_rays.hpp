@@ -22,19 +22,17 @@ struct CameraRay {
 
 class CameraRays {
  public:
-  /// places: of the samples, the same ones in every pixel. With few samples, other ones in each would show as dots
-  /// along edges. Throws InputError where the camera looks nowhere: eye at look_at, up along the view, field of view
-  /// not 0..180.
+  /// Throws InputError where the camera looks nowhere: eye at look_at, up along the view, field of view not 0..180.
   CameraRays(const Camera& camera, const SceneSpace& space, std::uint32_t width, std::uint32_t height,
-             std::vector<PixelPlace> places, std::uint32_t seed);
+             PixelSamples samples, std::uint32_t seed);
 
-  std::uint64_t count() const { return std::uint64_t{width_} * height_ * places_.size(); }
+  std::uint64_t count() const { return std::uint64_t{width_} * height_ * samples_.count(); }
   /// pixel: row * width + column, row 0 on top.
   CameraRay ray(std::uint32_t pixel, std::uint32_t sample) const;
 
  private:
   std::uint32_t width_, height_, seed_;
-  std::vector<PixelPlace> places_;  ///< by sample
+  PixelSamples samples_;
   protocol::Vec3f eye_;
   Vec3d forward_, right_, down_;  ///< right and down reach from the middle to the edge of the picture
 };

@@ -2,6 +2,7 @@
 // See pixel_samples.hpp.
 #include "host_tools/stages/pixel_samples.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -13,6 +14,8 @@ namespace {
 
 using protocol::Dimension;
 
+/// Of the table from which distances are read; between two of them they are straight to 1e-6 pixels but at the ends.
+constexpr std::uint32_t kSteps = 4096;
 constexpr double kGaussianReach = 1.5;  ///< [pixels]
 constexpr double kGaussianWidth = 0.5;  ///< standard deviation [pixels]
 
@@ -72,21 +75,30 @@ double filter_distance(PixelFilter filter, double u) {
   return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
 }
 
-std::vector<PixelPlace> pixel_places(PixelFilter filter, std::uint32_t samples, std::uint32_t seed) {
-  std::vector<PixelPlace> places;
-  places.reserve(samples);
-  PixelPlace sum{0, 0};
+PixelSamples::PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint32_t seed) {
   for (std::uint32_t sample = 0; sample < samples; ++sample) {
-    const PixelPlace uniform = pixel_place(sample, samples, protocol::hash_combine(seed, sample));
-    places.push_back({filter_distance(filter, uniform.x), filter_distance(filter, uniform.y)});
-    sum.x += places.back().x;
-    sum.y += places.back().y;
+    uniform_.push_back(pixel_place(sample, samples, protocol::hash_combine(seed, sample)));
   }
-  for (PixelPlace& place : places) {
-    place.x += 0.5 - sum.x / samples;
-    place.y += 0.5 - sum.y / samples;
+  for (std::uint32_t i = 0; i <= kSteps; ++i) {
+    distances_.push_back(filter_distance(filter, static_cast<double>(i) / kSteps));
   }
-  return places;
+}
+
+double PixelSamples::distance(double u) const {
+  const double at = u * kSteps;
+  const auto below = std::min(static_cast<std::uint32_t>(at), kSteps - 1);
+  return distances_[below] + (distances_[below + 1] - distances_[below]) * (at - below);
+}
+
+PixelPlace PixelSamples::place(std::uint32_t column, std::uint32_t row, std::uint32_t sample) const {
+  if (uniform_.size() == 1) return {0.5, 0.5};
+  // Powers of the reciprocals of the numbers that solve x^3 = x + 1 and x^4 = x + 1.
+  const auto moved = [column, row](double u, double by_column, double by_row) {
+    const double sum = u + by_column * column + by_row * row;
+    return sum - std::floor(sum);
+  };
+  return {0.5 + distance(moved(uniform_[sample].x, 0.7548776662466927, 0.5698402909980532)),
+          0.5 + distance(moved(uniform_[sample].y, 0.8191725133961645, 0.6710436067037893))};
 }
 
 }  // namespace torolux

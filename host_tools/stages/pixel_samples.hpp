@@ -42,8 +42,22 @@ PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_
 /// Distance from the middle, in pixels, below which the part `u` (0..1) of the filter lies. Rises with u.
 double filter_distance(PixelFilter filter, double u);
 
-/// The places of all samples, their middle that of the pixel: no sample pattern moves the picture. Some may lie outside
-/// the pixel's square.
-std::vector<PixelPlace> pixel_places(PixelFilter filter, std::uint32_t samples, std::uint32_t seed);
+/// The places of all samples of all pixels. Each pixel has the same pattern, moved by a part of the pixel's square that
+/// neighbours share out evenly (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018): were it
+/// not moved, an edge along a row of pixels would be wrong by the same in all of them.
+class PixelSamples {
+ public:
+  PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint32_t seed);
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(uniform_.size()); }
+  /// Some lie outside the pixel's square.
+  PixelPlace place(std::uint32_t column, std::uint32_t row, std::uint32_t sample) const;
+
+ private:
+  double distance(double u) const;
+
+  std::vector<PixelPlace> uniform_;  ///< by sample, 0..1
+  std::vector<double> distances_;    ///< filter_distance at equal steps of u from 0 to 1
+};
 
 }  // namespace torolux

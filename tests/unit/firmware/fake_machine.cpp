@@ -241,10 +241,12 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.polygons, s.polygons);
   place(l.materials, s.materials);
   place(l.normals, s.normals);
+  place(l.nodes, s.nodes);
   place(l.patch_references, s.references);
   place(l.patches, s.patches);
   place(l.patch_sides, s.sides);
   place(l.elements, s.elements);
+  place(l.facets, s.facets);
   place(l.hemicube, s.hemicube);
   place(l.lattice, s.lattice);
   place(l.textures, s.textures);

@@ -152,6 +152,7 @@ double seen_of_glossy_floor(bool shadow_rays, std::uint8_t waiting) {
   for (std::uint32_t i = 0; i < count; ++i) {
     RayRecord& ray = rays.emplace_back(ray_from(scene, {0.5F, 0.95F, 0.5F}, {0.5F, 0, 0.5F}, i));
     ray.pixel = 0;
+    ray.sample = static_cast<std::uint16_t>(i);
     ray.waiting = waiting;
     for (protocol::Branch& branch : ray.branches) branch = {{0.1F, 0.1F, 0.1F}, {1, 0, 0}, {}, 0, 0, 0, 0, 0, 0};
   }

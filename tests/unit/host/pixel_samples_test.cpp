@@ -60,29 +60,39 @@ TEST(PixelFilters, HaveNames) {
   EXPECT_EQ(filter_named("triangle"), std::nullopt);
 }
 
-// Else the whole picture would be moved by a part of a pixel: samples lie at the same places in each.
-TEST(PixelPlaces, TheirMiddleIsThatOfThePixel) {
+// Over a few pixels together: no pattern moves the picture, and what an edge covers of a row of pixels is right though
+// it covers a little of each.
+TEST(PixelSamples, NeighboursShareOutThePixel) {
   for (const auto& [name, filter] : kPixelFilters) {
-    for (const std::uint32_t samples : {1U, 2U, 3U, 4U, 8U, 16U, 100U}) {
-      double x = 0;
-      double y = 0;
-      for (const PixelPlace& place : pixel_places(filter, samples, 3)) {
+    const PixelSamples samples(filter, 8, 3);
+    double x = 0;
+    double y = 0;
+    int covered = 0;
+    for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
+      for (std::uint32_t sample = 0; sample < samples.count(); ++sample) {
+        const PixelPlace place = samples.place(pixel % 8, pixel / 8, sample);
         x += place.x;
         y += place.y;
+        covered += place.y < 0.3 ? 1 : 0;
       }
-      EXPECT_NEAR(x / samples, 0.5, 1e-12) << name << ", " << samples;
-      EXPECT_NEAR(y / samples, 0.5, 1e-12) << name << ", " << samples;
     }
+    EXPECT_NEAR(x / 512, 0.5, 0.01) << name;
+    EXPECT_NEAR(y / 512, 0.5, 0.01) << name;
+    if (filter != PixelFilter::box) continue;
+    EXPECT_NEAR(covered / 512.0, 0.3, 0.01);
   }
+  EXPECT_EQ(PixelSamples(PixelFilter::tent, 1, 3).place(5, 7, 0).x, 0.5);
 }
 
 // Mean squares of the distances are the filters' own: 1/12, 1/6, and a little less than 1/4.
-TEST(PixelPlaces, SpreadAsTheFilterDoes) {
+TEST(PixelSamples, SpreadAsTheFilterDoes) {
   constexpr std::array<double, 3> wanted{1.0 / 12, 1.0 / 6, 0.2433};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const PixelSamples samples(kPixelFilters[i].filter, 256, 3);
     double square = 0;
-    for (const PixelPlace& place : pixel_places(kPixelFilters[i].filter, 256, 3)) {
-      square += (place.x - 0.5) * (place.x - 0.5);
+    for (std::uint32_t sample = 0; sample < 256; ++sample) {
+      const double x = samples.place(2, 3, sample).x - 0.5;
+      square += x * x;
     }
     EXPECT_NEAR(square / 256, wanted[i], 0.02 * wanted[i]) << kPixelFilters[i].name;
   }

@@ -24,7 +24,7 @@ class RayTracingPhaseTest : public testing::Test {
   RayTracingPhase phase(std::uint64_t credits, const Vec3d& eye = {0.5, 0.5, 0.05},
                         const Vec3d& look_at = {0.5, 0.5, 1}) {
     const CameraRays rays({eye, look_at, {0, 1, 0}, 60}, mesh_.space, kWidth, kHeight,
-                          pixel_places(PixelFilter::box, 2, 5), 5);
+                          PixelSamples(PixelFilter::box, 2, 5), 5);
     return {placement_, rays, {credits, kWidth, kHeight, 2, true}};
   }
 
