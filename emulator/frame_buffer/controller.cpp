@@ -14,8 +14,8 @@ namespace torolux {
 using protocol::PixelAdd;
 
 FrameBufferController::FrameBufferController(const MachineDescription::FrameBuffer& parameters, std::uint32_t width,
-                                             std::uint32_t height, EventQueue& events, std::uint32_t source,
-                                             BlockPool& pool)
+                                             std::uint32_t height, std::uint32_t layers, EventQueue& events,
+                                             std::uint32_t source, BlockPool& pool)
     : cycles_per_pixel_(parameters.cycles_per_pixel),
       places_(parameters.queue_messages),
       events_(events),
@@ -23,7 +23,10 @@ FrameBufferController::FrameBufferController(const MachineDescription::FrameBuff
       pool_(pool) {
   frame_buffer_.width = width;
   frame_buffer_.height = height;
-  frame_buffer_.pixels.resize(std::size_t{width} * height);
+  const std::uint32_t planes = layers | protocol::plane_bit(protocol::Plane::colour);
+  for (std::uint32_t plane = 0; plane < protocol::kPlanes; ++plane) {
+    if ((planes >> plane & 1U) != 0) frame_buffer_.planes[plane].resize(std::size_t{width} * height);
+  }
 }
 
 void FrameBufferController::arrive(BlockIndex index, Cycles now) {
@@ -46,12 +49,14 @@ void FrameBufferController::add_pixels(BlockIndex index) {
   for (std::size_t at = 0; at < block.bytes; at += sizeof(PixelAdd)) {
     PixelAdd pixel{};
     std::memcpy(&pixel, &block.data[at], sizeof pixel);
-    if (pixel.pixel >= frame_buffer_.pixels.size()) {
+    const auto plane = static_cast<std::uint32_t>(pixel.plane);
+    if (plane >= protocol::kPlanes || pixel.pixel >= frame_buffer_.planes[plane].size()) {
       throw MachineFailure("PE " + std::to_string(block.source) + ": added to pixel " + std::to_string(pixel.pixel) +
-                           "; the frame buffer has " + std::to_string(frame_buffer_.width) + " x " +
-                           std::to_string(frame_buffer_.height));
+                           " of plane " + std::to_string(plane) + "; the frame buffer has " +
+                           std::to_string(frame_buffer_.width) + " x " + std::to_string(frame_buffer_.height) +
+                           ", and the planes that were asked for");
     }
-    auto& sums = frame_buffer_.pixels[pixel.pixel];
+    auto& sums = frame_buffer_.planes[plane][pixel.pixel];
     for (std::size_t c = 0; c < sums.size(); ++c) {
       // Modulo 2^64, as the hardware adds: no order of additions may matter.
       sums[c] =

@@ -14,12 +14,14 @@ namespace torolux {
 /// Takes messages in order; each PixelAdd costs cycles_per_pixel. The bus brings one only once it has a place.
 class FrameBufferController {
  public:
+  /// layers: planes besides the colours, as bits (protocol::plane_bit).
   FrameBufferController(const MachineDescription::FrameBuffer& parameters, std::uint32_t width, std::uint32_t height,
-                        EventQueue& events, std::uint32_t source, BlockPool& pool);
+                        std::uint32_t layers, EventQueue& events, std::uint32_t source, BlockPool& pool);
 
   bool has_place() const { return places_used_ < places_; }
   void reserve_place() { ++places_used_; }
-  /// A message has come over the bus. Throws MachineFailure: not of pixels, a pixel outside the frame buffer.
+  /// A message has come over the bus. Throws MachineFailure: not of pixels, a pixel or a plane that is not in the
+  /// frame buffer.
   void arrive(BlockIndex block, Cycles now);
   /// Event pixels_done: adds the message's pixels and frees its place.
   void add_pixels(BlockIndex block);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/protocol/machine.hpp"
+#include "firmware/protocol/niu_window.hpp"
 
 namespace torolux {
 
@@ -42,11 +43,15 @@ class HostProgram {
   virtual const char* waiting_for() const = 0;
 };
 
+using PixelSums = std::array<std::int64_t, 3>;
+
 /// The picture as the frame buffer controller adds it up; row 0 on top.
 struct FrameBuffer {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<std::array<std::int64_t, 3>> pixels;  ///< quanta
+  std::array<std::vector<PixelSums>, protocol::kPlanes> planes;  ///< by protocol::Plane; empty: not there
+
+  const std::vector<PixelSums>& plane(protocol::Plane plane) const { return planes[static_cast<std::size_t>(plane)]; }
 };
 
 }  // namespace torolux

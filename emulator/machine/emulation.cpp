@@ -34,7 +34,8 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       torus_(TorusShape(setup.columns, setup.rows), setup.description.torus, setup.description.injected_delay_cycles,
              events_, pes_, pool_, *this),
       bus_(pes_, setup.description.bus, events_, 2 * pes_, pool_, *this),
-      controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, events_, 2 * pes_ + 2, pool_),
+      controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, setup.frame_layers, events_,
+                  2 * pes_ + 2, pool_),
       host_(setup.description.host, program, nius_, events_, 2 * pes_ + 1, pool_) {}
 
 void Emulation::handle(const Event& event) {

@@ -27,6 +27,7 @@ struct MachineSetup {
   unsigned threads = 0;  ///< 0: all cores
   std::uint32_t frame_width = 0;
   std::uint32_t frame_height = 0;
+  std::uint32_t frame_layers = 0;  ///< planes of the frame buffer besides the colours, as bits (protocol::plane_bit)
 };
 
 struct PeFigures {

@@ -19,16 +19,16 @@ std::int64_t to_quanta(float value) {
   return b < 0 ? -size : size;
 }
 
-void Homecoming::add_pixel(Niu& niu, std::uint32_t pixel, const glm::vec3& value) {
+void Homecoming::add(Niu& niu, protocol::Plane plane, std::uint32_t pixel, const std::array<std::int64_t, 3>& value) {
   auto* adds = reinterpret_cast<protocol::PixelAdd*>(niu.batch().bytes.data());
-  const bool same = pixels_ > 0 && adds[pixels_ - 1].pixel == pixel;
+  const bool same = pixels_ > 0 && adds[pixels_ - 1].pixel == pixel && adds[pixels_ - 1].plane == plane;
   if (!same) {
     if (pixels_ == protocol::kMostPixelsPerMessage) flush_pixels(niu);
-    adds[pixels_++] = {{0, 0, 0}, pixel, 0};
+    adds[pixels_++] = {{0, 0, 0}, pixel, plane};
   }
-  for (int c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < 3; ++c) {
     std::int64_t& sum = adds[pixels_ - 1].value[c];  // light that is not finite may wrap round: added without sign
-    sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(to_quanta(value[c])));
+    sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(value[c]));
   }
 }
 

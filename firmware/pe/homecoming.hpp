@@ -3,6 +3,7 @@
 // one queue, so that a credit is never home before its result.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/niu/niu.hpp"
@@ -18,7 +19,10 @@ class Homecoming {
  public:
   bool empty() const { return pixels_ == 0 && credits_ == 0; }
   /// value: in quanta, before rounding. Sent when a message is full.
-  void add_pixel(Niu& niu, std::uint32_t pixel, const glm::vec3& value);
+  void add_pixel(Niu& niu, std::uint32_t pixel, const glm::vec3& value) {
+    add(niu, protocol::Plane::colour, pixel, {to_quanta(value.x), to_quanta(value.y), to_quanta(value.z)});
+  }
+  void add(Niu& niu, protocol::Plane plane, std::uint32_t pixel, const std::array<std::int64_t, 3>& value);
   /// A record has died, or a grant was not used up. Sent when there are many.
   void add_credits(Niu& niu, std::uint32_t count);
   void flush(Niu& niu);

@@ -42,6 +42,7 @@ enum class LayoutField : std::uint32_t {
   emission_points,
   cell_size,
   pixel_scale,
+  layers,
 };
 
 struct Extent {
@@ -128,6 +129,7 @@ void check_layout(Niu& niu, const StageLayout& l) {
     check_radiosity(niu, l);
   } else {
     require(niu, finite_positive(l.pixel_scale), LayoutField::pixel_scale, 0);
+    require(niu, l.layers >> protocol::kPlanes == 0, LayoutField::layers, l.layers);
   }
 }
 

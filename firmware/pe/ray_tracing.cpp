@@ -4,6 +4,7 @@
 #include "firmware/pe/emitters.hpp"
 #include "firmware/pe/follow.hpp"
 #include "firmware/pe/glossy.hpp"
+#include "firmware/pe/layers.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/random.hpp"
@@ -57,8 +58,9 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
   }
   const glm::vec3 diffuse = diffuse_reflectance(pe.scene, polygon, hit);
   const glm::vec3 weight = to_vector(record.weight) * diffuse * sample.irradiance_over_pi;
-  if (!worth_following(pe, weight)) return false;
-  record.weight = to_array(weight);
+  const bool lights = worth_following(pe, weight);
+  if (!note_irradiance(pe, record, sample.irradiance_over_pi) && !lights) return false;
+  record.weight = to_array(lights ? weight : glm::vec3(0.0F));
   record.target = sample.polygon;
   turn(record, origin, sample.direction, polygon.number);
   record.flags |= protocol::kShadow;
@@ -230,6 +232,7 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
   auto& record = pe.slots.at<RayRecord>(slot);
   for (;;) {
     const Way way = traverse_record(pe, niu, record);
+    if (pe.scene.layout.layers != 0) note_way(pe, niu, record, way);
     if (way.end == WayEnd::handed_on) {
       pe.outbox.put(niu, pe.slots, way.next, slot);
       return;

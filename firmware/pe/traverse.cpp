@@ -97,6 +97,7 @@ inline bool step(const Scene& scene, PeNumber self, Segment& segment, Walk& walk
     return false;
   }
   here = &scene.subspaces[segment.subspace];
+  ++way.visited;
   walk.cross(*here);
   return true;
 }
@@ -110,6 +111,7 @@ Way traverse(const Scene& scene, PeNumber self, Segment& segment) {
     return way;
   }
   const Subspace* here = &scene.subspaces[segment.subspace];
+  way.visited = 1;
   Walk walk(scene.layout, segment, *here);
   // Most subspaces hold no polygon: what only those need of the ray waits until one does.
   while (here->polygon_count == 0) {

@@ -29,6 +29,7 @@ struct Way {
   WayEnd end;
   protocol::PeNumber next;
   Hit hit;
+  std::uint32_t visited;  ///< subspaces of this PE through which it went, without those where it sought its origin
 };
 
 /// self: this PE's number. `segment` is moved along.

@@ -90,11 +90,30 @@ enum class MachineMessage : std::uint16_t {
   pixels = 3,    ///< PE -> FBC: PixelAdd[]
 };
 
-/// One addition to the frame buffer. Unit: the ray tracing stage's radiance quantum.
+/// The frame buffer has a plane of three sums per pixel for the colours, and others on request: the layers of a
+/// picture. All but the first tell of the first surface that a camera ray meets. Q: quantum of the ray tracing stage's
+/// radiance.
+enum class Plane : std::uint32_t {
+  colour,      ///< R, G, B [Q]
+  irradiance,  ///< on the side that is seen, over pi: R, G, B [Q]
+  depth,       ///< distance from the eye [kLayerUnit of the object space's longest edge]; samples that met something; 0
+  normals,     ///< of the side that is seen: x, y, z [kLayerUnit]
+  elements,    ///< sample 0 only: polygon's global number + 1; path of the element in it, or -1: none there; side
+  owner,       ///< sample 0 only: number of the PE that found the surface, + 1; 0; 0
+  cost,        ///< subspaces visited by all rays of the pixel; 0; 0
+};
+inline constexpr std::uint32_t kPlanes = 7;
+inline constexpr float kLayerUnit = 0x1p-24F;
+/// Bit of a plane in a set of them.
+constexpr std::uint32_t plane_bit(Plane plane) {
+  return 1U << static_cast<std::uint32_t>(plane);
+}
+
+/// One addition to the frame buffer.
 struct PixelAdd {
-  std::int64_t value[3];  ///< R, G, B
-  std::uint32_t pixel;    ///< row * width + column, row 0 on top
-  std::uint32_t unused;   ///< 0
+  std::int64_t value[3];
+  std::uint32_t pixel;  ///< row * width + column, row 0 on top
+  Plane plane;
 };
 static_assert(sizeof(PixelAdd) == 32);
 inline constexpr std::uint32_t kMostPixelsPerMessage = kMostMessageBytes / sizeof(PixelAdd);

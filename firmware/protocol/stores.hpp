@@ -243,7 +243,8 @@ struct StageLayout {
   Store emitters;        ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
   float pixel_scale;     ///< quanta per unit of radiance
   float least_weight;    ///< a ray whose weights are all below dies
+  std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 212);
+static_assert(sizeof(StageLayout) == 216);
 
 }  // namespace torolux::protocol

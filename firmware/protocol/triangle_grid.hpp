@@ -94,4 +94,15 @@ constexpr std::uint32_t find_leaf(const std::uint32_t* nodes, std::uint32_t node
   return node & ~kLeaf;
 }
 
+/// The same leaf by its place in the grid; the tree begins with the whole triangle.
+constexpr std::uint32_t leaf_code(const std::uint32_t* nodes, std::uint32_t node, Weights at) {
+  std::uint32_t code = 1;
+  while ((node & kLeaf) == 0) {
+    const std::uint32_t child = enter_child(at);
+    code = code << 2U | child;
+    node = nodes[node + child];
+  }
+  return code;
+}
+
 }  // namespace torolux::protocol

@@ -192,6 +192,22 @@ PixelFilter parse_filter(const std::string& text) {
   throw UsageError(in_quotes(text) + " is no filter; there are: box, tent, gaussian");
 }
 
+LayerSet parse_layers(const std::string& text) {
+  LayerSet set = 0;
+  for (const auto& [name, plane] : kLayerNames) set |= protocol::plane_bit(plane);
+  if (text == "all") return set;
+  set = 0;
+  for (const auto& part : split(text, ',')) {
+    const auto* layer = std::ranges::find(kLayerNames, part, &LayerName::name);
+    if (layer == kLayerNames.end()) {
+      throw UsageError(in_quotes(part) +
+                       " is no layer; there are: elements, irradiance, depth, normals, owner, cost; or all");
+    }
+    set |= protocol::plane_bit(layer->plane);
+  }
+  return set;
+}
+
 ToneCurve parse_tone_curve(const std::string& text) {
   if (text == "filmic") return ToneCurve::filmic;
   if (text == "linear") return ToneCurve::linear;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
-#include "host_tools/picture/picture.hpp"
+#include "host_tools/picture/layers.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace torolux {
@@ -52,6 +52,8 @@ GdbPort parse_gdb_port(const std::string& text);
 bool parse_direct(const std::string& text);
 
 PixelFilter parse_filter(const std::string& text);
+/// Names of layers with commas between them, or "all".
+LayerSet parse_layers(const std::string& text);
 /// "filmic" or "linear".
 ToneCurve parse_tone_curve(const std::string& text);
 

@@ -20,7 +20,7 @@ namespace {
 
 /// What cannot be written is better known before the work than after it.
 void check_results_writable(const Settled& settled, const RenderOptions& options) {
-  for (const auto& file : settled.outputs) check_writable(file);
+  for (const auto& file : settled.outputs) check_layers_writable(file, settled.quality.layers);
   if (options.stats) check_file_writable(*options.stats);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
 }
@@ -53,7 +53,7 @@ int run_render(const RenderOptions& options) {
   if (interrupted()) return kInterrupted;
   print_notes(result.notes, options.quiet);
 
-  for (const auto& file : settled.outputs) write_picture(result.picture, file, settled.tone);
+  for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
   const RunDescription run{scene.name, settled.quality, settled.machine, settled.outputs};
   if (options.stats) write_file(*options.stats, stats_json(run, result.figures));
   if (!options.quiet) std::cout << summary(run, result.figures) << std::flush;

@@ -108,6 +108,12 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->group(group);
+  add_value(
+      command, "--layers", "LIST",
+      "What else the picture shows, as channels of an .exr and as a .png each beside a .png: elements, irradiance, "
+      "depth, normals, owner (PE), cost (subspaces visited); or all",
+      [&options](const std::string& text) { options.layers = parse_layers(text); })
+      ->group(group);
   add_tone_options(command, options.tone, group);
   path("--stats", "Statistics of the run, as JSON", options.stats);
   path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);

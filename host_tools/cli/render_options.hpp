@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
-#include "host_tools/picture/picture.hpp"
+#include "host_tools/picture/layers.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace CLI {
@@ -40,6 +40,7 @@ struct RenderOptions {
   // What comes out.
   std::vector<std::filesystem::path> outputs;
   ToneOptions tone;
+  LayerSet layers = 0;
   std::optional<std::filesystem::path> save_radiosity, radiosity, stats;
   bool quiet = false;
 
@@ -74,7 +75,7 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
                        const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group);
-/// --output, --stats, --save-radiosity, --radiosity, --quiet.
+/// --output, --layers, --exposure, --tone-curve, --stats, --save-radiosity, --radiosity, --quiet.
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);

@@ -50,6 +50,7 @@ Quality settle_quality(const RenderOptions& options, const SceneDefaults& defaul
   if (!options.filter && defaults.filter)
     from_scene(defaults.filter_place, "filter", [&] { quality.filter = parse_filter(*defaults.filter); });
   quality.filter = options.filter.value_or(quality.filter);
+  quality.layers = options.layers;
   pick(quality.hemicube, options.hemicube, defaults.hemicube);
   pick(quality.shot_points, options.shot_points, defaults.shot_points);
   pick(quality.emission_records, options.emission_records, defaults.emission_records);

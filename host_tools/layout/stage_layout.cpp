@@ -152,6 +152,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   } else {
     layout.pixel_scale = parameters.pixel_scale;
     layout.least_weight = parameters.least_weight;
+    layout.layers = parameters.layers;
   }
   return result;
 }

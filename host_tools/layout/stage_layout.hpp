@@ -23,6 +23,7 @@ struct StageParameters {
   float pixel_scale = 0x1p40F;
   float least_weight = 1e-4F;
   std::uint32_t emitters = 0;  ///< that shadow rays aim at; 0: no shadow rays
+  std::uint32_t layers = 0;    ///< as protocol::StageLayout
 };
 
 /// The machine's side of the layout.

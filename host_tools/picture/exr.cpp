@@ -56,6 +56,27 @@ class MemoryInput : public Imf::IStream {
   std::uint64_t position_ = 0;
 };
 
+/// Channels of a picture that is written, each in header and frame.
+class Channels {
+ public:
+  Channels(Imf::Header& header, std::size_t width) : header_(header), width_(width) {}
+
+  /// component: 4-byte word of each value.
+  template <class Value>
+  void add(const std::string& name, Imf::PixelType type, const std::vector<Value>& values, std::size_t component) {
+    header_.channels().insert(name, Imf::Channel(type));
+    // The library takes pointers to what it only reads as pointers to char.
+    auto* first = reinterpret_cast<char*>(const_cast<Value*>(values.data()));
+    frame.insert(name, Imf::Slice(type, first + 4 * component, sizeof(Value), sizeof(Value) * width_));
+  }
+
+  Imf::FrameBuffer frame;
+
+ private:
+  Imf::Header& header_;
+  std::size_t width_;
+};
+
 /// Reads a file that is already open; the data window is the picture.
 Picture read_pixels(Imf::InputFile& file, const std::string& name) {
   const Imath::Box2i window = file.header().dataWindow();
@@ -88,23 +109,25 @@ Picture read_pixels(Imf::InputFile& file, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::byte> encode_exr(const Picture& picture) {
+std::vector<std::byte> encode_exr(const Picture& picture, std::span<const Layer> layers) {
   Imf::Header header(static_cast<int>(picture.width), static_cast<int>(picture.height));
   header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::FrameBuffer frame;
-  const std::size_t row_bytes = sizeof(picture.pixels[0]) * picture.width;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const char* name = &"R\0G\0B"[2 * c];
-    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    // The library takes pointers to what it only reads as pointers to char.
-    auto* base = reinterpret_cast<char*>(const_cast<float*>(picture.pixels.data()->data() + c));
-    frame.insert(name, Imf::Slice(Imf::FLOAT, base, sizeof(picture.pixels[0]), row_bytes));
+  Channels channels(header, picture.width);
+  for (std::size_t c = 0; c < 3; ++c) channels.add(&"R\0G\0B"[2 * c], Imf::FLOAT, picture.pixels, c);
+  for (const Layer& layer : layers) {
+    for (const LayerChannel& channel : channels_of(layer)) {
+      if (layer.values.empty()) {
+        channels.add(channel.name, Imf::UINT, layer.numbers, 0);
+      } else {
+        channels.add(channel.name, Imf::FLOAT, layer.values, channel.component);
+      }
+    }
   }
   MemoryOutput output;
   {
     // No helper threads: the bytes do not depend on them, and the machine's own threads have the cores.
     Imf::OutputFile file(output, header, 0);
-    file.setFrameBuffer(frame);
+    file.setFrameBuffer(channels.frame);
     file.writePixels(static_cast<int>(picture.height));
   }
   return std::move(output.bytes);

@@ -38,15 +38,35 @@ void check_picture_size(std::uint64_t width, std::uint64_t height, const std::st
 }
 
 void write_picture(const Picture& picture, const std::filesystem::path& file, const ToneMapping& mapping) {
+  write_layers(picture, {}, file, mapping);
+}
+
+void write_layers(const Picture& picture, std::span<const Layer> layers, const std::filesystem::path& file,
+                  const ToneMapping& mapping) {
   check_extension(file);
   check_picture_size(picture.width, picture.height, file.string());
   const std::string extension = extension_of(file);
-  if (extension == ".png")
-    write_file(file, encode_png(picture, mapping));
-  else if (extension == ".exr")
-    write_file(file, encode_exr(picture));
-  else
-    write_file(file, encode_pfm(picture));
+  if (extension == ".pfm") write_file(file, encode_pfm(picture));
+  if (extension == ".exr") write_file(file, encode_exr(picture, layers));
+  if (extension != ".png") return;
+  write_file(file, encode_png(picture, mapping));
+  for (const Layer& layer : layers) {
+    write_file(layer_file(file, name_of(layer.plane)),
+               encode_png(picture.width, picture.height, show_layer(layer, picture.width, picture.height, mapping)));
+  }
+}
+
+std::filesystem::path layer_file(const std::filesystem::path& file, std::string_view layer) {
+  std::filesystem::path name = file.stem();
+  name += "_" + std::string(layer);
+  name += file.extension();
+  return file.parent_path() / name;
+}
+
+void check_layers_writable(const std::filesystem::path& file, LayerSet set) {
+  check_writable(file);
+  if (extension_of(file) != ".png") return;
+  for (const LayerName& layer : layers_in(set)) check_file_writable(layer_file(file, layer.name));
 }
 
 bool holds_radiance(const std::filesystem::path& file) {

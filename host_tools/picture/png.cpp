@@ -9,18 +9,21 @@
 namespace torolux {
 
 std::vector<std::byte> encode_png(const Picture& picture, const ToneMapping& mapping) {
-  const std::vector<std::uint8_t> pixels = tone_map(picture, mapping);
+  return encode_png(picture.width, picture.height, tone_map(picture, mapping));
+}
+
+std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> bytes) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  image.width = picture.width;
-  image.height = picture.height;
+  image.width = width;
+  image.height = height;
   image.format = PNG_FORMAT_RGB;
-  std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(image));
-  png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0)
+  std::vector<std::byte> file(PNG_IMAGE_PNG_SIZE_MAX(image));
+  png_alloc_size_t size = file.size();
+  if (png_image_write_to_memory(&image, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0)
     throw InputError(std::string("the picture cannot be written as PNG: ") + image.message);
-  bytes.resize(size);
-  return bytes;
+  file.resize(size);
+  return file;
 }
 
 }  // namespace torolux

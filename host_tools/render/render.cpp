@@ -8,6 +8,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/mesh/refine.hpp"
+#include "host_tools/render/frame_layers.hpp"
 #include "host_tools/render/setup.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
 #include "host_tools/stages/render_program.hpp"
@@ -26,21 +27,8 @@ MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, con
   machine.threads = choice.threads;
   machine.frame_width = quality.width;
   machine.frame_height = quality.height;
+  machine.frame_layers = quality.layers;
   return machine;
-}
-
-Picture picture_of(const FrameBuffer& frame_buffer, const RenderSetup& setup) {
-  Picture picture;
-  picture.width = frame_buffer.width;
-  picture.height = frame_buffer.height;
-  picture.pixels.reserve(frame_buffer.pixels.size());
-  const double unit = setup.units.unit_radiance / static_cast<double>(setup.parameters.pixel_scale);
-  for (const auto& pixel : frame_buffer.pixels) {
-    picture.pixels.push_back({static_cast<float>(static_cast<double>(pixel[0]) * unit),
-                              static_cast<float>(static_cast<double>(pixel[1]) * unit),
-                              static_cast<float>(static_cast<double>(pixel[2]) * unit)});
-  }
-  return picture;
 }
 
 void add_figures(const RenderProgram& program, const Machine& machine, const RenderSetup& setup,
@@ -152,6 +140,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   if (!files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
   if (files.save_radiosity) save_radiosity(*files.save_radiosity, origin, splits, *program.solution());
   result.picture = picture_of(torolux.frame_buffer(), setup);
+  result.layers = layers_of(torolux.frame_buffer(), setup);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/picture/layers.hpp"
 #include "host_tools/picture/picture.hpp"
 #include "host_tools/scene/scene.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
@@ -25,6 +26,7 @@ struct Quality {
   std::uint32_t width = 512, height = 512;
   std::uint32_t samples = 8;  ///< per pixel
   PixelFilter filter = PixelFilter::box;
+  LayerSet layers = 0;                 ///< of the picture, besides its colours, which they do not change
   std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
   std::optional<double> element_length;
   /// Elements that are added where a draft of the solution says so, as a multiple of those without; 0: no draft.
@@ -89,7 +91,8 @@ struct RenderFigures {
 };
 
 struct RenderResult {
-  Picture picture;  ///< linear radiance
+  Picture picture;            ///< linear radiance
+  std::vector<Layer> layers;  ///< those of Quality::layers
   RenderFigures figures;
   std::vector<std::string> notes;  ///< for the user: memory chosen, warnings
 };

@@ -73,6 +73,7 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
   setup.parameters.shot_points = quality.shot_points;
   setup.parameters.emission_points = emission_points(scene, setup.mesh, quality);
   setup.parameters.pixel_scale = kPixelScale;
+  setup.parameters.layers = quality.layers;
   if (quality.shadow_rays) {
     setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
   }

@@ -45,6 +45,12 @@ Json value_or_auto(const std::optional<Value>& value) {
   return value ? Json(*value) : Json("auto");
 }
 
+Json layer_names(LayerSet set) {
+  Json names = Json::array();
+  for (const LayerName& layer : layers_in(set)) names.push_back(layer.name);
+  return names;
+}
+
 Json settings_json(const RunDescription& run, const RenderFigures& figures) {
   const Quality& quality = run.quality;
   const MachineChoice& machine = run.machine;
@@ -53,6 +59,7 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"height", quality.height},
           {"samples", quality.samples},
           {"filter", name_of(quality.filter)},
+          {"layers", layer_names(quality.layers)},
           {"patches", value_or_auto(quality.patch_length)},
           {"elements", value_or_auto(quality.element_length)},
           {"hemicube", quality.hemicube},

@@ -208,6 +208,36 @@ TEST(ShadowRays, MakeTheSamePicture) {
   EXPECT_EQ(same(cornell), figures);
 }
 
+/// Layers change no byte of the colours, and are themselves the same on every machine, but for those of the machine.
+TEST(Layers, MakeTheSamePictureAndAreTheSame) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.quality.layers = (1U << protocol::kPlanes) - 2U;
+  const RenderResult result = run_case(cornell);
+  expect_all_home(result);
+  EXPECT_EQ(bytes_of(result.picture), reference_picture());
+  ASSERT_EQ(result.layers.size(), protocol::kPlanes - 1U);
+  cornell.machine.columns = 3;
+  cornell.machine.rows = 5;
+  cornell.machine.subspaces = {5, 3, 7};
+  const RenderResult other = run_case(cornell);
+  EXPECT_EQ(bytes_of(other.picture), reference_picture());
+  for (std::size_t i = 0; i < result.layers.size(); ++i) {
+    const Layer& layer = result.layers[i];
+    const bool of_the_machine = layer.plane == protocol::Plane::owner || layer.plane == protocol::Plane::cost;
+    EXPECT_EQ(layer.values, other.layers[i].values) << name_of(layer.plane);
+    EXPECT_EQ(layer.numbers == other.layers[i].numbers, !of_the_machine) << name_of(layer.plane);
+  }
+  for (const char* engine : {"qemu", "translated"}) {
+    cornell.machine.engine = engine;
+    const RenderResult again = run_case(cornell);
+    EXPECT_EQ(bytes_of(again.picture), reference_picture()) << engine;
+    for (std::size_t i = 0; i < again.layers.size(); ++i) {
+      EXPECT_EQ(again.layers[i].values, other.layers[i].values) << engine;
+      EXPECT_EQ(again.layers[i].numbers, other.layers[i].numbers) << engine;
+    }
+  }
+}
+
 /// Same command, same bytes, same cycles and statistics, whatever the host's timing.
 TEST(Repetition, FiguresAreExactlyTheSame) {
   RenderCase cornell = small_cornell("cornell_spheres");

@@ -50,7 +50,8 @@ TEST(Main, HelpOfRenderIsComplete) {
                              "--patches",   "--elements",    "--hemicube",   "--shot-points",      "--emission-records",
                              "--unshot",    "--max-shots",   "--bounces",    "--two-sided-lights", "--save-radiosity",
                              "--radiosity", "--stats",       "--seed",       "--threads",          "--quiet",
-                             "--studio",    "--enter-empty", "--direct",     "--filter",           "--tone-curve"})
+                             "--studio",    "--enter-empty", "--direct",     "--filter",           "--tone-curve",
+                             "--layers"})
     EXPECT_THAT(help, HasSubstr(option));
   for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[20]", "[0.01]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
@@ -75,6 +76,7 @@ TEST(Main, UsageErrors) {
                                              {"render", "scene", "--direct", "lamp"},
                                              {"render", "scene", "--filter", "triangle"},
                                              {"render", "scene", "--tone-curve", "aces"},
+                                             {"render", "scene", "--layers", "colour"},
                                              {"tonemap", "a.exr"},
                                              {"tonemap", "a.exr", "a.jpg"},
                                              {"tonemap", "a.exr", "b.exr"},

@@ -107,6 +107,15 @@ TEST(ParseToneCurve, KnowsTwoNames) {
   for (const char* text : {"", "aces", "Filmic"}) EXPECT_THROW(parse_tone_curve(text), UsageError) << text;
 }
 
+TEST(ParseLayers, TakesNamesOrAll) {
+  using protocol::Plane;
+  EXPECT_EQ(parse_layers("depth"), protocol::plane_bit(Plane::depth));
+  EXPECT_EQ(parse_layers("owner,depth,owner"), protocol::plane_bit(Plane::depth) | protocol::plane_bit(Plane::owner));
+  EXPECT_EQ(parse_layers("all"), (1U << protocol::kPlanes) - 2U) << "all but the colours";
+  for (const char* text : {"", "colour", "depth,", "depth, cost", "all,depth"})
+    EXPECT_THROW(parse_layers(text), UsageError) << text;
+}
+
 TEST(ParseCount, HasLimits) {
   EXPECT_EQ(parse_count("18446744073709551615", 0, ~std::uint64_t{0}), ~std::uint64_t{0});
   EXPECT_EQ(parse_count("7", 1, 7), 7U);

@@ -103,6 +103,7 @@ RenderOptions all_given() {
   options.seed = 20;
   options.shadow_rays = false;
   options.filter = PixelFilter::gaussian;
+  options.layers = 6;
   options.tone.exposure_ev = -2;
   options.tone.curve = ToneCurve::linear;
   options.subspaces = SubspacesOption{};  // auto, given
@@ -132,6 +133,7 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_EQ(q.unshot, 0.19);
   EXPECT_EQ(q.seed, 20U);
   EXPECT_EQ(q.filter, PixelFilter::gaussian);
+  EXPECT_EQ(q.layers, 6U);
   EXPECT_FALSE(q.shadow_rays) << "--direct radiosity, given";
   EXPECT_EQ(settled.tone.exposure_ev, -2);
   EXPECT_EQ(settled.tone.curve, ToneCurve::linear);

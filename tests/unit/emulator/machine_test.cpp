@@ -165,7 +165,8 @@ TEST(Machine, MessagesOfOneQueueKeepTheirOrderAndReachHostAndFrameBuffer) {
   ListeningHost host(4);
   register_native_engine([](Niu& niu, NativeClock& /*clock*/) {
     std::array<protocol::PixelAdd, 8> pixels{};
-    for (std::uint32_t i = 0; i < 8; ++i) pixels[i] = {{i, -2 * std::int64_t{i}, std::int64_t{1} << 40U}, i, 0};
+    for (std::uint32_t i = 0; i < 8; ++i)
+      pixels[i] = {{i, -2 * std::int64_t{i}, std::int64_t{1} << 40U}, i, protocol::Plane::colour};
     for (int i = 0; i < 5; ++i) {
       niu.send_message(protocol::kFrameBuffer, static_cast<std::uint16_t>(protocol::MachineMessage::pixels),
                        std::as_bytes(std::span(pixels)));
@@ -179,13 +180,48 @@ TEST(Machine, MessagesOfOneQueueKeepTheirOrderAndReachHostAndFrameBuffer) {
   // All pixels went ahead of the last message: the bus took them only as the controller had a place.
   EXPECT_GT(host.heard[0].time, 4 * 100U * 8);
   const FrameBuffer& frame = machine.frame_buffer();
-  ASSERT_EQ(frame.pixels.size(), 8U);
+  const auto& sums = frame.plane(protocol::Plane::colour);
+  ASSERT_EQ(sums.size(), 8U);
   for (std::int64_t i = 0; i < 8; ++i) {
     const std::array<std::int64_t, 3> expected = {20 * i, -40 * i, 20 * (std::int64_t{1} << 40U)};
-    EXPECT_EQ(frame.pixels[static_cast<std::size_t>(i)], expected);
+    EXPECT_EQ(sums[static_cast<std::size_t>(i)], expected);
   }
   EXPECT_EQ(machine.figures().pixels_added, 160U);
   EXPECT_EQ(machine.figures().frame_buffer_busy_cycles, 16000U);
+}
+
+/// One PE adds 1, 2, 3 to pixel 1 of a plane, of a frame buffer of 2 x 1 pixels with these layers.
+FrameBuffer frame_after_adding(protocol::Plane plane, std::uint32_t layers) {
+  MachineSetup setup = small_machine(1, 1);
+  setup.frame_width = 2;
+  setup.frame_height = 1;
+  setup.frame_layers = layers;
+  ListeningHost host(1);
+  register_native_engine([plane](Niu& niu, NativeClock& /*clock*/) {
+    const std::array<protocol::PixelAdd, 1> add{{{{1, 2, 3}, 1, plane}}};
+    niu.send_message(protocol::kFrameBuffer, static_cast<std::uint16_t>(protocol::MachineMessage::pixels),
+                     std::as_bytes(std::span(add)));
+    niu.send(static_cast<protocol::MessageKind>(kDone));
+    sleep_for_ever(niu);
+  });
+  const Image image = empty_image();
+  Machine machine(setup, image);
+  machine.run(host);
+  return machine.frame_buffer();
+}
+
+TEST(Machine, LayersHavePlanesOfTheirOwn) {
+  using protocol::Plane;
+  const std::uint32_t layers = protocol::plane_bit(Plane::depth) | protocol::plane_bit(Plane::cost);
+  const FrameBuffer frame = frame_after_adding(Plane::cost, layers);
+  EXPECT_EQ(frame.plane(Plane::cost), (std::vector<PixelSums>{{0, 0, 0}, {1, 2, 3}}));
+  for (const Plane plane : {Plane::colour, Plane::depth}) {
+    EXPECT_EQ(frame.plane(plane), (std::vector<PixelSums>{{0, 0, 0}, {0, 0, 0}}));
+  }
+  EXPECT_TRUE(frame.plane(Plane::normals).empty());
+  for (const Plane plane : {Plane::normals, Plane{protocol::kPlanes}, Plane{0xFFFF'FFFFU}}) {
+    EXPECT_THROW(frame_after_adding(plane, layers), MachineFailure) << "not asked for, or none at all";
+  }
 }
 
 TEST(Machine, HostSendsInOrderAndHoldsBackWhatHasNoRoom) {

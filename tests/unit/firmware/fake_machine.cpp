@@ -160,7 +160,8 @@ void FakePe::send_message() {
   std::vector<protocol::PixelAdd> adds(header.bytes / sizeof(protocol::PixelAdd));
   std::memcpy(adds.data(), from, header.bytes);
   for (const auto& add : adds) {
-    for (std::size_t c = 0; c < 3; ++c) machine_.pixels[add.pixel][c] += add.value[c];
+    auto& plane = add.plane == protocol::Plane::colour ? machine_.pixels : machine_.layers[add.plane];
+    for (std::size_t c = 0; c < 3; ++c) plane[add.pixel][c] += add.value[c];
   }
 }
 

@@ -137,7 +137,9 @@ class FakeMachine {
   std::vector<PeStores> stores;  ///< with addresses
   std::deque<Packet> torus;
   std::vector<HostMessage> to_host;
-  std::map<std::uint32_t, std::array<std::int64_t, 3>> pixels;
+  using Pixels = std::map<std::uint32_t, std::array<std::int64_t, 3>>;
+  Pixels pixels;                             ///< colours
+  std::map<protocol::Plane, Pixels> layers;  ///< other planes
   std::uint64_t records_sent = 0, largest_packet = 0;
 
  private:

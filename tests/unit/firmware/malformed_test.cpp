@@ -86,6 +86,16 @@ TEST(Malformed, LayoutsThatDoNotHoldAreRefused) {
   }
 }
 
+TEST(Malformed, LayersThatThereAreNotAreRefused) {
+  TestScene scene = small_scene();
+  for (const std::uint32_t layers : {0U, (1U << protocol::kPlanes) - 2U, 1U << protocol::kPlanes}) {
+    scene.layers = layers;
+    FakeMachine machine(1);
+    EXPECT_EQ(fault_of([&] { machine.begin(scene, Stage::ray_tracing); }),
+              layers >> protocol::kPlanes == 0 ? 0U : code(FaultCode::bad_layout));
+  }
+}
+
 TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
   const std::vector<std::function<void(PeStores&)>> changes = {
       [](PeStores& s) { s.subspaces[1].cell[0] = 2; },

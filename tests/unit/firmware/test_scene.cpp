@@ -94,6 +94,7 @@ class Builder {
     l.shot_points = l.emission_points = scene_.points;
     l.pixel_scale = scene_.pixel_scale;
     l.least_weight = scene_.least_weight;
+    l.layers = scene_.layers;
   }
 
   /// Every PE holds every polygon here (lists of subspaces name only what stands in them).

@@ -34,6 +34,7 @@ struct TestScene {
   std::uint32_t points = 1;
   float pixel_scale = 0x1p20F;
   float least_weight = 0;
+  std::uint32_t layers = 0;
 
   std::uint16_t pe_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
     return static_cast<std::uint16_t>((x + 3 * y + 5 * z) % pes);

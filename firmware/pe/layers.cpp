@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// See layers.hpp.
+#include "firmware/pe/layers.hpp"
+
+#include "firmware/pe/surface.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::Plane;
+using protocol::Polygon;
+using protocol::RayRecord;
+
+bool wanted(const Pe& pe, Plane plane) {
+  return (pe.scene.layout.layers & protocol::plane_bit(plane)) != 0;
+}
+
+/// Until a ray has met its second surface, no more than one branch waits: the last one's room is free.
+protocol::Vec3f& carried_irradiance(RayRecord& record) {
+  return record.branches[protocol::kMostBranches - 1U].weight;
+}
+const protocol::Vec3f& carried_irradiance(const RayRecord& record) {
+  return record.branches[protocol::kMostBranches - 1U].weight;
+}
+
+void add_irradiance(Pe& pe, Niu& niu, const RayRecord& record, const glm::vec3& over_pi) {
+  const glm::vec3 value = over_pi * pe.scene.layout.pixel_scale;
+  pe.homecoming.add(niu, Plane::irradiance, record.pixel, {to_quanta(value.x), to_quanta(value.y), to_quanta(value.z)});
+}
+
+void note_depth(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
+  pe.homecoming.add(niu, Plane::depth, record.pixel, {to_quanta(hit.t / protocol::kLayerUnit), 1, 0});
+}
+
+void note_normal(Pe& pe, Niu& niu, const RayRecord& record, const Polygon& polygon, const Hit& hit) {
+  const glm::vec3 normal = shading_normal(pe.scene, polygon, hit) * ((hit.front ? 1.0F : -1.0F) / protocol::kLayerUnit);
+  pe.homecoming.add(niu, Plane::normals, record.pixel, {to_quanta(normal.x), to_quanta(normal.y), to_quanta(normal.z)});
+}
+
+/// The element under a hit. The host makes a number of it (host_tools/render/frame_layers.cpp).
+void note_element(Pe& pe, Niu& niu, const RayRecord& record, const Polygon& polygon, const Hit& hit) {
+  const std::uint8_t side = hit.front ? protocol::kFrontPresent : protocol::kBackPresent;
+  std::int64_t code = 0;
+  if ((polygon.sides & side) != 0) {
+    protocol::Weights at{(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
+    code = protocol::leaf_code(pe.scene.nodes.data(), polygon.surface, at);
+  }
+  pe.homecoming.add(niu, Plane::elements, record.pixel, {std::int64_t{polygon.number} + 1, code, hit.front ? 0 : 1});
+}
+
+void note_first_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  if (wanted(pe, Plane::irradiance)) {
+    add_irradiance(pe, niu, record, to_vector(record.weight) * interpolated_irradiance(pe.scene, polygon, hit));
+  }
+  if (wanted(pe, Plane::depth)) note_depth(pe, niu, record, hit);
+  if (wanted(pe, Plane::normals)) note_normal(pe, niu, record, polygon, hit);
+  if (record.sample != 0) return;
+  if (wanted(pe, Plane::elements)) note_element(pe, niu, record, polygon, hit);
+  if (wanted(pe, Plane::owner)) {
+    pe.homecoming.add(niu, Plane::owner, record.pixel, {std::int64_t{niu.pe()} + 1, 0, 0});
+  }
+}
+
+}  // namespace
+
+void note_way(Pe& pe, Niu& niu, const RayRecord& record, const Way& way) {
+  if (wanted(pe, Plane::cost)) pe.homecoming.add(niu, Plane::cost, record.pixel, {way.visited, 0, 0});
+  if (way.end != WayEnd::hit || record.bounce != 0) return;
+  if ((record.flags & protocol::kShadow) == 0) {
+    note_first_surface(pe, niu, record, way.hit);
+  } else if (wanted(pe, Plane::irradiance) && pe.scene.polygons[way.hit.polygon].number == record.target) {
+    add_irradiance(pe, niu, record, to_vector(carried_irradiance(record)));
+  }
+}
+
+bool note_irradiance(const Pe& pe, RayRecord& record, const glm::vec3& irradiance_over_pi) {
+  if (record.bounce != 0 || !wanted(pe, Plane::irradiance)) return false;
+  carried_irradiance(record) = to_array(to_vector(record.weight) * irradiance_over_pi);
+  return true;
+}
+
+}  // namespace torolux::pe

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// From the frame buffer's integers to the picture and its further layers.
+#pragma once
+
+#include <vector>
+
+#include "emulator/host/host_program.hpp"
+#include "host_tools/picture/layers.hpp"
+#include "host_tools/render/setup.hpp"
+
+namespace torolux {
+
+Picture picture_of(const FrameBuffer& frame_buffer, const RenderSetup& setup);
+
+/// Those of setup.parameters.layers, in the order of kLayerNames.
+std::vector<Layer> layers_of(const FrameBuffer& frame_buffer, const RenderSetup& setup);
+
+}  // namespace torolux
