@@ -143,6 +143,42 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Grid,
                                   std::to_string(grid.param[2]);
                          });
 
+class Materials : public testing::TestWithParam<const char*> {};
+
+/// Glossy surfaces, textures and glass around diffuse surfaces, with shadow rays.
+TEST_P(Materials, MakeTheSamePicture) {
+  RenderCase room = native_case(data_dir() / "scenes" / GetParam());
+  room.quality.hemicube = 8;
+  room.quality.shot_points = 1;
+  room.quality.max_shots = 60;
+  room.quality.patch_length = 0.3;
+  room.quality.element_length = 0.1;
+  room.quality.shadow_rays = true;
+  const RenderResult reference = run_case(room);
+  expect_all_home(reference);
+
+  RenderCase many = room;
+  many.machine.columns = 5;
+  many.machine.rows = 3;
+  many.machine.subspaces = {5, 3, 7};
+  many.machine.allocation = "balanced";
+  many.machine.description.records.credits_per_pe = 40;
+  RenderCase few = room;
+  few.machine.columns = few.machine.rows = 2;
+  few.machine.subspaces = {2, 2, 2};
+  few.machine.description.records.credits_per_pe = 3;
+  few.machine.description.torus.link_error_rate = 0.05;
+  RenderCase translated = many;
+  translated.machine.engine = "translated";
+  for (const RenderCase& other : {many, few, translated}) {
+    const RenderResult result = run_case(other);
+    expect_all_home(result);
+    EXPECT_EQ(bytes_of(result.picture), bytes_of(reference.picture)) << other.machine.engine;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Rooms, Materials, testing::Values("glossy_room", "textured_room", "glass_block"),
+                         [](const auto& name) { return std::string(name.param); });
+
 TEST(Links, LatencyAndDelaysDoNotShow) {
   RenderCase cornell = small_cornell("cornell_spheres");
   cornell.machine.description.torus.link_cycles = 37;
