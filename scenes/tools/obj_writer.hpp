@@ -52,6 +52,26 @@ class ObjWriter {
     face(numbers);
   }
 
+  /// With a texture point (u, v) for each corner.
+  void polygon(const std::vector<Point>& corners, const std::vector<std::array<double, 2>>& texture_points) {
+    std::vector<int> numbers;
+    numbers.reserve(corners.size());
+    for (const Point& corner : corners) numbers.push_back(position(corner));
+    for (const auto& [u, v] : texture_points) std::printf("vt %.6g %.6g\n", u, v);
+    std::printf("f");
+    for (const int number : numbers) std::printf(" %d/%d", number, ++texture_points_);
+    std::printf("\n");
+  }
+  /// A parallelogram from `corner` along two edges; the front is where they run counter-clockwise. The texture repeats
+  /// `across` times along the first and `up` times along the second.
+  void textured(const Point& corner, const Point& first, const Point& second, double across, double up) {
+    const auto at = [&](double a, double b) -> Point {
+      return {corner[0] + a * first[0] + b * second[0], corner[1] + a * first[1] + b * second[1],
+              corner[2] + a * first[2] + b * second[2]};
+    };
+    polygon({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, {{0, 0}, {across, 0}, {across, up}, {0, up}});
+  }
+
   /// A box turned by `degrees` about the vertical axis through `pivot`.
   void box(const Point& low, const Point& high, double degrees = 0, const Point& pivot = {0, 0, 0}) {
     const double c = std::cos(degrees * std::numbers::pi / 180);
@@ -91,6 +111,7 @@ class ObjWriter {
   std::string material_;
   std::map<std::string, int> positions_;
   int normals_ = 0;
+  int texture_points_ = 0;
 };
 
 }  // namespace scene_tools
