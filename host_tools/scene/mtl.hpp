@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A material library (MTL) in, materials of Torolux out. docs/scenes.md says how each statement is read.
+// A material library (MTL) in, materials of Torolux out. docs/materials.md says how each key is read.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes scenes/glossy_floor/glossy_floor.obj: a gallery with a polished floor, three pedestals and what stands on them.
-// Metres; the lights are in scene.toml.
+// Writes scenes/glossy_floor/glossy_floor.obj: a gallery with a polished floor, three pedestals and what stands on
+// them. Metres; the lights are in scene.toml.
 #include "scenes/tools/unit_sphere.hpp"
 
 namespace {
@@ -21,8 +21,9 @@ void room(ObjWriter& writer) {
   writer.polygon({at(0, 0, 0), at(0, 0, 1), at(1, 0, 1), at(1, 0, 0)});
   writer.material("ceiling");
   writer.polygon({at(0, 1, 0), at(1, 1, 0), at(1, 1, 1), at(0, 1, 1)});
-  writer.material("wall");
+  writer.material("back_wall");
   writer.polygon({at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0)});
+  writer.material("wall");
   writer.polygon({at(0, 0, 1), at(0, 1, 1), at(1, 1, 1), at(1, 0, 1)});
   writer.polygon({at(0, 0, 0), at(0, 1, 0), at(0, 1, 1), at(0, 0, 1)});
   writer.material("coloured_wall");
@@ -74,8 +75,8 @@ void vase(ObjWriter& writer, const Point& base) {
   constexpr int kRings = 16;
   for (int i = 0; i <= kRings; ++i) {
     const double h = static_cast<double>(i) / kRings;
-    const double radius = 0.075 + 0.11 * std::sin(std::numbers::pi * std::pow(h, 0.75)) * (1 - 0.45 * h) +
-                          0.03 * std::pow(h, 8);
+    const double radius =
+        0.075 + 0.11 * std::sin(std::numbers::pi * std::pow(h, 0.75)) * (1 - 0.45 * h) + 0.03 * std::pow(h, 8);
     profile.push_back({radius, 0.62 * h});
   }
   turned(writer, base, profile, 24);
@@ -100,15 +101,15 @@ int main() {
   ObjWriter writer("glossy_floor.mtl");
   room(writer);
   writer.group("left");
-  pedestal(writer, 1.6, 2.3, 0.75, 20);
+  pedestal(writer, 1.75, 3.0, 0.6, 20);
   writer.material("red");
-  scene_tools::sphere(writer, {1.6, 1.035, 2.3}, 0.28, 3);
+  scene_tools::sphere(writer, {1.75, 0.905, 3.0}, 0.3, 3);
   writer.group("middle");
-  pedestal(writer, 3.05, 1.5, 1.05, 0);
-  vase(writer, {3.05, 1.052, 1.5});
+  pedestal(writer, 3.0, 2.1, 0.8, 0);
+  vase(writer, {3.0, 0.802, 2.1});
   writer.group("right");
-  pedestal(writer, 4.45, 2.5, 0.55, -25);
+  pedestal(writer, 4.2, 3.1, 0.45, -25);
   writer.material("brass");
-  scene_tools::sphere(writer, {4.45, 0.855, 2.5}, 0.3, 3);
+  scene_tools::sphere(writer, {4.2, 0.785, 3.1}, 0.33, 3);
   return 0;
 }

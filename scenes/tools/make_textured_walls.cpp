@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes scenes/textured_walls/textured_walls.obj: a room of brick, planks and plaster with a rug, crates and a painting.
-// Metres; the lights are in scene.toml, the images come from make_textures.
+// Writes scenes/textured_walls/textured_walls.obj: a room of brick, planks and plaster with a rug, crates and a
+// painting. Metres; the lights are in scene.toml, the images come from make_textures.
 #include "scenes/tools/obj_writer.hpp"
 
 namespace {
@@ -85,7 +85,7 @@ int main() {
   for (const double x : {0.4, 1.45})
     for (const double z : {0.4, 0.9}) writer.box({x, 0.001, z}, {x + 0.05, 0.699, z + 0.05});
   writer.material("pot");
-  writer.lathe({0.8, 0.746, 0.65}, {{0, 0}, {0.09, 0}, {0.14, 0.08}, {0.15, 0.17}, {0.11, 0.27}, {0.07, 0.31}, {0, 0.31}},
-               20);
+  writer.lathe({0.8, 0.746, 0.65},
+               {{0, 0}, {0.09, 0}, {0.14, 0.08}, {0.15, 0.17}, {0.11, 0.27}, {0.07, 0.31}, {0, 0.31}}, 20);
   return 0;
 }
