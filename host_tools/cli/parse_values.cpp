@@ -192,6 +192,11 @@ PixelFilter parse_filter(const std::string& text) {
   throw UsageError(in_quotes(text) + " is no filter; there are: box, tent, gaussian");
 }
 
+Preset parse_preset(const std::string& text) {
+  if (const auto preset = preset_named(text)) return *preset;
+  throw UsageError(in_quotes(text) + " is no quality preset; there are: draft, normal, fine");
+}
+
 LayerSet parse_layers(const std::string& text) {
   LayerSet set = 0;
   for (const auto& [name, plane] : kLayerNames) set |= protocol::plane_bit(plane);

@@ -12,6 +12,7 @@
 
 #include "emulator/engines/debugging.hpp"
 #include "host_tools/picture/layers.hpp"
+#include "host_tools/render/presets.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace torolux {
@@ -52,6 +53,8 @@ GdbPort parse_gdb_port(const std::string& text);
 bool parse_direct(const std::string& text);
 
 PixelFilter parse_filter(const std::string& text);
+/// The name of a quality preset.
+Preset parse_preset(const std::string& text);
 /// Names of layers with commas between them, or "all".
 LayerSet parse_layers(const std::string& text);
 /// "filmic" or "linear".

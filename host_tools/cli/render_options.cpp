@@ -157,6 +157,11 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
         ->default_str("auto")
         ->group(group);
   };
+  add_value(command, "--quality", "NAME",
+            "Settings that belong together: draft, normal or fine. Whatever else is given outweighs it",
+            [&options](const std::string& text) { options.preset = parse_preset(text); })
+      ->default_str("normal")
+      ->group(group);
   length("--patches", "Longest edge of a patch (which shoots light), scene units", options.patches);
   length("--elements", "Longest edge of an element (which receives light), scene units", options.elements);
   add_value(command, "--refine", "FACTOR",

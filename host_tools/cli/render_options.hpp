@@ -11,6 +11,7 @@
 
 #include "emulator/engines/debugging.hpp"
 #include "host_tools/picture/layers.hpp"
+#include "host_tools/render/presets.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace CLI {
@@ -52,6 +53,7 @@ struct RenderOptions {
   std::optional<double> field_of_view_degrees;
 
   // The light.
+  std::optional<Preset> preset;
   std::optional<LengthOption> patches, elements;
   std::optional<std::uint32_t> hemicube, shot_points, emission_records, max_shots, bounces, texels;
   std::optional<double> refine, unshot;
@@ -79,7 +81,8 @@ void add_tone_options(CLI::App& command, ToneOptions& options, const std::string
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);
-/// --patches, --elements, --refine, --hemicube, --shot-points, --unshot, --max-shots, --bounces, --two-sided-lights,
+/// --quality, --patches, --elements, --refine, --hemicube, --shot-points, --unshot, --max-shots, --bounces,
+/// --two-sided-lights,
 /// --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
 /// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --threads.

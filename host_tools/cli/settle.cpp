@@ -38,29 +38,63 @@ Camera settle_camera(const RenderOptions& options, const Scene& scene) {
   return camera;
 }
 
+void take_scenes(const SceneDefaults& defaults, Quality& quality) {
+  if (defaults.quality) {
+    from_scene(defaults.quality_place, "quality", [&] { apply(parse_preset(*defaults.quality), quality); });
+  }
+  if (defaults.filter)
+    from_scene(defaults.filter_place, "filter", [&] { quality.filter = parse_filter(*defaults.filter); });
+  const auto take = [](auto& value, const auto& scenes) { value = scenes.value_or(value); };
+  take(quality.width, defaults.width);
+  take(quality.height, defaults.height);
+  take(quality.samples, defaults.samples);
+  take(quality.refine, defaults.refine);
+  take(quality.hemicube, defaults.hemicube);
+  take(quality.shot_points, defaults.shot_points);
+  take(quality.emission_records, defaults.emission_records);
+  take(quality.unshot, defaults.unshot);
+  take(quality.max_shots, defaults.max_shots);
+  take(quality.bounces, defaults.bounces);
+  take(quality.shadow_rays, defaults.shadow_rays);
+  take(quality.texels, defaults.texels);
+  take(quality.seed, defaults.seed);
+  take(quality.two_sided_lights, defaults.two_sided_lights);
+}
+
+void take_options(const RenderOptions& options, Quality& quality) {
+  if (options.preset) apply(*options.preset, quality);
+  const auto take = [](auto& value, const auto& given) { value = given.value_or(value); };
+  if (options.size) {
+    quality.width = (*options.size)[0];
+    quality.height = (*options.size)[1];
+  }
+  take(quality.samples, options.samples);
+  take(quality.refine, options.refine);
+  take(quality.filter, options.filter);
+  quality.layers = options.layers;
+  take(quality.hemicube, options.hemicube);
+  take(quality.shot_points, options.shot_points);
+  take(quality.emission_records, options.emission_records);
+  take(quality.unshot, options.unshot);
+  take(quality.max_shots, options.max_shots);
+  take(quality.bounces, options.bounces);
+  take(quality.shadow_rays, options.shadow_rays);
+  take(quality.texels, options.texels);
+  take(quality.seed, options.seed);
+  quality.two_sided_lights = quality.two_sided_lights || options.two_sided_lights;
+}
+
 Quality settle_quality(const RenderOptions& options, const SceneDefaults& defaults) {
   Quality quality;
-  const auto edge = [&](std::size_t i) { return options.size ? std::optional((*options.size)[i]) : std::nullopt; };
-  pick(quality.width, edge(0), defaults.width);
-  pick(quality.height, edge(1), defaults.height);
-  pick(quality.samples, options.samples, defaults.samples);
-  quality.patch_length = options.patches ? options.patches->length : defaults.patch_length;
-  quality.element_length = options.elements ? options.elements->length : defaults.element_length;
-  pick(quality.refine, options.refine, defaults.refine);
-  if (!options.filter && defaults.filter)
-    from_scene(defaults.filter_place, "filter", [&] { quality.filter = parse_filter(*defaults.filter); });
-  quality.filter = options.filter.value_or(quality.filter);
-  quality.layers = options.layers;
-  pick(quality.hemicube, options.hemicube, defaults.hemicube);
-  pick(quality.shot_points, options.shot_points, defaults.shot_points);
-  pick(quality.emission_records, options.emission_records, defaults.emission_records);
-  pick(quality.unshot, options.unshot, defaults.unshot);
-  pick(quality.max_shots, options.max_shots, defaults.max_shots);
-  pick(quality.bounces, options.bounces, defaults.bounces);
-  pick(quality.shadow_rays, options.shadow_rays, defaults.shadow_rays);
-  pick(quality.texels, options.texels, defaults.texels);
-  pick(quality.seed, options.seed, defaults.seed);
-  quality.two_sided_lights = options.two_sided_lights || defaults.two_sided_lights.value_or(false);
+  take_scenes(defaults, quality);
+  take_options(options, quality);
+  // A preset makes the scene's own lengths shorter or longer; one that is given holds.
+  const auto length = [&](const std::optional<LengthOption>& given, const std::optional<double>& scenes) {
+    if (given) return given->length;
+    return scenes ? std::optional(*scenes * quality.lengths) : std::nullopt;
+  };
+  quality.patch_length = length(options.patches, defaults.patch_length);
+  quality.element_length = length(options.elements, defaults.element_length);
   return quality;
 }
 

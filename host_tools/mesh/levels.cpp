@@ -59,10 +59,8 @@ std::uint8_t level_for(double longest_edge, double most) {
   return level;
 }
 
-MeshLengths choose_lengths(std::span<const CutTriangle> triangles, std::uint32_t surfaces,
-                           std::optional<double> patch_length, std::optional<double> element_length) {
-  return {patch_length ? *patch_length : length_for(triangles, 300.0 + surfaces),
-          element_length ? *element_length : length_for(triangles, 4500.0 + 2.0 * surfaces)};
+MeshLengths choose_lengths(std::span<const CutTriangle> triangles, std::uint32_t surfaces) {
+  return {length_for(triangles, 300.0 + surfaces), length_for(triangles, 4500.0 + 2.0 * surfaces)};
 }
 
 }  // namespace torolux

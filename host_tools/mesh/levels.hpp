@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
 namespace torolux {
@@ -22,10 +21,9 @@ struct MeshLengths {
   double patch = 0, element = 0;
 };
 
-/// triangles: not empty. surfaces: smooth ones, each of which needs a patch at least. Lengths that are not given aim at
-/// about 300 patches and 4,500 elements for a small scene (see `data/references.md`: finer elements than the hemi-cube
-/// resolves make the picture worse) and one patch, two elements more for each smooth surface.
-MeshLengths choose_lengths(std::span<const CutTriangle> triangles, std::uint32_t surfaces,
-                           std::optional<double> patch_length, std::optional<double> element_length);
+/// Lengths that make about 300 patches and 4,500 elements of a small scene (see `data/references.md`: finer elements
+/// than the hemi-cube resolves make the picture worse) and one patch, two elements more for each smooth surface.
+/// triangles: not empty. surfaces: smooth ones, each of which needs a patch at least.
+MeshLengths choose_lengths(std::span<const CutTriangle> triangles, std::uint32_t surfaces);
 
 }  // namespace torolux

@@ -110,7 +110,9 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh)
   std::vector<bool> small(mesh.triangles.size(), false);
   MeshLengths& lengths = mesh.lengths;
   if (!cut.empty()) {
-    lengths = choose_lengths(cut, count_smooth_surfaces(mesh), choice.patch_length, choice.element_length);
+    lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
+    lengths.patch = choice.patch_length.value_or(lengths.patch * choice.lengths);
+    lengths.element = choice.element_length.value_or(lengths.element * choice.lengths);
     std::size_t next = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.triangles[t].sides == 0) continue;

@@ -34,6 +34,7 @@ struct MeshChoice {
   bool two_sided_lights = false;
   std::uint32_t texels = 16384;    ///< at most, of each texture
   std::vector<Split> splits = {};  ///< ascending
+  double lengths = 1;              ///< times lengths that are chosen by themselves
 };
 
 struct MeshTriangle {

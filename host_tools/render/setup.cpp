@@ -63,8 +63,8 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
                        const std::vector<Split>& splits) {
   check(quality, machine);
   RenderSetup setup;
-  setup.mesh = make_mesh(
-      scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels, splits});
+  setup.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels,
+                                 splits, quality.lengths});
   setup.notes = setup.mesh.notes;
   setup.units = light_units(scene, setup.mesh, quality.two_sided_lights);
   setup.parameters.seed = machine_seed(quality.seed);

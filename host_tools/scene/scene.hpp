@@ -59,8 +59,8 @@ struct SceneDefaults {
   std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, emission_records, max_shots, bounces,
       texels;
   std::optional<double> exposure_ev, patch_length, element_length, refine, unshot;
-  std::optional<std::string> subspaces, allocation, filter;
-  std::string subspaces_place, allocation_place, filter_place;  ///< FILE:LINE of these, for messages
+  std::optional<std::string> subspaces, allocation, filter, quality;
+  std::string subspaces_place, allocation_place, filter_place, quality_place;  ///< FILE:LINE of these, for messages
   std::optional<bool> two_sided_lights, shadow_rays;
   std::optional<std::uint64_t> seed;
 };

@@ -130,6 +130,8 @@ SceneDefaults read_defaults(TomlTable table) {
   d.subspaces = table.text("subspaces");
   d.allocation = table.text("allocation");
   d.filter = table.text("filter");
+  d.quality = table.text("quality");
+  if (d.quality) d.quality_place = table.place("quality").text();
   if (d.filter) d.filter_place = table.place("filter").text();
   if (d.subspaces) d.subspaces_place = table.place("subspaces").text();
   if (d.allocation) d.allocation_place = table.place("allocation").text();

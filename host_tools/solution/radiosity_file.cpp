@@ -98,6 +98,7 @@ void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected,
   };
   differ("--patches (0: auto)", saved.patch_length, expected.patch_length);
   differ("--elements (0: auto)", saved.element_length, expected.element_length);
+  differ("lengths of --quality", saved.lengths, expected.lengths);
   differ("--refine", saved.refine, expected.refine);
   differ("--unshot", saved.unshot, expected.unshot);
   differ("--seed", saved.seed, expected.seed);
@@ -172,6 +173,7 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   origin.materials = materials.value();
   origin.patch_length = quality.patch_length.value_or(0);
   origin.element_length = quality.element_length.value_or(0);
+  origin.lengths = quality.lengths;
   origin.refine = quality.refine;
   origin.unshot = quality.unshot;
   origin.seed = quality.seed;

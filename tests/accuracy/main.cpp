@@ -33,7 +33,7 @@ int run(int argc, char** argv) {
   accuracy::ReportChoice choice;
   choice.output = "accuracy";
   app.add_option("--scene", choice.scenes, "folder, .toml or .obj; absent: all of scenes/ and TOROLUX_MORE_SCENES");
-  app.add_option("--setting", choice.settings, "coarse, default, fine, finer; absent: all");
+  app.add_option("--setting", choice.settings, "coarse, draft, rough, normal, good, fine; absent: all");
   app.add_option("--engine", choice.engine, "of the product")->capture_default_str();
   app.add_option("--shrink", choice.shrink, "pictures are so many times less wide and high than the scene's own")
       ->check(CLI::Range(1, 64))

@@ -35,7 +35,7 @@ struct Reference {
 
 void add_row(Table& table, const SceneRun& run, const Reference& reference, const Setting& setting,
              const ReportChoice& choice) {
-  const Quality quality = quality_at(setting, run.settled.quality, run.scene);
+  const Quality quality = quality_at(setting, run.settled.quality);
   const double before = cpu_seconds();
   const RenderResult result =
       render(run.scene, run.settled.camera, quality, run.settled.machine, {}, test::pe_image(), {});
@@ -44,14 +44,14 @@ void add_row(Table& table, const SceneRun& run, const Reference& reference, cons
   const auto length = [](const std::optional<double>& value) { return value ? text_of("%.4g", *value) : "auto"; };
   const auto& energy = result.figures.energy;
   table.add(
-      {run.scene.name, setting.name, length(quality.patch_length), length(quality.element_length),
+      {run.scene.name, std::string(setting.name), length(quality.patch_length), length(quality.element_length),
        std::to_string(quality.hemicube), std::to_string(quality.shot_points), text_of("%g", quality.unshot),
        std::to_string(quality.samples), text_of("%.2f", 100 * error.plain_mean), text_of("%.2f", 100 * error.mean),
        text_of("%.2f", 100 * error.rmse), text_of("%.2f", 100 * reference.noise),
        text_of("%.2f", 100 * std::sqrt(std::fmax(0, error.rmse * error.rmse - reference.noise * reference.noise))),
        std::to_string(result.figures.radiosity_records), std::to_string(result.figures.rays),
        text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]), text_of("%.1f", seconds)});
-  const std::string stem = (choice.output / (run.scene.name + "-" + setting.name)).string();
+  const std::string stem = (choice.output / (run.scene.name + "-" + std::string(setting.name))).string();
   write_picture(result.picture, stem + ".exr");
   write_picture(signed_difference(result.picture, reference.traced.picture, error.clamp), stem + "-difference.png");
 }

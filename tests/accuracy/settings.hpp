@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: MIT
-// The settings at which a scene's error is measured: factors to what `torolux render` would take for it.
+// The settings at which a scene's error is measured: the quality presets, and steps between and beyond them.
 #pragma once
 
 #include <array>
 
-#include "host_tools/render/render.hpp"
+#include "host_tools/render/presets.hpp"
 
 namespace torolux::accuracy {
 
-struct Setting {
-  const char* name;
-  double length;  ///< of patches and elements
-  std::uint32_t hemicube_percent;
-  std::uint32_t shot_points;  ///< 0: as settled
-  double unshot;
-  std::uint32_t samples_percent;
-};
+using Setting = Preset;
 
-inline constexpr std::array<Setting, 4> kSettings = {{
-    {"coarse", 2, 50, 1, 3, 100},
-    {"default", 1, 100, 0, 1, 100},
-    {"fine", 0.5, 100, 0, 0.3, 400},
-    {"finer", 0.5, 100, 4, 0.1, 400},
+inline constexpr std::array<Setting, 6> kSettings = {{
+    {"coarse", "", 4, 6, 2, 100'000, 0.1, 0, false, 2},
+    kPresets[0],
+    {"rough", "", 1.4, 8, 4, 1'500'000, 0.006, 0, false, 8},
+    kPresets[1],
+    {"good", "", 0.7, 8, 6, 8'000'000, 0.001, 0.25, true, 32},
+    kPresets[2],
 }};
 
-/// `settled`: as for the command line; lengths that are chosen by themselves are looked up first.
-Quality quality_at(const Setting& setting, const Quality& settled, const Scene& scene);
+/// `settled`: as for the command line, without --quality.
+Quality quality_at(const Setting& setting, const Quality& settled);
 
 }  // namespace torolux::accuracy

@@ -68,7 +68,7 @@ void add_scene(Table& table, const std::filesystem::path& path, const ReportChoi
   std::vector<Light> should;
   for (const Setting& setting : chosen_settings(choice)) {
     test::RenderCase render_case;
-    render_case.quality = quality_at(setting, run.settled.quality, run.scene);
+    render_case.quality = quality_at(setting, run.settled.quality);
     render_case.quality.width = render_case.quality.height = 4;
     render_case.machine = run.settled.machine;
     render_case.camera = run.settled.camera;
@@ -79,7 +79,7 @@ void add_scene(Table& table, const std::filesystem::path& path, const ReportChoi
     Light all_should;
     double all_is = 0;
     const auto add = [&](const std::string& name, double flux, const Light& light) {
-      table.add({run.scene.name, setting.name, name, text_of("%.5g", flux), text_of("%.5g", light.flux),
+      table.add({run.scene.name, std::string(setting.name), name, text_of("%.5g", flux), text_of("%.5g", light.flux),
                  text_of("%+.2f", 100 * (flux / light.flux - 1)),
                  text_of("%.2f", 100 * std::sqrt(light.variance) / light.flux)});
     };

@@ -17,7 +17,7 @@ CornellSolution solve_cornell(RenderCase cornell) {
   CornellSolution result{load_scene(cornell.scene, {}), {}, 0, {}, run_case(cornell).figures};
   const SavedRadiosity saved = read_radiosity(*cornell.files.save_radiosity);
   result.mesh = make_mesh(result.scene, {cornell.quality.patch_length, cornell.quality.element_length, false,
-                                         cornell.quality.texels, saved.splits});
+                                         cornell.quality.texels, saved.splits, cornell.quality.lengths});
   result.watts_per_quantum = light_units(result.scene, result.mesh, false).watts_per_quantum;
   result.solution = unpack_radiosity(saved, radiosity_origin(result.scene, cornell.quality, result.mesh), result.mesh);
   return result;

@@ -28,8 +28,8 @@ SolvedScene solve_scene(const Scene& scene, RenderCase render_case) {
   SolvedScene result{scene, {}, 0, {}, {}};
   result.figures = render(scene, camera, quality, render_case.machine, render_case.files, pe_image(), {}).figures;
   const SavedRadiosity saved = read_radiosity(file);
-  result.mesh = make_mesh(
-      scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels, saved.splits});
+  result.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights,
+                                  quality.texels, saved.splits, quality.lengths});
   result.watts_per_quantum = light_units(scene, result.mesh, quality.two_sided_lights).watts_per_quantum;
   result.solution = unpack_radiosity(saved, radiosity_origin(scene, quality, result.mesh), result.mesh);
   return result;

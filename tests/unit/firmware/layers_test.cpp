@@ -92,11 +92,11 @@ TEST(Layers, SeenFromBehindNormalsPointToTheEye) {
   for (TestPolygon& p : scene.polygons) std::swap(p.corner[1], p.corner[2]);
   FakeMachine machine = traced(scene, kEye, {{1.0F, 0.5F, 0.5F}});
   expect_normal(machine.layers[Plane::normals][0], {-2, 0, 0});
-  EXPECT_EQ(machine.layers[Plane::elements][0][1], -1) << "only its front has elements";
+  EXPECT_EQ(machine.layers[Plane::elements][0][1], 0) << "only its front has elements";
   EXPECT_EQ(machine.layers[Plane::elements][0][2], 1);
 }
 
-// Towards the middles of elements: the layer names exactly these.
+// Towards the middles of elements: the layer names exactly these, by their location codes.
 TEST(Layers, ElementsAreThoseUnderTheFirstSample) {
   const TestScene scene = room();
   std::vector<glm::vec3> middles;
@@ -113,7 +113,7 @@ TEST(Layers, ElementsAreThoseUnderTheFirstSample) {
   }
   FakeMachine machine = traced(scene, {0.5F, 0.45F, 0.55F}, middles);
   for (std::uint32_t pixel = 0; pixel < middles.size(); ++pixel) {
-    EXPECT_EQ(machine.layers[Plane::elements][pixel], (std::array<std::int64_t, 3>{pixel / 16 + 1, pixel % 16, 0}));
+    EXPECT_EQ(machine.layers[Plane::elements][pixel], (std::array<std::int64_t, 3>{pixel / 16 + 1, 16 + pixel % 16, 0}));
   }
 }
 

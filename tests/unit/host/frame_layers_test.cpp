@@ -70,12 +70,14 @@ TEST_F(FrameLayersTest, NormalsHaveLengthOne) {
 }
 
 TEST_F(FrameLayersTest, ElementsHaveTheirGlobalNumbers) {
-  const MeshTriangle& triangle = setup_.mesh.triangles[3];
-  ASSERT_NE(triangle.first_element[0], protocol::kNoSide);
-  const Layer of = layer(Plane::elements, {3 + 1, 2, 0}, {});
-  EXPECT_EQ(of.numbers[0], triangle.first_element[0] + 2);
+  const Mesh& mesh = setup_.mesh;
+  const MeshPatch& patch = mesh.patches[mesh.parts[mesh.triangles[3].first_part].patch];
+  ASSERT_NE(patch.first_element[0], protocol::kNoSide);
+  const MeshFacet& facet = mesh.facets[patch.first_facet + patch.facets - 1];
+  const Layer of = layer(Plane::elements, {3 + 1, facet.code, 0}, {});
+  EXPECT_EQ(of.numbers[0], patch.first_element[0] + facet.element);
   EXPECT_EQ(of.numbers[1], kNoNumber) << "nothing met";
-  EXPECT_EQ(layer(Plane::elements, {3 + 1, -1, 0}, {}).numbers[0], kNoNumber) << "no elements there";
+  EXPECT_EQ(layer(Plane::elements, {3 + 1, 0, 0}, {}).numbers[0], kNoNumber) << "no elements there";
 }
 
 TEST_F(FrameLayersTest, OwnersAndCostsAreNumbers) {

@@ -37,11 +37,11 @@ TEST(Levels, AutomaticCountsSuitASmallScene) {
 TEST(Levels, FineTessellationMakesNoMorePatches) {
   const std::vector<CutTriangle> few(8, {1.0, 0.5});
   const std::vector<CutTriangle> many(70'000, {0.011, 4.0 / 70'000});
-  const MeshLengths a = choose_lengths(few, 1, {}, {});
-  const MeshLengths b = choose_lengths(many, 1, {}, {});
+  const MeshLengths a = choose_lengths(few, 1);
+  const MeshLengths b = choose_lengths(many, 1);
   EXPECT_NEAR(b.patch / a.patch, 1, 0.5);
   EXPECT_NEAR(b.element / a.element, 1, 0.5);
-  const MeshLengths surfaces = choose_lengths(many, 70'000, {}, {});
+  const MeshLengths surfaces = choose_lengths(many, 70'000);
   EXPECT_LE(surfaces.patch, 0.012) << "each triangle a surface of its own: each needs a patch";
 }
 

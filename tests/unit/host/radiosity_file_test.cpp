@@ -84,7 +84,7 @@ TEST_F(RadiosityFileTest, SaysWhatDiffers) {
   const auto bytes = pack_radiosity(origin_, splits_, solution_);
   Quality quality = quality_;
   quality.hemicube = 32;
-  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("--hemicube 20, this run has 32"),
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("--hemicube 8, this run has 32"),
             std::string::npos);
   Scene scene = scene_;
   scene.positions[3][1] += 1e-9;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Quality presets: settings that belong together. Measured errors and costs: docs/quality.md.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "host_tools/render/render.hpp"
+
+namespace torolux {
+
+struct Preset {
+  std::string_view name;
+  std::string_view what;
+  double lengths;  ///< of patches and elements, times what the scene says or what is chosen for it
+  std::uint32_t hemicube, shot_points, emission_records;
+  double unshot;
+  double refine;
+  bool shadow_rays;
+  std::uint32_t samples;
+};
+
+/// `normal` is what Quality has built in.
+inline constexpr std::array<Preset, 3> kPresets{{
+    {"draft", "a few seconds: to see what is there", 2, 8, 3, 500'000, 0.02, 0, false, 4},
+    {"normal", "the default", 1, 8, 6, 4'000'000, 0.002, 0, false, 16},
+    {"fine", "minutes: sharp shadows, little noise", 0.5, 10, 6, 16'000'000, 0.0005, 0.5, true, 64},
+}};
+
+/// Absent: there is none of this name.
+std::optional<Preset> preset_named(std::string_view name);
+
+/// Sets all that a preset decides.
+void apply(const Preset& preset, Quality& quality);
+
+}  // namespace torolux
