@@ -28,6 +28,13 @@ bool worth_following(const Pe& pe, const glm::vec3& weight) {
   return counts(weight.x) || counts(weight.y) || counts(weight.z);
 }
 
+/// Light that is a quantum or more in any channel. The least weight is no measure here: a small bright lamp's light is
+/// weak against its own radiance wherever it falls.
+bool shows(const Pe& pe, const glm::vec3& light) {
+  const glm::vec3 quanta = light * pe.scene.layout.pixel_scale;
+  return quanta.x >= 0.5F || quanta.y >= 0.5F || quanta.z >= 0.5F;
+}
+
 /// What a diffuse surface sends towards the ray: what it emits and what it reflects.
 void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
@@ -58,7 +65,7 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
   }
   const glm::vec3 diffuse = diffuse_reflectance(pe.scene, polygon, hit);
   const glm::vec3 weight = to_vector(record.weight) * diffuse * sample.irradiance_over_pi;
-  const bool lights = worth_following(pe, weight);
+  const bool lights = shows(pe, weight);
   if (!note_irradiance(pe, record, sample.irradiance_over_pi) && !lights) return false;
   record.weight = to_array(lights ? weight : glm::vec3(0.0F));
   record.target = sample.polygon;
