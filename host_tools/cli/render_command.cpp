@@ -23,6 +23,7 @@ void check_results_writable(const Settled& settled, const RenderOptions& options
   for (const auto& file : settled.outputs) check_layers_writable(file, settled.quality.layers);
   if (options.stats) check_file_writable(*options.stats);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
+  if (options.save_mesh) check_file_writable(*options.save_mesh);
 }
 
 void print_notes(const std::vector<std::string>& notes, bool quiet) {

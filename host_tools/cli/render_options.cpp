@@ -117,6 +117,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
   add_tone_options(command, options.tone, group);
   path("--stats", "Statistics of the run, as JSON", options.stats);
   path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);
+  path("--save-mesh", "The solved elements with the radiosity at their corners, as .ply", options.save_mesh);
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",
        options.radiosity);
   command.add_flag("--quiet", options.quiet, "No progress, no notes, no summary; errors only")->group(group);

@@ -42,7 +42,7 @@ struct RenderOptions {
   std::vector<std::filesystem::path> outputs;
   ToneOptions tone;
   LayerSet layers = 0;
-  std::optional<std::filesystem::path> save_radiosity, radiosity, stats;
+  std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats;
   bool quiet = false;
 
   // The view.
@@ -77,7 +77,7 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
                        const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group);
-/// --output, --layers, --exposure, --tone-curve, --stats, --save-radiosity, --radiosity, --quiet.
+/// --output, --layers, --exposure, --tone-curve, --stats, --save-radiosity, --save-mesh, --radiosity, --quiet.
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);

@@ -146,7 +146,7 @@ Settled settle(const RenderOptions& options, const Scene& scene) {
   settled.tone.curve = options.tone.curve.value_or(ToneCurve::filmic);
   settled.outputs = options.outputs;
   if (settled.outputs.empty()) settled.outputs.emplace_back(scene.name + ".png");
-  settled.files = {options.save_radiosity, options.radiosity};
+  settled.files = {options.save_radiosity, options.save_mesh, options.radiosity};
   return settled;
 }
 

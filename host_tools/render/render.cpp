@@ -10,6 +10,7 @@
 #include "host_tools/mesh/refine.hpp"
 #include "host_tools/render/frame_layers.hpp"
 #include "host_tools/render/setup.hpp"
+#include "host_tools/solution/ply_file.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
 #include "host_tools/stages/render_program.hpp"
 
@@ -139,6 +140,11 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   result.figures.energy = balance(scene, setup.mesh, setup.units, *program.solution());
   if (!files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
   if (files.save_radiosity) save_radiosity(*files.save_radiosity, origin, splits, *program.solution());
+  if (files.save_mesh) {
+    const Lattice lattice = make_lattice(setup.mesh, incident_flux(*program.solution(), false),
+                                         setup.units.watts_per_quantum, setup.units.unit_radiance);
+    save_ply(*files.save_mesh, scene, setup.mesh, setup.units, lattice);
+  }
   result.picture = picture_of(torolux.frame_buffer(), setup);
   result.layers = layers_of(torolux.frame_buffer(), setup);
   return result;

@@ -100,6 +100,7 @@ struct RenderResult {
 
 struct RenderFiles {
   std::optional<std::filesystem::path> save_radiosity;
+  std::optional<std::filesystem::path> save_mesh;  ///< PLY with all light, whatever the picture takes from shadow rays
   std::optional<std::filesystem::path> radiosity;  ///< skip the radiosity stage
 };
 

@@ -85,6 +85,7 @@ TEST(MixedEngines, ARenderIsTheSame) {
                                              "--size",        "16x12",
                                              "--samples",     "1",
                                              "--hemicube",    "4",
+                                             "--shot-points", "2",
                                              "--max-shots",   "6",
                                              "--shot-points", "1",
                                              "--output",      folder.path() / (name + ".pfm"),

@@ -29,6 +29,7 @@ Arguments small_render(const Arguments& more) {
                          "--size",        "16x12",
                          "--samples",     "1",
                          "--hemicube",    "4",
+                         "--shot-points", "2",
                          "--max-shots",   "6",
                          "--shot-points", "1"};
   arguments.insert(arguments.end(), more.begin(), more.end());

@@ -36,7 +36,8 @@ RenderCase small(const char* name, double patches) {
   result.quality.samples = 4;
   result.quality.patch_length = patches;
   result.quality.element_length = 50;
-  result.quality.hemicube = 12;
+  result.quality.hemicube = 8;
+  result.quality.shot_points = 4;
   result.quality.unshot = 0.005;  // what is left is missing in the picture
   result.machine.subspaces = {4, 4, 4};
   return result;
@@ -99,7 +100,7 @@ TEST(ShadowRays, BringAsMuchLightAsElements) {
   box.quality.samples = 8;
   box.files.save_radiosity = file;
   const double by_elements = mean_of(run_case(box).picture);
-  box.files = {.save_radiosity = std::nullopt, .radiosity = file};
+  box.files = {.save_radiosity = std::nullopt, .save_mesh = std::nullopt, .radiosity = file};
   box.quality.shadow_rays = true;
   const double by_shadow_rays = mean_of(run_case(box).picture);
   std::filesystem::remove(file);
@@ -145,7 +146,8 @@ TEST(TracedPicture, DiffuseBlockInGlass) {
 // -0.3 %, 1.9 %.
 TEST(TracedPicture, TexturedRoom) {
   RenderCase room = small_room("textured_room");
-  room.quality.hemicube = 12;
+  room.quality.hemicube = 8;
+  room.quality.shot_points = 4;
   room.quality.patch_length = 0.15;  // a patch reflects the mean of what is seen on it
   room.quality.unshot = 0.0015;      // light walls: the unshot rest would be reflected several times
   const references::TracedPicture reference = traced(room, 256);

@@ -24,7 +24,9 @@ RenderCase native_case(const std::filesystem::path& scene) {
   result.quality.width = 32;
   result.quality.height = 32;
   result.quality.samples = 1;
-  result.quality.hemicube = 16;
+  result.quality.hemicube = 8;
+  result.quality.shot_points = 2;
+  result.quality.unshot = 0.01;
   result.quality.emission_records = 200'000;  // enough for means; tests of what is finer choose their own
   result.machine.engine = "native";
   // One PE and many credits: least time in hand-overs. Tests of the machine itself choose their own.
