@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "firmware/pe/specular.hpp"
-#include "firmware/protocol/random.hpp"
 
 namespace torolux::pe {
 namespace {
@@ -60,11 +59,8 @@ glm::vec3 around(const glm::vec3& axis, float power, float height, float turn) {
 }
 
 LobeSample sample_lobe(const protocol::Material& material, const glm::vec3& in, const glm::vec3& flat,
-                       const glm::vec3& shading, std::uint32_t key) {
-  using protocol::Dimension;
-  const glm::vec3 direction =
-      around(reflect(in, flat, shading), material.lobe_power, protocol::uniform(key, Dimension::lobe_height),
-             protocol::uniform(key, Dimension::lobe_turn));
+                       const glm::vec3& shading, float height, float turn) {
+  const glm::vec3 direction = around(reflect(in, flat, shading), material.lobe_power, height, turn);
   const float cosine = glm::dot(direction, flat);
   return {direction, glm::dot(in, flat) > 0.0F ? -cosine : cosine};
 }

@@ -73,7 +73,9 @@ void choose_lobe(const Pe& pe, RadiosityRecord& record, const Hit& hit) {
   const Material& material = pe.scene.materials[polygon.material];
   const std::uint32_t key = protocol::hash_combine(record.key, record.bounce + 1U);
   const glm::vec3 in = to_vector(record.direction);
-  const LobeSample way = sample_lobe(material, in, unit_normal(polygon), shading_normal(pe.scene, polygon, hit), key);
+  const LobeSample way = sample_lobe(material, in, unit_normal(polygon), shading_normal(pe.scene, polygon, hit),
+                                     protocol::uniform(key, protocol::Dimension::lobe_height),
+                                     protocol::uniform(key, protocol::Dimension::lobe_turn));
   if (!(protocol::uniform(key, protocol::Dimension::lobe) < way.cosine * material.lobe_chance)) return;
   record.origin = to_array(leaving_point(polygon, to_vector(record.origin) + in * hit.t));
   record.direction = to_array(way.direction);
