@@ -29,7 +29,7 @@ bool emits(const SceneMaterial& material) {
   return *std::max_element(material.emission.begin(), material.emission.end()) > 0;
 }
 
-std::string describe(const SceneMaterial& material) {
+std::string describe(const SceneMaterial& material, const Scene& scene) {
   switch (material.kind) {
     case SurfaceKind::mirror:
       return "mirror, reflectance " + triple(material.specular);
@@ -40,6 +40,7 @@ std::string describe(const SceneMaterial& material) {
       break;
   }
   return "diffuse, reflectance " + triple(material.diffuse) +
+         (material.texture != kNoImage ? " times " + scene.textures[material.texture].file : "") +
          (is_glossy(material)
               ? "; glossy, reflectance " + triple(material.specular) + ", exponent " + significant(material.exponent, 4)
               : "") +
@@ -71,7 +72,8 @@ void print_scene(const Scene& scene) {
   print_bounds(scene);
   line("materials", grouped(scene.materials.size()));
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    line("  " + scene.materials[i].name + " ", describe(scene.materials[i]) + "; " + grouped(uses[i]) + " triangles");
+    line("  " + scene.materials[i].name + " ",
+         describe(scene.materials[i], scene) + "; " + grouped(uses[i]) + " triangles");
 }
 
 void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
