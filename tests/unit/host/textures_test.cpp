@@ -134,7 +134,8 @@ TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {
   const Placement placement = make_placement(mesh, {{8, 4}, std::array<std::uint32_t, 3>{8, 8, 8}, "skewed", 1000});
   const Lattice lattice = make_lattice(mesh, std::vector<protocol::Flux>(mesh.elements), 1e-3, 1);
   std::uint32_t with = 0;
-  for (protocol::PeNumber pe = 0; pe < placement.torus.pes(); ++pe) {
+  for (unsigned number = 0; number < placement.torus.pes(); ++number) {
+    const auto pe = static_cast<protocol::PeNumber>(number);
     const PeLayout radiosity = lay_out(mesh, placement, pe, protocol::Stage::radiosity, {}, {0x8001'0000, 64});
     EXPECT_EQ(radiosity.layout.textures.count + radiosity.layout.texels.count + radiosity.layout.texture_points.count,
               0U);
