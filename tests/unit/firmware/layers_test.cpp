@@ -136,7 +136,7 @@ TEST(Layers, WhatIsSeenInAMirrorIsNotTheFirstSurface) {
   EXPECT_NEAR(in_units(machine.layers[Plane::depth][0][0]), 2 * 0.8, 1e-6);
   EXPECT_EQ(machine.layers[Plane::depth][0][1], 2);
   EXPECT_EQ(machine.layers[Plane::irradiance][0], (std::array<std::int64_t, 3>{0, 0, 0}));
-  EXPECT_EQ(machine.layers[Plane::elements][0][1], -1);
+  EXPECT_EQ(machine.layers[Plane::elements][0][1], 0);
   EXPECT_EQ(machine.layers[Plane::cost][0][0], 2 * 2) << "there and back";
 }
 
