@@ -25,6 +25,8 @@ constexpr double kElementCosine = 0.8660254037844387;  ///< 30 degrees
 constexpr double kPatchCosine = 0.6427876096865394;    ///< 50 degrees
 /// A cluster with less than this of a full one's area joins a neighbour.
 constexpr double kScrap = 0.25;
+/// A patch of fewer stays as it is: a small quadrilateral is no finely tessellated surface.
+constexpr std::size_t kFewTriangles = 8;
 
 double cosine(const Vec3d& a, const Vec3d& b) {
   const double lengths = vec::length(a) * vec::length(b);
@@ -157,7 +159,11 @@ std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, co
     if (patch[e] >= patches.size()) patches.resize(patch[e] + 1);
     patches[patch[e]].push_back(std::move(elements[e]));
   }
-  std::erase_if(patches, [](const PatchCluster& cluster) { return cluster.size() == 1 && cluster[0].size() == 1; });
+  std::erase_if(patches, [](const PatchCluster& cluster) {
+    std::size_t count = 0;
+    for (const ElementCluster& part : cluster) count += part.size();
+    return count < kFewTriangles;
+  });
   return patches;
 }
 

@@ -46,16 +46,21 @@ class SideLight {
 
   void take_means() {
     std::vector<VertexSum> sums(vertices_.count());
+    std::vector<VertexSum> crossed(vertices_.count());
     ClusterVertices clusters(mesh_);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
       if (clustered(patch)) {
         clusters.add(patch, f, corners(f), flux);
         return;
       }
-      for (const std::uint32_t corner : corners(f)) sums[corner].add(flux, mesh_.facet_area(mesh_.facets[f]));
+      // What a wall crosses got the light of both sides: it counts only where there is nothing else.
+      auto& into = mesh_.walls.cross(mesh_.facets[f].triangle, mesh_.facets[f].code) ? crossed : sums;
+      for (const std::uint32_t corner : corners(f)) into[corner].add(flux, mesh_.facet_area(mesh_.facets[f]));
     });
     clusters.smooth(sums);
-    for (const VertexSum& sum : sums) values_.push_back(sum.irradiance());
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+      values_.push_back((sums[v].area > 0 ? sums[v] : crossed[v]).irradiance());
+    }
   }
 
   void anchor() {
@@ -71,7 +76,7 @@ class SideLight {
     std::vector<Vec3d> missing(vertices_.count(), {0, 0, 0});
     std::vector<double> area(vertices_.count(), 0);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
-      if (clustered(patch)) return;
+      if (clustered(patch) || mesh_.walls.cross(mesh_.facets[f].triangle, mesh_.facets[f].code)) return;
       const double facet_area = mesh_.facet_area(mesh_.facets[f]);
       const auto& corner = corners(f);
       for (std::size_t c = 0; c < 3; ++c) {
