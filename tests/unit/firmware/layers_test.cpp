@@ -113,7 +113,8 @@ TEST(Layers, ElementsAreThoseUnderTheFirstSample) {
   }
   FakeMachine machine = traced(scene, {0.5F, 0.45F, 0.55F}, middles);
   for (std::uint32_t pixel = 0; pixel < middles.size(); ++pixel) {
-    EXPECT_EQ(machine.layers[Plane::elements][pixel], (std::array<std::int64_t, 3>{pixel / 16 + 1, 16 + pixel % 16, 0}));
+    EXPECT_EQ(machine.layers[Plane::elements][pixel],
+              (std::array<std::int64_t, 3>{pixel / 16 + 1, 16 + pixel % 16, 0}));
   }
 }
 
