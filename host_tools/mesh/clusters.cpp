@@ -85,6 +85,7 @@ void join_scraps(const std::vector<Member>& members, double length, double least
   const double full = std::numbers::pi / 4 * length * length;
   DisjointSets sets(clusters.size());
   std::vector<double> area;
+  area.reserve(clusters.size());
   for (const Member& member : clusters) area.push_back(member.area);
   for (std::uint32_t c = 0; c < clusters.size(); ++c) {
     if (area[sets.root(c)] > kScrap * full) continue;

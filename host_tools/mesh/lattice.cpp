@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <unordered_map>
 
+#include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/cluster_vertices.hpp"
 #include "host_tools/mesh/surface_vertices.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -27,10 +29,17 @@ class SideLight {
       follow_to_borders();
       anchor();
     }
+    note_lit_sides();
   }
 
   const std::array<std::uint32_t, 3>& corners(std::uint32_t facet) const { return vertices_.corners(facet); }
-  const Vec3d& at(std::uint32_t vertex) const { return values_[vertex]; }
+  /// Irradiance at a facet's corners.
+  std::array<Vec3d, 3> at_corners(std::uint32_t facet) const {
+    std::array<Vec3d, 3> light{};
+    for (std::size_t c = 0; c < 3; ++c) light[c] = values_[corners(facet)[c]];
+    if (is_dark(light[0]) && is_dark(light[1]) && is_dark(light[2]) && crossed(facet)) show_lit_side(facet, light);
+    return light;
+  }
 
  private:
   template <typename Visit>
@@ -43,10 +52,52 @@ class SideLight {
     }
   }
   static bool clustered(const MeshPatch& patch) { return patch.facets > patch.elements; }
+  static bool is_dark(const Vec3d& light) { return light == Vec3d{0, 0, 0}; }
+  bool crossed(std::uint32_t facet) const {
+    return mesh_.walls.cross(mesh_.facets[facet].triangle, mesh_.facets[facet].code);
+  }
+  std::uint64_t key(std::uint32_t facet, std::size_t corner) const {
+    const MeshFacet& of = mesh_.facets[facet];
+    const protocol::GridTriangle grid =
+        protocol::grid_triangle(protocol::path_of_code(of.code), protocol::level_of_code(of.code));
+    return vertex_key(mesh_, of.triangle, static_cast<std::uint32_t>(grid.corner[corner][1]),
+                      static_cast<std::uint32_t>(grid.corner[corner][2]));
+  }
+
+  /// What crossed elements' corners are on the other side of the wall, where light comes.
+  void note_lit_sides() {
+    for (std::uint32_t f = 0; f < mesh_.facets.size(); ++f) {
+      for (std::size_t c = 0; crossed(f) && c < 3; ++c) lit_.emplace(key(f, c), Vec3d{0, 0, 0});
+    }
+    if (lit_.empty()) return;
+    for_each_facet([&](const MeshPatch&, std::uint32_t f, const protocol::Flux&) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3d& light = values_[corners(f)[c]];
+        const auto found = is_dark(light) ? lit_.end() : lit_.find(key(f, c));
+        if (found != lit_.end()) found->second = light;
+      }
+    });
+  }
+
+  /// No light at all on the side of the wall where its middle is: that is what the wall's thing covers, and none of it
+  /// is seen. What is seen lies on the other side.
+  void show_lit_side(std::uint32_t facet, std::array<Vec3d, 3>& light) const {
+    Vec3d sum{0, 0, 0};
+    double known = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      light[c] = lit_.at(key(facet, c));
+      if (is_dark(light[c])) continue;
+      sum = vec::add(sum, light[c]);
+      known += 1;
+    }
+    for (Vec3d& corner : light) {
+      if (is_dark(corner) && known > 0) corner = vec::scale(sum, 1 / known);
+    }
+  }
 
   void take_means() {
     std::vector<VertexSum> sums(vertices_.count());
-    std::vector<VertexSum> crossed(vertices_.count());
+    std::vector<VertexSum> of_crossed(vertices_.count());
     ClusterVertices clusters(mesh_);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
       if (clustered(patch)) {
@@ -54,12 +105,12 @@ class SideLight {
         return;
       }
       // What a wall crosses got the light of both sides: it counts only where there is nothing else.
-      auto& into = mesh_.walls.cross(mesh_.facets[f].triangle, mesh_.facets[f].code) ? crossed : sums;
+      auto& into = crossed(f) ? of_crossed : sums;
       for (const std::uint32_t corner : corners(f)) into[corner].add(flux, mesh_.facet_area(mesh_.facets[f]));
     });
     clusters.smooth(sums);
     for (std::size_t v = 0; v < sums.size(); ++v) {
-      values_.push_back((sums[v].area > 0 ? sums[v] : crossed[v]).irradiance());
+      values_.push_back((sums[v].area > 0 ? sums[v] : of_crossed[v]).irradiance());
     }
   }
 
@@ -76,7 +127,7 @@ class SideLight {
     std::vector<Vec3d> missing(vertices_.count(), {0, 0, 0});
     std::vector<double> area(vertices_.count(), 0);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
-      if (clustered(patch) || mesh_.walls.cross(mesh_.facets[f].triangle, mesh_.facets[f].code)) return;
+      if (clustered(patch) || crossed(f)) return;
       const double facet_area = mesh_.facet_area(mesh_.facets[f]);
       const auto& corner = corners(f);
       for (std::size_t c = 0; c < 3; ++c) {
@@ -96,6 +147,7 @@ class SideLight {
   std::uint32_t side_;
   SurfaceVertices vertices_;
   std::vector<Vec3d> values_;
+  std::unordered_map<std::uint64_t, Vec3d> lit_;  ///< by vertex_key
 };
 
 }  // namespace
@@ -112,9 +164,8 @@ Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, dou
       for (std::uint32_t side = 0; side < 2; ++side) {
         if (patch.side[side] == protocol::kNoSide) continue;
         protocol::LatticeTriangle& triangle = lattice.triangles.emplace_back();
-        for (std::size_t c = 0; c < 3; ++c) {
-          triangle.irradiance_over_pi[c] = to_float(vec::scale(light[side].at(light[side].corners(f)[c]), factor));
-        }
+        const std::array<Vec3d, 3> corners = light[side].at_corners(f);
+        for (std::size_t c = 0; c < 3; ++c) triangle.irradiance_over_pi[c] = to_float(vec::scale(corners[c], factor));
       }
     }
   }

@@ -24,6 +24,7 @@ struct Split {
   std::uint32_t triangle = 0;  ///< of Mesh::triangles
   std::uint32_t code = 0;      ///< protocol::location_code
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 inside for a pointer
   auto operator<=>(const Split&) const = default;
 };
 

@@ -26,7 +26,7 @@ std::uint64_t stride_for(std::uint64_t pixels) {
 
 RayTracingPhase::RayTracingPhase(const Placement& placement, CameraRays rays, const RayTracingSettings& settings)
     : placement_(placement),
-      rays_(rays),
+      rays_(std::move(rays)),
       settings_(settings),
       packet_(placement.torus.pes()),
       stride_(stride_for(std::uint64_t{settings.width} * settings.height)),
