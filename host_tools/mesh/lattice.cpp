@@ -37,7 +37,7 @@ class SideLight {
   std::array<Vec3d, 3> at_corners(std::uint32_t facet) const {
     std::array<Vec3d, 3> light{};
     for (std::size_t c = 0; c < 3; ++c) light[c] = values_[corners(facet)[c]];
-    if (is_dark(light[0]) && is_dark(light[1]) && is_dark(light[2]) && crossed(facet)) show_lit_side(facet, light);
+    if ((is_dark(light[0]) || is_dark(light[1]) || is_dark(light[2])) && crossed(facet)) show_lit_side(facet, light);
     return light;
   }
 
