@@ -62,6 +62,8 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"layers", layer_names(quality.layers)},
           {"patches", value_or_auto(quality.patch_length)},
           {"elements", value_or_auto(quality.element_length)},
+          {"lengths", quality.lengths},
+          {"refine", quality.refine},
           {"hemicube", quality.hemicube},
           {"shot_points", quality.shot_points},
           {"emission_records", quality.emission_records},
@@ -110,6 +112,10 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
                             {"radiosity", figures.radiosity_cycles},
                             {"ray_tracing", figures.ray_tracing_cycles}};
   json["packets"] = {{"sent", sums.sent}, {"delivered", sums.delivered}, {"link_retries", machine.link_retries}};
+  if (figures.draft_cycles > 0) {
+    json["draft"] = {
+        {"virtual_cycles", figures.draft_cycles}, {"records", figures.draft_records}, {"splits", figures.splits}};
+  }
   json["records"] = {{"created", figures.radiosity_records + figures.rays}, {"diverted", sums.diverted}};
   json["hops"] = {{"mean", mean_hops}, {"total", machine.hops}};
   json["credits"] = {{"total", figures.credits_total}, {"home", figures.credits_home}};

@@ -43,8 +43,10 @@ std::string stages_table(const RunDescription& run, const RenderFigures& figures
   const auto line = [&](const char* label, Cycles cycles) {
     return row(label, {grouped(cycles), fixed(1e3 * static_cast<double>(cycles) / hertz, 3)});
   };
-  const Cycles total = figures.load_cycles + figures.radiosity_cycles + figures.ray_tracing_cycles;
-  return row("virtual time", {"cycles", "ms"}) + line("  load", figures.load_cycles) +
+  const Cycles total =
+      figures.draft_cycles + figures.load_cycles + figures.radiosity_cycles + figures.ray_tracing_cycles;
+  const std::string draft = figures.draft_cycles > 0 ? line("  draft", figures.draft_cycles) : "";
+  return row("virtual time", {"cycles", "ms"}) + draft + line("  load", figures.load_cycles) +
          line("  radiosity", figures.radiosity_cycles) + line("  ray tracing", figures.ray_tracing_cycles) +
          line("  total", total);
 }

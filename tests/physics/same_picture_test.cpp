@@ -53,6 +53,28 @@ void expect_same_picture(const RenderCase& render_case) {
 
 class Torus : public testing::TestWithParam<std::pair<unsigned, unsigned>> {};
 
+// The draft, its splits and the fine mesh are the same on any machine; so is a view of saved radiosities, which carry
+// the splits.
+TEST(Refinement, IsTheSameOnAnyMachine) {
+  const std::filesystem::path file = testing::TempDir() + "torolux_refinement_test.bin";
+  RenderCase cornell = small_cornell();
+  cornell.quality.refine = 1;
+  cornell.machine.columns = cornell.machine.rows = 1;
+  cornell.files.save_radiosity = file;
+  const RenderResult one = run_case(cornell);
+  expect_all_home(one);
+  EXPECT_GT(one.figures.splits, 10U);
+  EXPECT_GT(one.figures.draft_cycles, 0U);
+  cornell.files = {};
+  cornell.machine.columns = 3;
+  cornell.machine.rows = 2;
+  cornell.machine.subspaces = {5, 3, 4};
+  EXPECT_EQ(bytes_of(run_case(cornell).picture), bytes_of(one.picture));
+  cornell.files.radiosity = file;
+  EXPECT_EQ(bytes_of(run_case(cornell).picture), bytes_of(one.picture));
+  std::filesystem::remove(file);
+}
+
 TEST_P(Torus, MakesTheSamePicture) {
   RenderCase cornell = small_cornell("cornell_spheres");
   std::tie(cornell.machine.columns, cornell.machine.rows) = GetParam();
