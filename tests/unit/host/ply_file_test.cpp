@@ -32,7 +32,14 @@ TEST(PlyFile, HoldsAllFacetsWithTheirLight) {
   EXPECT_NE(text.find("element face " + std::to_string(faces) + "\n"), std::string::npos);
   const std::size_t begin = text.find("end_header\n") + 11;
   ASSERT_EQ(bytes.size(), begin + 3 * faces * sizeof(PlyVertex) + faces * 13);
-  bool lamp = false;
+  std::vector<bool> is_front(mesh.elements, false);
+  std::size_t expected = 0;
+  for (const MeshPatch& patch : mesh.patches) {
+    if (patch.first_element[0] == protocol::kNoSide) continue;
+    for (std::uint32_t e = 0; e < patch.elements; ++e) is_front[patch.first_element[0] + e] = true;
+    if (emits(scene.materials[patch.material])) expected += 3 * patch.facets;
+  }
+  std::size_t bright = 0;  // of fronts that emit, and only those
   for (std::size_t v = 0; v < 3 * faces; ++v) {
     PlyVertex vertex{};
     std::memcpy(&vertex, bytes.data() + begin + v * sizeof vertex, sizeof vertex);
@@ -42,9 +49,12 @@ TEST(PlyFile, HoldsAllFacetsWithTheirLight) {
       EXPECT_LE(x, 1.0001F);
     }
     EXPECT_GE(vertex.radiosity[0], 0.0F);
-    lamp = lamp || static_cast<double>(vertex.radiosity[0]) >= units.unit_radiance * std::numbers::pi * 0.99;
+    const bool front = vertex.element < mesh.elements && is_front[vertex.element];
+    const bool shines = static_cast<double>(vertex.radiosity[0]) >= units.unit_radiance * std::numbers::pi * 0.99;
+    bright += front && shines ? 1 : 0;
+    EXPECT_TRUE(front || !shines) << "backs do not emit";
   }
-  EXPECT_TRUE(lamp);
+  EXPECT_EQ(bright, expected);
 }
 
 }  // namespace
