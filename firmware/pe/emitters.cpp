@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "firmware/pe/surface.hpp"
 #include "firmware/protocol/random.hpp"
 
 namespace torolux::pe {
@@ -53,10 +54,7 @@ bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers,
   sample.polygon = emitter.polygon;
   const float leaving = glm::dot(sample.direction, normal);
   if (!(leaving > 0.0F) || !(glm::dot(sample.direction, flat) > 0.0F)) return false;
-  const glm::vec3 corner = to_vector(emitter.corner[0]);
-  const glm::vec3 front = glm::normalize(glm::cross(glm::normalize(to_vector(emitter.corner[1]) - corner),
-                                                    glm::normalize(to_vector(emitter.corner[2]) - corner)));
-  float arriving = -glm::dot(sample.direction, front);
+  float arriving = -glm::dot(sample.direction, unit_normal(emitter.corner));
   if (emitter.both_sides != 0) arriving = std::fabs(arriving);
   if (!(arriving > 0.0F)) return false;
   const float seen = leaving * arriving * emitter.area_over_chance / square;

@@ -2,6 +2,7 @@
 // What a hit says about its surface: normals, the element that it falls on, the interpolated light that leaves it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/pe/scene.hpp"
@@ -13,10 +14,13 @@ namespace torolux::pe {
 struct Hit;
 
 /// Unit length, towards the front. Edges are normalised first, so that small triangles do not underflow.
+inline glm::vec3 unit_normal(const std::array<protocol::Vec3f, 3>& corner) {
+  const glm::vec3 a = to_vector(corner[0]);
+  const glm::vec3 along = glm::normalize(to_vector(corner[1]) - a);
+  return glm::normalize(glm::cross(along, glm::normalize(to_vector(corner[2]) - a)));
+}
 inline glm::vec3 unit_normal(const protocol::Polygon& polygon) {
-  const glm::vec3 a = to_vector(polygon.corner[0]);
-  const glm::vec3 along = glm::normalize(to_vector(polygon.corner[1]) - a);
-  return glm::normalize(glm::cross(along, glm::normalize(to_vector(polygon.corner[2]) - a)));
+  return unit_normal(polygon.corner);
 }
 
 /// Where light leaves a specular polygon that it met at `point`: drawn 2^-15 of the way to the polygon's centre, so

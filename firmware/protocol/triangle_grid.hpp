@@ -53,6 +53,10 @@ constexpr std::uint32_t path_of_code(std::uint32_t code) {
   return code ^ triangles_of_level(level_of_code(code));
 }
 
+constexpr GridTriangle grid_triangle_of(std::uint32_t code) {
+  return grid_triangle(path_of_code(code), level_of_code(code));
+}
+
 /// A point's weights of a triangle's corners. May be off [0, 1] by rounding.
 struct Weights {
   float b0, b1, b2;

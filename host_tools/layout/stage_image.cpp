@@ -157,8 +157,7 @@ class ImageWriter {
   std::uint32_t write_lattice(const Lattice& lattice, std::uint32_t t) {
     const MeshTriangle& triangle = mesh_.triangles[t];
     const std::uint32_t first_facet = mesh_.parts[triangle.first_part].facet;
-    const auto sides = static_cast<std::uint32_t>((triangle.sides & protocol::kFrontPresent ? 1 : 0) +
-                                                  (triangle.sides & protocol::kBackPresent ? 1 : 0));
+    const std::uint32_t sides = triangle.side_count();
     const std::uint32_t first = next_lattice_;
     for (std::uint32_t i = 0; i < triangle.facets * sides; ++i) {
       put(layout_.lattice, next_lattice_++, lattice.triangles[lattice.first[first_facet] + i]);
@@ -241,8 +240,7 @@ class ImageWriter {
 
   void write_facet(const MeshPatch& patch, const MeshFacet& facet, std::uint32_t index) {
     const double area = mesh_.facet_area(facet);
-    const bool whole = patch.facets == patch.elements;
-    const double of_element = whole ? 1 : area / mesh_.element_area(patch, facet.element);
+    const double of_element = patch.is_clustered() ? area / mesh_.element_area(patch, facet.element) : 1;
     // Never nothing, however small: a PE takes that for a mistake.
     const auto share = [](double value) { return std::max(static_cast<float>(value), 0x1p-100F); };
     put(layout_.facets, index,

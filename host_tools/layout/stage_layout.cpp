@@ -21,10 +21,6 @@ struct Counts {
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
 };
 
-std::uint64_t sides_of(const MeshTriangle& triangle) {
-  return (triangle.sides & protocol::kFrontPresent ? 1U : 0U) + (triangle.sides & protocol::kBackPresent ? 1U : 0U);
-}
-
 Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Stage stage, std::uint32_t hemicube) {
   Counts counts;
   counts.subspaces = placement.cells_of_pe[pe].size();
@@ -45,7 +41,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
     if (stage == Stage::radiosity) {
       counts.patch_references += parts;
     } else {
-      counts.lattice += sides_of(triangle) * triangle.facets;
+      counts.lattice += std::uint64_t{triangle.side_count()} * triangle.facets;
     }
   }
   std::sort(materials.begin(), materials.end());

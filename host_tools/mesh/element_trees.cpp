@@ -3,7 +3,6 @@
 #include "host_tools/mesh/element_trees.hpp"
 
 #include <algorithm>
-#include <array>
 #include <unordered_set>
 
 #include "firmware/protocol/triangle_grid.hpp"
@@ -13,23 +12,8 @@ namespace {
 
 using protocol::kMostLevels;
 
-/// Weights of corners 1 and 2 in units of 2^-kMostLevels.
-struct GridPoint {
-  std::uint32_t i, j;
-};
-
 GridPoint middle(const GridPoint& a, const GridPoint& b) {
   return {(a.i + b.i) / 2, (a.j + b.j) / 2};
-}
-
-std::array<GridPoint, 3> corners_of(std::uint32_t code) {
-  const protocol::GridTriangle grid =
-      protocol::grid_triangle(protocol::path_of_code(code), protocol::level_of_code(code));
-  std::array<GridPoint, 3> corners{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    corners[c] = {static_cast<std::uint32_t>(grid.corner[c][1]), static_cast<std::uint32_t>(grid.corner[c][2])};
-  }
-  return corners;
 }
 
 /// What a wall crosses is cut so many times more than its length asks for.
@@ -66,7 +50,7 @@ class Vertices {
   Vertices(const Mesh& mesh, const Leaves& leaves) : mesh_(mesh) {
     for (std::uint32_t t = 0; t < leaves.size(); ++t) {
       for (const std::uint32_t code : leaves[t]) {
-        for (const GridPoint& corner : corners_of(code)) keys_.insert(vertex_key(mesh, t, corner.i, corner.j));
+        for (const GridPoint& corner : grid_points(code)) keys_.insert(vertex_key(mesh, t, corner));
       }
     }
   }
@@ -74,7 +58,7 @@ class Vertices {
   /// Whether a neighbour at one of its edges is less than half as large.
   bool too_large(std::uint32_t triangle, std::uint32_t code) const {
     if (protocol::level_of_code(code) + 2 > kMostLevels) return false;
-    const auto corner = corners_of(code);
+    const auto corner = grid_points(code);
     for (std::size_t e = 0; e < 3; ++e) {
       const GridPoint& from = corner[e];
       const GridPoint& to = corner[(e + 1) % 3];
@@ -87,7 +71,7 @@ class Vertices {
 
  private:
   bool has(std::uint32_t triangle, const GridPoint& point) const {
-    return keys_.contains(vertex_key(mesh_, triangle, point.i, point.j));
+    return keys_.contains(vertex_key(mesh_, triangle, point));
   }
 
   const Mesh& mesh_;

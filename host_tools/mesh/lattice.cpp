@@ -7,7 +7,6 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/cluster_vertices.hpp"
 #include "host_tools/mesh/surface_vertices.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -21,8 +20,10 @@ constexpr int kBorderSteps = 1;
 /// Irradiance at all vertices of one side [quanta / user unit^2].
 class SideLight {
  public:
-  SideLight(const Mesh& mesh, std::span<const protocol::Flux> flux, std::uint32_t side)
-      : mesh_(mesh), flux_(flux), side_(side), vertices_(mesh, side) {
+  /// crossed: by facet, whether a wall does; outlives this.
+  SideLight(const Mesh& mesh, std::span<const protocol::Flux> flux, const std::vector<bool>& crossed,
+            std::uint32_t side)
+      : mesh_(mesh), flux_(flux), crossed_(crossed), side_(side), vertices_(mesh, side) {
     take_means();
     anchor();
     for (int step = 0; step < kBorderSteps; ++step) {
@@ -37,7 +38,7 @@ class SideLight {
   std::array<Vec3d, 3> at_corners(std::uint32_t facet) const {
     std::array<Vec3d, 3> light{};
     for (std::size_t c = 0; c < 3; ++c) light[c] = values_[corners(facet)[c]];
-    if ((is_dark(light[0]) || is_dark(light[1]) || is_dark(light[2])) && crossed(facet)) show_lit_side(facet, light);
+    if ((is_dark(light[0]) || is_dark(light[1]) || is_dark(light[2])) && crossed_[facet]) show_lit_side(facet, light);
     return light;
   }
 
@@ -51,23 +52,16 @@ class SideLight {
       }
     }
   }
-  static bool clustered(const MeshPatch& patch) { return patch.facets > patch.elements; }
   static bool is_dark(const Vec3d& light) { return light == Vec3d{0, 0, 0}; }
-  bool crossed(std::uint32_t facet) const {
-    return mesh_.walls.cross(mesh_.facets[facet].triangle, mesh_.facets[facet].code);
-  }
   std::uint64_t key(std::uint32_t facet, std::size_t corner) const {
-    const MeshFacet& of = mesh_.facets[facet];
-    const protocol::GridTriangle grid =
-        protocol::grid_triangle(protocol::path_of_code(of.code), protocol::level_of_code(of.code));
-    return vertex_key(mesh_, of.triangle, static_cast<std::uint32_t>(grid.corner[corner][1]),
-                      static_cast<std::uint32_t>(grid.corner[corner][2]));
+    return vertex_key(mesh_, mesh_.facets[facet].triangle, grid_points(mesh_.facets[facet].code)[corner]);
   }
 
   /// What crossed elements' corners are on the other side of the wall, where light comes.
   void note_lit_sides() {
     for (std::uint32_t f = 0; f < mesh_.facets.size(); ++f) {
-      for (std::size_t c = 0; crossed(f) && c < 3; ++c) lit_.emplace(key(f, c), Vec3d{0, 0, 0});
+      if (!crossed_[f]) continue;
+      for (std::size_t c = 0; c < 3; ++c) lit_.emplace(key(f, c), Vec3d{0, 0, 0});
     }
     if (lit_.empty()) return;
     for_each_facet([&](const MeshPatch&, std::uint32_t f, const protocol::Flux&) {
@@ -100,12 +94,12 @@ class SideLight {
     std::vector<VertexSum> of_crossed(vertices_.count());
     ClusterVertices clusters(mesh_);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
-      if (clustered(patch)) {
+      if (patch.is_clustered()) {
         clusters.add(patch, f, corners(f), flux);
         return;
       }
       // What a wall crosses got the light of both sides: it counts only where there is nothing else.
-      auto& into = crossed(f) ? of_crossed : sums;
+      auto& into = crossed_[f] ? of_crossed : sums;
       for (const std::uint32_t corner : corners(f)) into[corner].add(flux, mesh_.facet_area(mesh_.facets[f]));
     });
     clusters.smooth(sums);
@@ -127,7 +121,7 @@ class SideLight {
     std::vector<Vec3d> missing(vertices_.count(), {0, 0, 0});
     std::vector<double> area(vertices_.count(), 0);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
-      if (clustered(patch) || crossed(f)) return;
+      if (patch.is_clustered() || crossed_[f]) return;
       const double facet_area = mesh_.facet_area(mesh_.facets[f]);
       const auto& corner = corners(f);
       for (std::size_t c = 0; c < 3; ++c) {
@@ -144,6 +138,7 @@ class SideLight {
 
   const Mesh& mesh_;
   std::span<const protocol::Flux> flux_;
+  const std::vector<bool>& crossed_;
   std::uint32_t side_;
   SurfaceVertices vertices_;
   std::vector<Vec3d> values_;
@@ -154,7 +149,10 @@ class SideLight {
 
 Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
                      double unit_radiance) {
-  const std::array<SideLight, 2> light{SideLight(mesh, flux, 0), SideLight(mesh, flux, 1)};
+  std::vector<bool> crossed;
+  crossed.reserve(mesh.facets.size());
+  for (const MeshFacet& facet : mesh.facets) crossed.push_back(mesh.walls.cross(facet.triangle, facet.code));
+  const std::array<SideLight, 2> light{SideLight(mesh, flux, crossed, 0), SideLight(mesh, flux, crossed, 1)};
   const double factor = watts_per_quantum / (std::numbers::pi * unit_radiance);
   Lattice lattice;
   lattice.first.assign(mesh.facets.size(), 0);

@@ -110,7 +110,7 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh)
   std::vector<bool> small(mesh.triangles.size(), false);
   MeshLengths& lengths = mesh.lengths;
   if (!cut.empty()) {
-    lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
+    if (!choice.patch_length || !choice.element_length) lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
     lengths.patch = choice.patch_length.value_or(lengths.patch * choice.lengths);
     lengths.element = choice.element_length.value_or(lengths.element * choice.lengths);
     std::size_t next = 0;
@@ -224,8 +224,8 @@ void require_few_elements(const Mesh& mesh, const std::vector<int>& element_leve
   std::uint64_t elements = 0;
   for (std::size_t t = 0; t < element_level.size(); ++t) {
     if (element_level[t] < 0) continue;
-    const std::uint64_t sides = mesh.triangles[t].sides == (kFrontPresent | kBackPresent) ? 2 : 1;
-    elements += sides * protocol::triangles_of_level(static_cast<std::uint32_t>(element_level[t]));
+    elements += std::uint64_t{mesh.triangles[t].side_count()} *
+                protocol::triangles_of_level(static_cast<std::uint32_t>(element_level[t]));
   }
   if (elements <= kMostElements) return;
   throw InputError("the mesh would have " + std::to_string(elements) + " elements on all sides, at most " +
@@ -264,8 +264,7 @@ Mesh make_mesh(const Scene& scene, const MeshChoice& choice) {
 }
 
 std::array<Vec3d, 3> grid_corners(const MeshTriangle& triangle, std::uint32_t code) {
-  const protocol::GridTriangle grid =
-      protocol::grid_triangle(protocol::path_of_code(code), protocol::level_of_code(code));
+  const protocol::GridTriangle grid = protocol::grid_triangle_of(code);
   constexpr double one = 1U << protocol::kMostLevels;
   std::array<Vec3d, 3> corners{};
   for (std::size_t c = 0; c < 3; ++c) {

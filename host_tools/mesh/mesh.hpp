@@ -50,6 +50,11 @@ struct MeshTriangle {
   std::uint8_t patch_level = 0;  ///< 4^patch_level parts, each of another patch
   std::uint32_t first_part = 0;  ///< into Mesh::parts, by path
   std::uint32_t facets = 0;      ///< of all parts; they lie one behind the other
+
+  /// 0 to 2.
+  std::uint32_t side_count() const {
+    return ((sides & protocol::kFrontPresent) != 0 ? 1U : 0U) + ((sides & protocol::kBackPresent) != 0 ? 1U : 0U);
+  }
 };
 
 /// What of a triangle belongs to one patch: all of it, or one triangle of its grid.
@@ -76,6 +81,9 @@ struct MeshPatch {
   std::array<std::uint32_t, 3> reflectance{};  ///< diffuse, a texture's mean; in units of 2^-32
   std::array<std::uint32_t, 2> side{protocol::kNoSide, protocol::kNoSide};           ///< front, back: global number
   std::array<std::uint32_t, 2> first_element{protocol::kNoSide, protocol::kNoSide};  ///< likewise
+
+  /// Its elements are of several triangles each.
+  bool is_clustered() const { return facets > elements; }
 };
 
 /// Global numbers run over patches in the order of their first triangles, then of its paths; front before back.

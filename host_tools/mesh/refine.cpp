@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <queue>
 
 #include "firmware/protocol/triangle_grid.hpp"
@@ -55,7 +56,7 @@ std::vector<Split> choose_splits(const Mesh& mesh, const Scene& scene, std::span
   std::vector<Doubt> doubts;
   double greatest = 0;
   for (const MeshPatch& patch : mesh.patches) {
-    if (patch.facets > patch.elements) continue;
+    if (patch.is_clustered()) continue;
     for (std::uint32_t e = 0; e < patch.elements; ++e) {
       const MeshFacet& facet = mesh.facets[patch.first_facet + e];
       const double area = mesh.facet_area(facet);
@@ -64,7 +65,8 @@ std::vector<Split> choose_splits(const Mesh& mesh, const Scene& scene, std::span
         if (patch.side[side] == protocol::kNoSide) continue;
         const protocol::Flux& here = flux[patch.first_element[side] + e];
         protocol::Vec3f own{};
-        for (std::size_t c = 0; c < 3; ++c) own[c] = static_cast<float>(static_cast<double>(here[c]) / area / M_PI);
+        for (std::size_t c = 0; c < 3; ++c)
+          own[c] = static_cast<float>(static_cast<double>(here[c]) / area / std::numbers::pi);
         const auto& corners = lattice.triangles[lattice.first[patch.first_facet + e] + worst.sides];
         worst.size = std::max(worst.size, area * doubt(corners, own, scene.materials[patch.material].diffuse));
         ++worst.sides;

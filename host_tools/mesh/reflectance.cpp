@@ -21,8 +21,7 @@ std::array<std::uint32_t, 3> in_fractions(const Vec3d& reflectance) {
 
 /// A facet's corners in the texture.
 std::array<protocol::TexturePoint, 3> texture_points(const Mesh& mesh, const MeshFacet& facet) {
-  const protocol::GridTriangle grid =
-      protocol::grid_triangle(protocol::path_of_code(facet.code), protocol::level_of_code(facet.code));
+  const protocol::GridTriangle grid = protocol::grid_triangle_of(facet.code);
   const std::uint32_t first = mesh.triangles[facet.triangle].texture_points;
   std::array<protocol::TexturePoint, 3> corners{};
   for (std::size_t i = 0; i < 3; ++i) {

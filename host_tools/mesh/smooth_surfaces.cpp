@@ -67,7 +67,17 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& s
   return surfaces;
 }
 
-std::uint64_t vertex_key(const Mesh& mesh, std::uint32_t triangle, std::uint32_t i, std::uint32_t j) {
+std::array<GridPoint, 3> grid_points(std::uint32_t code) {
+  const protocol::GridTriangle grid = protocol::grid_triangle_of(code);
+  std::array<GridPoint, 3> points{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    points[c] = {static_cast<std::uint32_t>(grid.corner[c][1]), static_cast<std::uint32_t>(grid.corner[c][2])};
+  }
+  return points;
+}
+
+std::uint64_t vertex_key(const Mesh& mesh, std::uint32_t triangle, const GridPoint& point) {
+  const auto [i, j] = point;
   constexpr std::uint32_t n = 1U << protocol::kMostLevels;
   constexpr std::uint64_t edge_kind = std::uint64_t{1} << 62U;
   constexpr std::uint64_t interior_kind = std::uint64_t{2} << 62U;

@@ -28,8 +28,15 @@ inline constexpr std::uint32_t kNoNeighbour = 0xFFFF'FFFFU;
 /// small: by triangle, whether it is smaller than half an element.
 SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small);
 
+/// A point of a triangle's grid: weights of corners 1 and 2 in units of 2^-kMostLevels.
+struct GridPoint {
+  std::uint32_t i, j;
+};
+
+/// The corners of a triangle of the grid, named by its location code.
+std::array<GridPoint, 3> grid_points(std::uint32_t code);
+
 /// Names a vertex of a triangle's grid, the same for all triangles of a smooth surface that meet there.
-/// i, j: weights of corners 1, 2 in units of 2^-kMostLevels.
-std::uint64_t vertex_key(const Mesh& mesh, std::uint32_t triangle, std::uint32_t i, std::uint32_t j);
+std::uint64_t vertex_key(const Mesh& mesh, std::uint32_t triangle, const GridPoint& point);
 
 }  // namespace torolux

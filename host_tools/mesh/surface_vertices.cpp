@@ -13,24 +13,9 @@
 namespace torolux {
 namespace {
 
-/// Weights of corners 1 and 2 in units of 2^-kMostLevels.
-struct GridPoint {
-  std::uint32_t i, j;
-};
-
 PlanePoint on_plane(double i, double j) {
   constexpr double unit = 1.0 / (1U << protocol::kMostLevels);
   return {unit * i, unit * j};
-}
-
-std::array<GridPoint, 3> corners_of(const MeshFacet& facet) {
-  const protocol::GridTriangle grid =
-      protocol::grid_triangle(protocol::path_of_code(facet.code), protocol::level_of_code(facet.code));
-  std::array<GridPoint, 3> corners{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    corners[c] = {static_cast<std::uint32_t>(grid.corner[c][1]), static_cast<std::uint32_t>(grid.corner[c][2])};
-  }
-  return corners;
 }
 
 /// An edge of a facet, from corner `corner` to the next one.
@@ -46,9 +31,9 @@ class Joiner {
   Joiner(const Mesh& mesh, std::uint32_t side)
       : mesh_(mesh), side_(side), sets_(3 * mesh.facets.size()), links_(3 * mesh.facets.size(), 0) {
     for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
-      const auto corners = corners_of(mesh.facets[f]);
+      const auto corners = grid_points(mesh.facets[f].code);
       for (std::size_t c = 0; c < 3; ++c) {
-        keys_.push_back(vertex_key(mesh, mesh.facets[f].triangle, corners[c].i, corners[c].j));
+        keys_.push_back(vertex_key(mesh, mesh.facets[f].triangle, corners[c]));
       }
       if (!present(f)) continue;
       for (std::uint32_t c = 0; c < 3; ++c) {
@@ -89,13 +74,13 @@ class Joiner {
     });
     for (const std::uint32_t f : order) {
       if (!present(f)) continue;
-      const auto corners = corners_of(mesh_.facets[f]);
+      const auto corners = grid_points(mesh_.facets[f].code);
       for (std::uint32_t c = 0; c < 3; ++c) join({f, c, corners[c], corners[(c + 1) % 3], 0, 1});
     }
   }
 
   std::uint64_t key(std::uint32_t facet, const GridPoint& point) const {
-    return vertex_key(mesh_, mesh_.facets[facet].triangle, point.i, point.j);
+    return vertex_key(mesh_, mesh_.facets[facet].triangle, point);
   }
 
   std::span<const FacetEdge> edges_between(std::uint64_t a, std::uint64_t b) const {
@@ -128,13 +113,13 @@ class Joiner {
 
   /// On the way from one facet's centre over the middle of the shared edge to the other's.
   bool wall_between(const Part& part, const FacetEdge& edge) const {
-    const auto corners = corners_of(mesh_.facets[edge.facet]);
+    const auto corners = grid_points(mesh_.facets[edge.facet].code);
     const GridPoint& a = corners[edge.corner];
     const GridPoint& b = corners[(edge.corner + 1) % 3];
     return wall_before(part.facet, part.from, part.to) || wall_before(edge.facet, a, b);
   }
   bool wall_before(std::uint32_t facet, const GridPoint& a, const GridPoint& b) const {
-    const auto corners = corners_of(mesh_.facets[facet]);
+    const auto corners = grid_points(mesh_.facets[facet].code);
     const PlanePoint centre = on_plane((corners[0].i + corners[1].i + corners[2].i) / 3.0,
                                        (corners[0].j + corners[1].j + corners[2].j) / 3.0);
     return mesh_.walls.between(mesh_.facets[facet].triangle, side_, centre,

@@ -161,8 +161,7 @@ Walls::Walls(const Mesh& mesh, const std::vector<bool>& wanted) : of_side_(mesh.
 
 bool Walls::cross(std::uint32_t triangle, std::uint32_t code) const {
   if (of_side_.empty() || (of_side_[triangle][0].empty() && of_side_[triangle][1].empty())) return false;
-  const protocol::GridTriangle grid =
-      protocol::grid_triangle(protocol::path_of_code(code), protocol::level_of_code(code));
+  const protocol::GridTriangle grid = protocol::grid_triangle_of(code);
   constexpr double unit = 1.0 / (1U << protocol::kMostLevels);
   std::array<PlanePoint, 3> corner{};
   PlanePoint centre;

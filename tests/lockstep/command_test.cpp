@@ -37,26 +37,9 @@ TEST(LockstepCommand, TheExampleImagesAgree) {
 }
 
 TEST(LockstepCommand, ARenderAgrees) {
-  const Finished run = run_torolux({"lockstep",
-                                    (source_dir() / "scenes" / "cornell_spheres").string(),
-                                    "--pes",
-                                    "2x2",
-                                    "--subspaces",
-                                    "4x4x4",
-                                    "--size",
-                                    "16x12",
-                                    "--samples",
-                                    "1",
-                                    "--hemicube",
-                                    "4",
-                                    "--emission-records",
-                                    "20000",
-                                    "--shot-points",
-                                    "2",
-                                    "--max-shots",
-                                    "6",
-                                    "--shot-points",
-                                    "1"});
+  std::vector<std::string> arguments = small_render_options();
+  arguments.insert(arguments.begin(), {"lockstep", (source_dir() / "scenes" / "cornell_spheres").string()});
+  const Finished run = run_torolux(arguments);
   EXPECT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_THAT(run.output, ContainsRegex("agree: [0-9 ]+ HINTs and [0-9 ]+ phase markers at the same clocks"));
 }

@@ -79,30 +79,10 @@ TEST(MixedEngines, OnlyTheNamedPesAreProcesses) {
 TEST(MixedEngines, ARenderIsTheSame) {
   const TemporaryFolder folder;
   const auto render = [&](const std::string& name, const Arguments& more) {
-    const Finished run = run_torolux(joined({"render",
-                                             std::string(TOROLUX_SOURCE_DIR) + "/scenes/cornell_box",
-                                             "--pes",
-                                             "2x2",
-                                             "--subspaces",
-                                             "4x4x4",
-                                             "--size",
-                                             "16x12",
-                                             "--samples",
-                                             "1",
-                                             "--hemicube",
-                                             "4",
-                                             "--emission-records",
-                                             "20000",
-                                             "--shot-points",
-                                             "2",
-                                             "--max-shots",
-                                             "6",
-                                             "--shot-points",
-                                             "1",
-                                             "--output",
-                                             folder.path() / (name + ".pfm"),
-                                             "--stats",
-                                             folder.path() / (name + ".json")},
+    const Arguments render_scene =
+        joined({"render", std::string(TOROLUX_SOURCE_DIR) + "/scenes/cornell_box"}, small_render_options());
+    const Finished run = run_torolux(joined(joined(render_scene, {"--output", folder.path() / (name + ".pfm"),
+                                                                  "--stats", folder.path() / (name + ".json")}),
                                             more));
     EXPECT_EQ(run.exit_code, 0) << run.errors;
   };

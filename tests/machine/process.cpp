@@ -98,6 +98,25 @@ Finished run_torolux(const std::vector<std::string>& arguments) {
   return ToroluxProcess(arguments).wait();
 }
 
+std::vector<std::string> small_render_options() {
+  return {"--pes",
+          "2x2",
+          "--subspaces",
+          "4x4x4",
+          "--size",
+          "16x12",
+          "--samples",
+          "1",
+          "--hemicube",
+          "4",
+          "--max-shots",
+          "6",
+          "--emission-records",
+          "20000",
+          "--shot-points",
+          "1"};
+}
+
 bool runs(pid_t process) {
   std::ifstream stream("/proc/" + std::to_string(process) + "/stat");
   std::string text;

@@ -46,6 +46,9 @@ class ToroluxProcess {
 
 Finished run_torolux(const std::vector<std::string>& arguments);
 
+/// Options of `render` and `lockstep` with which a scene takes a few seconds.
+std::vector<std::string> small_render_options();
+
 /// Whether the process executes anything; a zombie does not.
 bool runs(pid_t process);
 /// Waits up to two seconds until none of them runs.

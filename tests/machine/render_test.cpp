@@ -23,26 +23,8 @@ using Arguments = std::vector<std::string>;
 
 /// A few seconds' render of the Cornell box.
 Arguments small_render(const Arguments& more) {
-  Arguments arguments = {"render",
-                         std::string(TOROLUX_SOURCE_DIR) + "/scenes/cornell_box",
-                         "--pes",
-                         "2x2",
-                         "--subspaces",
-                         "4x4x4",
-                         "--size",
-                         "16x12",
-                         "--samples",
-                         "1",
-                         "--hemicube",
-                         "4",
-                         "--emission-records",
-                         "20000",
-                         "--shot-points",
-                         "2",
-                         "--max-shots",
-                         "6",
-                         "--shot-points",
-                         "1"};
+  Arguments arguments = small_render_options();
+  arguments.insert(arguments.begin(), {"render", std::string(TOROLUX_SOURCE_DIR) + "/scenes/cornell_box"});
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }

@@ -91,8 +91,7 @@ double visible_share(const World& world, const DenseElement& from, const Vec& po
 DenseElement dense_element(const Scene& scene, const MeshTriangle& triangle, const MeshFacet& facet, bool back,
                            bool emits) {
   const SceneMaterial& material = scene.materials[triangle.material];
-  const protocol::GridTriangle grid =
-      protocol::grid_triangle(protocol::path_of_code(facet.code), protocol::level_of_code(facet.code));
+  const protocol::GridTriangle grid = protocol::grid_triangle_of(facet.code);
   DenseElement element;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec point = Vec::Zero();
@@ -122,7 +121,7 @@ std::vector<DenseElement> dense_elements(const Scene& scene, const Mesh& mesh, b
     }
   }
   for (const MeshPatch& patch : mesh.patches) {
-    if (patch.facets != patch.elements) throw std::invalid_argument("the dense solution knows no clusters");
+    if (patch.is_clustered()) throw std::invalid_argument("the dense solution knows no clusters");
     for (std::uint32_t e = 0; e < patch.elements; ++e) {
       const MeshFacet& facet = mesh.facets[patch.first_facet + e];
       for (std::size_t side = 0; side < 2; ++side) {
