@@ -25,10 +25,6 @@ std::string triple(const std::array<double, 3>& v) {
   return significant(v[0], 6) + " " + significant(v[1], 6) + " " + significant(v[2], 6);
 }
 
-bool emits(const SceneMaterial& material) {
-  return *std::max_element(material.emission.begin(), material.emission.end()) > 0;
-}
-
 std::string describe(const SceneMaterial& material, const Scene& scene) {
   switch (material.kind) {
     case SurfaceKind::mirror:

@@ -130,7 +130,7 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
             [&options](const std::string& text) { options.size = parse_pair(text, 1, kMostPictureEdge); })
       ->default_str(std::to_string(built_in.width) + "x" + std::to_string(built_in.height))
       ->group(group);
-  add_count(command, "--samples", "Rays per pixel", options.samples, 1, 65536, built_in.samples)->group(group);
+  add_count(command, "--samples", "Rays per pixel", options.samples, 1, kMostSamples, built_in.samples)->group(group);
   add_value(
       command, "--filter", "NAME",
       "How what lies around a pixel's middle weighs in it: box (its square alone), tent (to the middles of the next "
@@ -187,7 +187,7 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
       ->default_str(std::to_string(built_in.shot_points))
       ->group(group);
   add_count(command, "--emission-records", "Records with which all emitters together begin, about, 0 to 1e9",
-            options.emission_records, 0, 1'000'000'000, built_in.emission_records)
+            options.emission_records, 0, kMostEmissionRecords, built_in.emission_records)
       ->group(group);
   add_value(command, "--unshot", "FRACTION",
             "The radiosity stage ends when less than this fraction of the emitted "

@@ -5,9 +5,14 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/scene/load_scene.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
+
+/// Of the scene's surface, beyond which presets choose no shadow rays: large emitters cast no sharp shadows, and what
+/// lies near to them gets very unequal shares from rays to points that are spread over them evenly.
+constexpr double kMostEmittingShare = 0.125;
 
 /// An option given > the scene's default > the built-in value that `value` holds already.
 template <class Value, class Given, class Suggested>
@@ -38,9 +43,12 @@ Camera settle_camera(const RenderOptions& options, const Scene& scene) {
   return camera;
 }
 
-void take_scenes(const SceneDefaults& defaults, Quality& quality) {
+/// Returns the preset at which the scene's settings hold.
+Preset take_scenes(const SceneDefaults& defaults, Quality& quality) {
+  Preset preset = *preset_named("normal");
   if (defaults.quality) {
-    from_scene(defaults.quality_place, "quality", [&] { apply(parse_preset(*defaults.quality), quality); });
+    from_scene(defaults.quality_place, "quality", [&] { preset = parse_preset(*defaults.quality); });
+    apply(preset, quality);
   }
   if (defaults.filter)
     from_scene(defaults.filter_place, "filter", [&] { quality.filter = parse_filter(*defaults.filter); });
@@ -59,10 +67,10 @@ void take_scenes(const SceneDefaults& defaults, Quality& quality) {
   take(quality.texels, defaults.texels);
   take(quality.seed, defaults.seed);
   take(quality.two_sided_lights, defaults.two_sided_lights);
+  return preset;
 }
 
 void take_options(const RenderOptions& options, Quality& quality) {
-  if (options.preset) apply(*options.preset, quality);
   const auto take = [](auto& value, const auto& given) { value = given.value_or(value); };
   if (options.size) {
     quality.width = (*options.size)[0];
@@ -84,17 +92,35 @@ void take_options(const RenderOptions& options, Quality& quality) {
   quality.two_sided_lights = quality.two_sided_lights || options.two_sided_lights;
 }
 
-Quality settle_quality(const RenderOptions& options, const SceneDefaults& defaults) {
+/// Share of the scene's surface.
+double emitting_share(const Scene& scene) {
+  double all = 0;
+  double emitting = 0;
+  for (const SceneTriangle& triangle : scene.triangles) {
+    const auto& [a, b, c] = triangle.position;
+    const Vec3d& corner = scene.positions[a];
+    const double area =
+        vec::length(vec::cross(vec::subtract(scene.positions[b], corner), vec::subtract(scene.positions[c], corner)));
+    all += area;
+    if (emits(scene.materials[triangle.material])) emitting += area;
+  }
+  return emitting / all;
+}
+
+Quality settle_quality(const RenderOptions& options, const Scene& scene) {
+  const SceneDefaults& defaults = scene.defaults;
   Quality quality;
-  take_scenes(defaults, quality);
+  const Preset scenes_preset = take_scenes(defaults, quality);
+  if (options.preset) change_preset(scenes_preset, *options.preset, quality);
+  if (!defaults.shadow_rays && emitting_share(scene) > kMostEmittingShare) quality.shadow_rays = false;
   take_options(options, quality);
   // A preset makes the scene's own lengths shorter or longer; one that is given holds.
-  const auto length = [&](const std::optional<LengthOption>& given, const std::optional<double>& scenes) {
+  const auto length = [](const std::optional<LengthOption>& given, const std::optional<double>& scenes, double factor) {
     if (given) return given->length;
-    return scenes ? std::optional(*scenes * quality.lengths) : std::nullopt;
+    return scenes ? std::optional(*scenes * factor) : std::nullopt;
   };
-  quality.patch_length = length(options.patches, defaults.patch_length);
-  quality.element_length = length(options.elements, defaults.element_length);
+  quality.patch_length = length(options.patches, defaults.patch_length, quality.patch_factor);
+  quality.element_length = length(options.elements, defaults.element_length, quality.element_factor);
   return quality;
 }
 
@@ -140,7 +166,7 @@ SceneOptions scene_options(const RenderOptions& options) {
 Settled settle(const RenderOptions& options, const Scene& scene) {
   Settled settled;
   settled.camera = settle_camera(options, scene);
-  settled.quality = settle_quality(options, scene.defaults);
+  settled.quality = settle_quality(options, scene);
   settled.machine = settle_machine(options, scene);
   pick(settled.tone.exposure_ev, options.tone.exposure_ev, scene.defaults.exposure_ev);
   settled.tone.curve = options.tone.curve.value_or(ToneCurve::filmic);

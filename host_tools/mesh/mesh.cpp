@@ -111,8 +111,8 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh)
   MeshLengths& lengths = mesh.lengths;
   if (!cut.empty()) {
     if (!choice.patch_length || !choice.element_length) lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
-    lengths.patch = choice.patch_length.value_or(lengths.patch * choice.lengths);
-    lengths.element = choice.element_length.value_or(lengths.element * choice.lengths);
+    lengths.patch = choice.patch_length.value_or(lengths.patch * choice.patch_factor);
+    lengths.element = choice.element_length.value_or(lengths.element * choice.element_factor);
     std::size_t next = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.triangles[t].sides == 0) continue;
@@ -246,11 +246,6 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
 }
 
 }  // namespace
-
-bool emits(const SceneMaterial& material) {
-  return material.kind == SurfaceKind::diffuse &&
-         std::any_of(material.emission.begin(), material.emission.end(), [](double value) { return value > 0; });
-}
 
 Mesh make_mesh(const Scene& scene, const MeshChoice& choice) {
   Mesh mesh;

@@ -33,9 +33,9 @@ struct MeshChoice {
   std::optional<double> patch_length = std::nullopt;    ///< longest edge of a patch, user units, > 0; absent: auto
   std::optional<double> element_length = std::nullopt;  ///< likewise of an element
   bool two_sided_lights = false;
-  std::uint32_t texels = 16384;    ///< at most, of each texture
-  std::vector<Split> splits = {};  ///< ascending
-  double lengths = 1;              ///< times lengths that are chosen by themselves
+  std::uint32_t texels = 16384;                 ///< at most, of each texture
+  std::vector<Split> splits = {};               ///< ascending
+  double patch_factor = 1, element_factor = 1;  ///< of lengths that are chosen by themselves
 };
 
 struct MeshTriangle {
@@ -116,9 +116,6 @@ inline constexpr std::uint64_t kMostElements = std::uint64_t{1} << 26U;
 
 /// Throws InputError: no surface left, or more than kMostElements.
 Mesh make_mesh(const Scene& scene, const MeshChoice& choice);
-
-/// True where a side of this material emits: front, or either with two-sided lights.
-bool emits(const SceneMaterial& material);
 
 /// Corners of a triangle of a polygon's grid, normalised.
 std::array<Vec3d, 3> grid_corners(const MeshTriangle& triangle, std::uint32_t code);

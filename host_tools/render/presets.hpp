@@ -13,7 +13,7 @@ namespace torolux {
 struct Preset {
   std::string_view name;
   std::string_view what;
-  double lengths;  ///< of patches and elements, times what the scene says or what is chosen for it
+  double patch_factor, element_factor;  ///< of their lengths, times what the scene says or what is chosen for it
   std::uint32_t hemicube, shot_points, emission_records;
   double unshot;
   double refine;
@@ -23,9 +23,9 @@ struct Preset {
 
 /// `normal` is what Quality has built in.
 inline constexpr std::array<Preset, 3> kPresets{{
-    {"draft", "a few seconds: to see what is there", 2, 8, 3, 500'000, 0.02, 0, false, 4},
-    {"normal", "the default", 1, 8, 6, 4'000'000, 0.002, 0, false, 16},
-    {"fine", "minutes: sharp shadows, little noise", 0.5, 10, 6, 16'000'000, 0.0005, 0.5, true, 64},
+    {"draft", "a few seconds: to see what is there", 2, 2, 8, 3, 500'000, 0.02, 0, false, 4},
+    {"normal", "the default", 1, 1, 8, 6, 4'000'000, 0.002, 0, false, 16},
+    {"fine", "minutes: sharp shadows, little noise", 0.5, 1, 8, 8, 16'000'000, 0.0005, 0.5, true, 64},
 }};
 
 /// Absent: there is none of this name.
@@ -33,5 +33,9 @@ std::optional<Preset> preset_named(std::string_view name);
 
 /// Sets all that a preset decides.
 void apply(const Preset& preset, Quality& quality);
+
+/// From `was`, at which a scene has settings of its own, to `is`: numbers change in the same measure, shadow rays stay,
+/// and so does refinement that goes beyond `is` (but not to a coarser preset).
+void change_preset(const Preset& was, const Preset& is, Quality& quality);
 
 }  // namespace torolux

@@ -29,7 +29,7 @@ struct Quality {
   LayerSet layers = 0;                 ///< of the picture, besides its colours, which they do not change
   std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
   std::optional<double> element_length;
-  double lengths = 1;  ///< times patch and element lengths that are chosen by themselves
+  double patch_factor = 1, element_factor = 1;  ///< of lengths that are chosen by themselves
   /// Elements that are added where a draft of the solution says so, as a multiple of those without; 0: no draft.
   double refine = 0;
   std::uint32_t hemicube = 8;     ///< pixels across the top, even, 4..256

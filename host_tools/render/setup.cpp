@@ -25,7 +25,7 @@ void require(bool holds, const std::string& what) {
 void check(const Quality& quality, const MachineChoice& machine) {
   require(quality.width > 0 && quality.height > 0 && std::uint64_t{quality.width} * quality.height <= kMostPixels,
           "--size: at least 1x1 and at most " + std::to_string(kMostPixels) + " pixels");
-  require(quality.samples > 0 && quality.samples <= 65536, "--samples: 1 to 65536");
+  require(quality.samples > 0 && quality.samples <= kMostSamples, "--samples: 1 to " + std::to_string(kMostSamples));
   require(quality.hemicube >= 4 && quality.hemicube <= protocol::kMostHemicubeSize && quality.hemicube % 2 == 0,
           "--hemicube: an even number from 4 to " + std::to_string(protocol::kMostHemicubeSize));
   require(quality.shot_points > 0 && quality.shot_points <= protocol::kMostShotPoints,
@@ -59,12 +59,16 @@ std::uint32_t machine_seed(std::uint64_t seed) {
   return protocol::hash_combine(low, static_cast<std::uint32_t>(seed >> 32U));
 }
 
+MeshChoice mesh_choice(const Quality& quality, const std::vector<Split>& splits) {
+  return {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels, splits,
+          quality.patch_factor, quality.element_factor};
+}
+
 RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,
                        const std::vector<Split>& splits) {
   check(quality, machine);
   RenderSetup setup;
-  setup.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels,
-                                 splits, quality.lengths});
+  setup.mesh = make_mesh(scene, mesh_choice(quality, splits));
   setup.notes = setup.mesh.notes;
   setup.units = light_units(scene, setup.mesh, quality.two_sided_lights);
   setup.parameters.seed = machine_seed(quality.seed);

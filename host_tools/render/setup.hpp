@@ -26,6 +26,9 @@ struct RenderSetup {
   std::vector<std::string> notes;
 };
 
+/// What the mesh is made of, and made the same again. splits: of elements, ascending.
+MeshChoice mesh_choice(const Quality& quality, const std::vector<Split>& splits);
+
 /// splits: of elements, ascending. Throws UsageError (settings out of range) and InputError (no surface, no light, too
 /// many elements).
 RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,

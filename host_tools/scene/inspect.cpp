@@ -58,7 +58,7 @@ std::vector<Emitter> emitters(const Scene& scene, std::size_t most) {
   std::vector<Emitter> found;
   for (std::uint32_t t = 0; t < scene.triangles.size() && found.size() < most; ++t) {
     const SceneTriangle& triangle = scene.triangles[t];
-    if (!(vec::largest(scene.materials[triangle.material].emission) > 0)) continue;
+    if (!emits(scene.materials[triangle.material])) continue;
     const Vec3d& a = scene.positions[triangle.position[0]];
     const Vec3d& b = scene.positions[triangle.position[1]];
     const Vec3d& c = scene.positions[triangle.position[2]];

@@ -2,6 +2,7 @@
 // A scene as the host tools hand it on: triangles, materials and a camera, checked, in the user's units.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,10 @@ struct SceneMaterial {
   Vec3d emission{0, 0, 0};           ///< Ke, radiance [W/(m^2 sr)] from the front
 };
 
+inline bool emits(const SceneMaterial& material) {
+  return material.kind == SurfaceKind::diffuse && std::ranges::any_of(material.emission, [](double e) { return e > 0; });
+}
+
 /// Diffuse, with a lobe about the mirror direction.
 inline bool is_glossy(const SceneMaterial& material) {
   return material.kind == SurfaceKind::diffuse && material.specular != Vec3d{0, 0, 0};
@@ -53,6 +58,9 @@ struct Camera {
   Vec3d up{0, 1, 0};
   double field_of_view_degrees = 40;  ///< vertical
 };
+
+inline constexpr std::uint32_t kMostSamples = 65536;  ///< of a pixel
+inline constexpr std::uint32_t kMostEmissionRecords = 1'000'000'000;
 
 /// Values that a scene.toml suggests for options the user did not give.
 struct SceneDefaults {

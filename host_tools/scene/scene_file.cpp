@@ -114,11 +114,11 @@ SceneDefaults read_defaults(TomlTable table) {
   SceneDefaults d;
   d.width = narrow(table.integer("width", 1, 32768));
   d.height = narrow(table.integer("height", 1, 32768));
-  d.samples = narrow(table.integer("samples", 1, 65536));
+  d.samples = narrow(table.integer("samples", 1, kMostSamples));
   d.hemicube = narrow(table.integer("hemicube", 4, 256));
   if (d.hemicube && *d.hemicube % 2 != 0) refuse(table.place("hemicube"), "[defaults] 'hemicube' must be even");
   d.shot_points = narrow(table.integer("shot_points", 1, 64));
-  d.emission_records = narrow(table.integer("emission_records", 0, 1'000'000'000));
+  d.emission_records = narrow(table.integer("emission_records", 0, kMostEmissionRecords));
   d.max_shots = narrow(table.integer("max_shots", 0, 0xFFFF'FFFFU));
   d.bounces = narrow(table.integer("bounces", 1, 255));
   d.texels = narrow(table.integer("texels", 1, 4U << 20U));

@@ -25,7 +25,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 4;
+constexpr std::uint16_t kVersion = 5;
 
 struct SavedSums {
   protocol::Tally tally;
@@ -98,7 +98,8 @@ void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected,
   };
   differ("--patches (0: auto)", saved.patch_length, expected.patch_length);
   differ("--elements (0: auto)", saved.element_length, expected.element_length);
-  differ("lengths of --quality", saved.lengths, expected.lengths);
+  differ("patches of --quality", saved.patch_factor, expected.patch_factor);
+  differ("elements of --quality", saved.element_factor, expected.element_factor);
   differ("--refine", saved.refine, expected.refine);
   differ("--unshot", saved.unshot, expected.unshot);
   differ("--seed", saved.seed, expected.seed);
@@ -173,7 +174,8 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   origin.materials = materials.value();
   origin.patch_length = quality.patch_length.value_or(0);
   origin.element_length = quality.element_length.value_or(0);
-  origin.lengths = quality.lengths;
+  origin.patch_factor = quality.patch_factor;
+  origin.element_factor = quality.element_factor;
   origin.refine = quality.refine;
   origin.unshot = quality.unshot;
   origin.seed = quality.seed;

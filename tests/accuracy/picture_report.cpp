@@ -35,7 +35,9 @@ struct Reference {
 
 void add_row(Table& table, const SceneRun& run, const Reference& reference, const Setting& setting,
              const ReportChoice& choice) {
-  const Quality quality = quality_at(setting, run.settled.quality);
+  Quality quality = quality_at(setting, run.scene);
+  quality.width = run.settled.quality.width;
+  quality.height = run.settled.quality.height;
   const double before = cpu_seconds();
   const RenderResult result =
       render(run.scene, run.settled.camera, quality, run.settled.machine, {}, test::pe_image(), {});
@@ -46,8 +48,9 @@ void add_row(Table& table, const SceneRun& run, const Reference& reference, cons
   table.add(
       {run.scene.name, std::string(setting.name), length(quality.patch_length), length(quality.element_length),
        std::to_string(quality.hemicube), std::to_string(quality.shot_points), text_of("%g", quality.unshot),
-       std::to_string(quality.samples), text_of("%.2f", 100 * error.plain_mean), text_of("%.2f", 100 * error.mean),
-       text_of("%.2f", 100 * error.rmse), text_of("%.2f", 100 * reference.noise),
+       std::to_string(quality.samples), text_of("%g", quality.refine), quality.shadow_rays ? "shadow rays" : "elements",
+       text_of("%.2f", 100 * error.plain_mean), text_of("%.2f", 100 * error.mean), text_of("%.2f", 100 * error.rmse),
+       text_of("%.2f", 100 * reference.noise),
        text_of("%.2f", 100 * std::sqrt(std::fmax(0, error.rmse * error.rmse - reference.noise * reference.noise))),
        std::to_string(result.figures.radiosity_records), std::to_string(result.figures.rays),
        text_of("%.2f", 100 * energy.unshot[1] / energy.emitted[1]), text_of("%.1f", seconds)});
@@ -72,8 +75,8 @@ void add_scene(Table& table, const std::filesystem::path& path, const ReportChoi
 
 void report_pictures(const ReportChoice& choice) {
   std::filesystem::create_directories(choice.output);
-  Table table({"scene", "setting", "patches", "elements", "hemicube", "shot points", "unshot", "samples",
-               "mean error [%]", "clamped mean error [%]", "rel. RMSE [%]", "noise of the reference [%]",
+  Table table({"scene", "setting", "patches", "elements", "hemicube", "shot points", "unshot", "samples", "refine",
+               "direct", "mean error [%]", "clamped mean error [%]", "rel. RMSE [%]", "noise of the reference [%]",
                "RMSE without it [%]", "records", "camera rays", "unshot at the end [%]", "CPU [s]"});
   for (const auto& scene : choice.scenes) {
     try {

@@ -2,14 +2,14 @@
 // See settings.hpp.
 #include "tests/accuracy/settings.hpp"
 
+#include "host_tools/cli/settle.hpp"
+
 namespace torolux::accuracy {
 
-Quality quality_at(const Setting& setting, const Quality& settled) {
-  Quality quality = settled;
-  apply(setting, quality);
-  if (quality.patch_length) *quality.patch_length *= setting.lengths;
-  if (quality.element_length) *quality.element_length *= setting.lengths;
-  return quality;
+Quality quality_at(const Setting& setting, const Scene& scene) {
+  RenderOptions options;
+  options.preset = setting;
+  return settle(options, scene).quality;
 }
 
 }  // namespace torolux::accuracy

@@ -68,7 +68,7 @@ void add_scene(Table& table, const std::filesystem::path& path, const ReportChoi
   std::vector<Light> should;
   for (const Setting& setting : chosen_settings(choice)) {
     test::RenderCase render_case;
-    render_case.quality = quality_at(setting, run.settled.quality);
+    render_case.quality = quality_at(setting, run.scene);
     render_case.quality.width = render_case.quality.height = 4;
     render_case.machine = run.settled.machine;
     render_case.camera = run.settled.camera;

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "host_tools/render/setup.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,8 +17,7 @@ CornellSolution solve_cornell(RenderCase cornell) {
   cornell.files.save_radiosity = folder.path() / "cornell.radiosity";
   CornellSolution result{load_scene(cornell.scene, {}), {}, 0, {}, run_case(cornell).figures};
   const SavedRadiosity saved = read_radiosity(*cornell.files.save_radiosity);
-  result.mesh = make_mesh(result.scene, {cornell.quality.patch_length, cornell.quality.element_length, false,
-                                         cornell.quality.texels, saved.splits, cornell.quality.lengths});
+  result.mesh = make_mesh(result.scene, mesh_choice(cornell.quality, saved.splits));
   result.watts_per_quantum = light_units(result.scene, result.mesh, false).watts_per_quantum;
   result.solution = unpack_radiosity(saved, radiosity_origin(result.scene, cornell.quality, result.mesh), result.mesh);
   return result;

@@ -2,6 +2,7 @@
 // See solve_scene.hpp.
 #include "tests/support/solve_scene.hpp"
 
+#include "host_tools/render/setup.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -28,8 +29,7 @@ SolvedScene solve_scene(const Scene& scene, RenderCase render_case) {
   SolvedScene result{scene, {}, 0, {}, {}};
   result.figures = render(scene, camera, quality, render_case.machine, render_case.files, pe_image(), {}).figures;
   const SavedRadiosity saved = read_radiosity(file);
-  result.mesh = make_mesh(scene, {quality.patch_length, quality.element_length, quality.two_sided_lights,
-                                  quality.texels, saved.splits, quality.lengths});
+  result.mesh = make_mesh(scene, mesh_choice(quality, saved.splits));
   result.watts_per_quantum = light_units(scene, result.mesh, quality.two_sided_lights).watts_per_quantum;
   result.solution = unpack_radiosity(saved, radiosity_origin(scene, quality, result.mesh), result.mesh);
   return result;
