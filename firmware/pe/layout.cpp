@@ -40,6 +40,7 @@ enum class LayoutField : std::uint32_t {
   hemicube_size,
   shot_points,
   emission_points,
+  points_per_quantum,
   cell_size,
   pixel_scale,
   layers,
@@ -97,6 +98,10 @@ void check_stores(Niu& niu, const std::array<Extent, kStores>& all) {
   }
 }
 
+bool finite_positive(float value) {
+  return bits(value) > 0 && bits(value) < bits(std::numeric_limits<float>::infinity());
+}
+
 void check_radiosity(Niu& niu, const StageLayout& l) {
   const std::uint32_t n = l.hemicube_size;
   require(niu, n >= 2 && n % 2U == 0 && n <= protocol::kMostHemicubeSize, LayoutField::hemicube_size, n);
@@ -105,10 +110,7 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
   const auto points = [](std::uint32_t k) { return k >= 1 && k <= protocol::kMostShotPoints; };
   require(niu, points(l.shot_points), LayoutField::shot_points, l.shot_points);
   require(niu, points(l.emission_points), LayoutField::emission_points, l.emission_points);
-}
-
-bool finite_positive(float value) {
-  return bits(value) > 0 && bits(value) < bits(std::numeric_limits<float>::infinity());
+  require(niu, finite_positive(l.points_per_quantum), LayoutField::points_per_quantum, bits(l.points_per_quantum));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shots: a patch's flux becomes records, one for each hemi-cube pixel. Enters: a shoot command and credits; leaves:
 // records, each of which is followed at once, and `shot_done`.
+#include <algorithm>
+
 #include "firmware/pe/hemicube.hpp"
 #include "firmware/pe/pe.hpp"
 #include "firmware/pe/shot_points.hpp"
@@ -45,6 +47,17 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
     }
   }
   return flux;
+}
+
+/// Points along one edge of the shot's grid. Little light leaves from few points, so that no record carries much less
+/// than others: what it would add to the picture is not worth its way.
+std::uint32_t grid_of(const protocol::StageLayout& layout, const Shot& shot) {
+  if (shot.command.kind == ShotKind::emitted) return layout.emission_points;
+  const std::int64_t most = std::max({shot.flux[0], shot.flux[1], shot.flux[2]});
+  const float points = static_cast<float>(most) * layout.points_per_quantum;
+  std::uint32_t grid = 1;
+  while (grid < layout.shot_points && static_cast<float>(grid * grid) < points) ++grid;
+  return grid;
 }
 
 /// Sets up the current point: its share of the flux, its place, its spin.
@@ -133,7 +146,7 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   Shot& shot = pe.shot;
   shot.command = shoot;
   shot.flux = withdraw(pe, niu, shot.command);
-  shot.grid = shoot.kind == ShotKind::emitted ? pe.scene.layout.emission_points : pe.scene.layout.shot_points;
+  shot.grid = grid_of(pe.scene.layout, shot);
   shot.active = true;
   shot.point = 0;
   shot.credits = 0;

@@ -233,8 +233,9 @@ struct StageLayout {
   Store facets;                   ///< Facet[]
   Store hemicube;                 ///< uint32_t[hemicube_weights(hemicube_size)]
   std::uint32_t hemicube_size;    ///< N, even
-  std::uint32_t shot_points;      ///< k: k * k points per patch, reflected light
+  std::uint32_t shot_points;      ///< k: k * k points at most per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light
+  float points_per_quantum;       ///< of reflected light, by the greatest channel of what is shot
   // Ray tracing stage.
   Store lattice;         ///< LatticeTriangle[]
   Store textures;        ///< Texture[]
@@ -245,6 +246,6 @@ struct StageLayout {
   float least_weight;    ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 216);
+static_assert(sizeof(StageLayout) == 220);
 
 }  // namespace torolux::protocol

@@ -20,6 +20,7 @@ struct StageParameters {
   std::uint32_t hemicube = 16;
   std::uint32_t shot_points = 2;
   std::uint32_t emission_points = 2;
+  float points_per_quantum = 1;
   float pixel_scale = 0x1p40F;
   float least_weight = 1e-4F;
   std::uint32_t emitters = 0;  ///< that shadow rays aim at; 0: no shadow rays

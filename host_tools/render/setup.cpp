@@ -42,14 +42,22 @@ void check(const Quality& quality, const MachineChoice& machine) {
       "--pes: at least 1x1 and at most " + std::to_string(protocol::kMostPes) + " in all");
 }
 
-std::uint32_t emission_points(const Scene& scene, const Mesh& mesh, const Quality& quality) {
+/// A record of reflected light is to carry no less than this part of what a record of emission does, on average.
+constexpr double kFaintestRecord = 0.2;
+/// Of the greatest channel, see LightUnits.
+constexpr double kEmittedQuanta = 0x1p48;
+
+void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality, StageParameters& parameters) {
   double emitting = 0;
   for (const MeshPatch& patch : mesh.patches) {
     if (emits(scene.materials[patch.material])) emitting += quality.two_sided_lights ? 2.0 : 1.0;
   }
   const double wanted = std::sqrt(quality.emission_records / (protocol::hemicube_pixels(quality.hemicube) * emitting));
-  return static_cast<std::uint32_t>(std::clamp(std::floor(wanted), static_cast<double>(quality.shot_points),
-                                               static_cast<double>(protocol::kMostShotPoints)));
+  parameters.shot_points = quality.shot_points;
+  parameters.emission_points = static_cast<std::uint32_t>(std::clamp(
+      std::floor(wanted), static_cast<double>(quality.shot_points), static_cast<double>(protocol::kMostShotPoints)));
+  const double points = emitting * parameters.emission_points * parameters.emission_points;
+  parameters.points_per_quantum = static_cast<float>(points / (kFaintestRecord * kEmittedQuanta));
 }
 
 }  // namespace
@@ -74,8 +82,7 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
   setup.parameters.seed = machine_seed(quality.seed);
   setup.parameters.bounces = quality.bounces;
   setup.parameters.hemicube = quality.hemicube;
-  setup.parameters.shot_points = quality.shot_points;
-  setup.parameters.emission_points = emission_points(scene, setup.mesh, quality);
+  choose_points(scene, setup.mesh, quality, setup.parameters);
   setup.parameters.pixel_scale = kPixelScale;
   setup.parameters.layers = quality.layers;
   if (quality.shadow_rays) {

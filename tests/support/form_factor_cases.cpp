@@ -124,7 +124,6 @@ double measured_form_factor(const FormFactorCase& shapes, const Quality& quality
   squares.quality.width = squares.quality.height = 4;
   squares.quality.samples = 1;
   squares.quality.unshot = 1e-6;
-  squares.quality.emission_records = 500'000;  // some thousand hemi-cubes: the mean of all is what is measured
   squares.machine.subspaces = {4, 4, 4};
   const RenderResult result =
       render(shapes.scene, shapes.scene.camera.value(), squares.quality, squares.machine, {}, pe_image(), {});
