@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The Cornell box at finer and finer settings against the path traced radiosity of 8 x 8 cells on every quadrilateral.
+// The Cornell box at the quality presets: path traced radiosities of 8 x 8 cells on every quadrilateral; and the mean
+// radiosity of its walls when one block is a mirror.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 
+#include "tests/accuracy/runs.hpp"
 #include "tests/support/cornell_cells.hpp"
 #include "tests/support/cornell_means.hpp"
+#include "tests/support/mirror_block.hpp"
 
 namespace torolux::test {
 namespace {
 
-std::array<double, 3> cell_mean(const CornellSolution& cornell, const ReferenceQuad& reference, std::size_t quad,
-                                int cu, int cv) {
+std::array<double, 3> cell_mean(const SolvedScene& cornell, const ReferenceQuad& reference, std::size_t quad, int cu,
+                                int cv) {
   constexpr int kPoints = 12;
   std::array<double, 3> sum{};
   for (int i = 0; i < kPoints * kPoints; ++i) {
@@ -28,59 +30,59 @@ std::array<double, 3> cell_mean(const CornellSolution& cornell, const ReferenceQ
   return sum;
 }
 
-double error_of_cells(const CornellSolution& cornell) {
+double error_of_cells(const SolvedScene& cornell) {
   const auto reference = cornell_reference();
   return cell_error(
       reference, [&](std::size_t quad, int cu, int cv) { return cell_mean(cornell, reference[quad], quad, cu, cv); });
 }
 
-/// Of the worst surface and channel, relative.
-double worst_mean_error(const CornellSolution& cornell) {
-  const auto means = mean_radiance(cornell);
-  double worst = 0;
-  for (const CornellMean& mean : kCornellMeans) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      worst = std::fmax(worst, std::fabs(means[mean.quad][c] / mean.radiance[c] - 1));
-    }
-  }
-  return worst;
+/// The radiosity stage as the command line runs it with --quality. All light comes from the elements, that of shadow
+/// rays, too: the radiosity stage holds both.
+SolvedScene solve_at(const std::filesystem::path& scene, std::string_view preset) {
+  const accuracy::SceneRun run = accuracy::settle_scene(scene, {});
+  RenderCase render_case;
+  render_case.quality = accuracy::quality_at(preset_named(preset).value(), run.settled.quality);
+  render_case.quality.shadow_rays = false;
+  render_case.quality.width = render_case.quality.height = 4;
+  render_case.machine = run.settled.machine;
+  SolvedScene solved = solve_scene(run.scene, render_case);
+  EXPECT_LT(energy_error(solved.figures.energy), 1e-6);
+  return solved;
 }
 
-struct Setting {
-  double patches, elements;
-  std::uint32_t hemicube, shot_points;
+struct PresetBound {
+  const char* preset;
+  double cells;  ///< RMSE over all cells
+  double walls;  ///< greatest error of a wall's mean radiosity
+  double block;  ///< and of one of the short block's sides, which are dark
 };
+constexpr std::array<PresetBound, 3> kBounds{
+    {{"draft", 0.10, 0.05, 0.15}, {"normal", 0.04, 0.02, 0.05}, {"fine", 0.015, 0.02, 0.02}}};
 
-TEST(CornellAccuracy, FinerSettingsComeCloser) {
+class CornellAccuracy : public testing::TestWithParam<PresetBound> {};
+
+TEST_P(CornellAccuracy, CellsAreThePathTracers) {
   ASSERT_EQ(cornell_reference().size(), 16U);
-  std::printf("patches elements hemicube points |    records   shots | worst mean   RMSE of cells\n");
-  double mean_error = 1;
-  double rmse = 1;
-  for (const Setting& setting :
-       {Setting{200, 100, 8, 1}, Setting{200, 50, 16, 2}, Setting{100, 50, 16, 2}, Setting{100, 25, 32, 2}}) {
-    RenderCase cornell = native_case(source_dir() / "scenes" / "cornell_box");
-    cornell.quality.patch_length = setting.patches;
-    cornell.quality.element_length = setting.elements;
-    cornell.quality.hemicube = setting.hemicube;
-    cornell.quality.shot_points = setting.shot_points;
-    cornell.quality.unshot = 0.001;
-    cornell.quality.width = cornell.quality.height = 4;
-    cornell.machine.subspaces = {4, 4, 4};
-    const CornellSolution solution = solve_cornell(cornell);
-    mean_error = worst_mean_error(solution);
-    rmse = error_of_cells(solution);
-    std::printf("%7.0f %8.0f %8u %6u | %10llu %7llu | %8.2f %%  %12.2f %%\n", setting.patches, setting.elements,
-                setting.hemicube, setting.shot_points,
-                static_cast<unsigned long long>(solution.figures.radiosity_records),
-                static_cast<unsigned long long>(solution.figures.shots), 100 * mean_error, 100 * rmse);
-    std::fflush(stdout);
-    EXPECT_LT(energy_error(solution.figures.energy), 1e-5);
-  }
-  // A trial on one computer reached an RMSE of 2.8 % with 43 million records and 1.5 % with 262 million
-  // (references.md); here it is 79 million. Means average most of that out.
-  EXPECT_LT(rmse, 0.025);
-  EXPECT_LT(mean_error, 0.015);
+  const SolvedScene solved = solve_at(source_dir() / "scenes" / "cornell_box", GetParam().preset);
+  const double rmse = error_of_cells(solved);
+  std::printf("%s: %u elements, %llu records, RMSE of cells %.2f %%\n", GetParam().preset, solved.mesh.elements,
+              static_cast<unsigned long long>(solved.figures.radiosity_records), 100 * rmse);
+  EXPECT_LT(rmse, GetParam().cells);
 }
+
+TEST_P(CornellAccuracy, WallsByAMirrorBlockAreThePathTracers) {
+  static const std::vector<GroupLight> traced = traced_mirror_block(8);
+  const SolvedScene solved = solve_at(mirror_block_scene(), GetParam().preset);
+  for (const WallError& wall : wall_errors(solved, traced)) {
+    std::printf("%s, %s: %+.2f %% (noise of the reference %.2f %%)\n", GetParam().preset,
+                std::string(wall.wall).c_str(), 100 * wall.error, 100 * wall.noise);
+    EXPECT_LT(wall.noise, wall.of_block ? 0.006 : 0.002) << wall.wall;
+    EXPECT_NEAR(wall.error, 0, wall.of_block ? GetParam().block : GetParam().walls) << wall.wall;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, CornellAccuracy, testing::ValuesIn(kBounds),
+                         [](const auto& bound) { return std::string(bound.param.preset); });
 
 }  // namespace
 }  // namespace torolux::test

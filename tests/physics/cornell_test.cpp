@@ -14,7 +14,7 @@ TEST(CornellBox, MeanRadianceIsThatOfThePathTracer) {
   cornell.quality.unshot = 0.003;  // what is not shot is missing
   cornell.quality.width = cornell.quality.height = 4;
   cornell.machine.subspaces = {4, 4, 4};
-  const CornellSolution solution = solve_cornell(cornell);
+  const SolvedScene solution = solve_scene(cornell);
   const auto means = mean_radiance(solution);
 
   for (const CornellMean& reference : kCornellMeans) {

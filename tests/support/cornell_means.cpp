@@ -2,43 +2,24 @@
 // See cornell_means.hpp.
 #include "tests/support/cornell_means.hpp"
 
-#include <gtest/gtest.h>
-
 #include <numbers>
 
-#include "host_tools/render/setup.hpp"
-#include "host_tools/solution/radiosity_file.hpp"
-#include "tests/support/temporary_folder.hpp"
-
 namespace torolux::test {
-
-CornellSolution solve_cornell(RenderCase cornell) {
-  const testing_support::TemporaryFolder folder;
-  cornell.files.save_radiosity = folder.path() / "cornell.radiosity";
-  CornellSolution result{load_scene(cornell.scene, {}), {}, 0, {}, run_case(cornell).figures};
-  const SavedRadiosity saved = read_radiosity(*cornell.files.save_radiosity);
-  result.mesh = make_mesh(result.scene, mesh_choice(cornell.quality, saved.splits));
-  result.watts_per_quantum = light_units(result.scene, result.mesh, false).watts_per_quantum;
-  result.solution = unpack_radiosity(saved, radiosity_origin(result.scene, cornell.quality, result.mesh), result.mesh);
-  return result;
-}
-
 namespace {
 
-std::array<double, 3> element_radiance(const CornellSolution& cornell, const MeshPatch& patch, std::uint32_t element) {
-  const auto& flux = cornell.solution.elements.at(patch.first_element[0] + element).flux;
+std::array<double, 3> element_radiance(const SolvedScene& cornell, const MeshPatch& patch, std::uint32_t element) {
+  const auto flux = cornell.incident_flux(patch.first_element[0] + element);
   const double area = cornell.mesh.element_area(patch, element);
   std::array<double, 3> radiance{};
   for (std::size_t c = 0; c < 3; ++c) {
-    radiance[c] = static_cast<double>(flux[c]) * cornell.watts_per_quantum *
-                  cornell.scene.materials[patch.material].diffuse[c] / (area * std::numbers::pi);
+    radiance[c] = flux[c] * cornell.scene.materials[patch.material].diffuse[c] / (area * std::numbers::pi);
   }
   return radiance;
 }
 
 }  // namespace
 
-std::array<double, 3> radiance_at(const CornellSolution& cornell, std::uint32_t triangle, float b1, float b2) {
+std::array<double, 3> radiance_at(const SolvedScene& cornell, std::uint32_t triangle, float b1, float b2) {
   const Mesh& mesh = cornell.mesh;
   const std::uint32_t facet = mesh.facet_at(triangle, b1, b2);
   for (const MeshPatch& patch : mesh.patches) {
@@ -47,7 +28,7 @@ std::array<double, 3> radiance_at(const CornellSolution& cornell, std::uint32_t 
   return {};
 }
 
-std::vector<std::array<double, 3>> mean_radiance(const CornellSolution& cornell) {
+std::vector<std::array<double, 3>> mean_radiance(const SolvedScene& cornell) {
   std::vector<std::array<double, 3>> means(cornell.mesh.triangles.size() / 2);
   std::vector<double> area(means.size(), 0);
   for (const MeshPatch& patch : cornell.mesh.patches) {

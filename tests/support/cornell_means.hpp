@@ -1,33 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The Cornell box against an independent path tracer: settings in, radiances of its surfaces out, and what they should
-// be (tests/data/README.md).
+// The Cornell box against an independent path tracer: its solution in, radiances of its surfaces out, and what they
+// should be (tests/data/README.md).
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "host_tools/solution/solution.hpp"
-#include "tests/support/render_support.hpp"
+#include "tests/support/solve_scene.hpp"
 
 namespace torolux::test {
 
-struct CornellSolution {
-  Scene scene;
-  Mesh mesh;
-  double watts_per_quantum;
-  Solution solution;
-  RenderFigures figures;
-};
-
-/// Renders the case (scenes/cornell_box) and keeps its radiosities.
-CornellSolution solve_cornell(RenderCase cornell);
-
 /// Triangles 2 q and 2 q + 1 of the scene are quadrilateral q, in the order of the scene file. Radiance B / pi, mean
 /// over each. [W/(m^2 sr)]
-std::vector<std::array<double, 3>> mean_radiance(const CornellSolution& cornell);
+std::vector<std::array<double, 3>> mean_radiance(const SolvedScene& cornell);
 
 /// The same, of the element at a point of a triangle; b1, b2: weights of its corners 1 and 2 [W/(m^2 sr)].
-std::array<double, 3> radiance_at(const CornellSolution& cornell, std::uint32_t triangle, float b1, float b2);
+std::array<double, 3> radiance_at(const SolvedScene& cornell, std::uint32_t triangle, float b1, float b2);
 
 /// Path traced means of B / pi, to 0.1 % (../shared/data/references.md). The floor's counts what the blocks hide as
 /// dark.
