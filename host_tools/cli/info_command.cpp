@@ -105,7 +105,7 @@ int run_info(const RenderOptions& options) {
   std::vector<std::string> refusals;
   try {
     check_renderable(scene);
-    const RenderPlan planned = plan(scene, settled.quality, settled.machine, firmware_image());
+    const RenderPlan planned = plan(scene, settled.camera, settled.quality, settled.machine, firmware_image());
     print_plan(planned, settled.machine);
     for (const std::string& note : planned.notes) line("note", note);
     refusals = planned.refusals;

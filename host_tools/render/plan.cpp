@@ -9,11 +9,12 @@
 
 namespace torolux {
 
-RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice& machine,
+RenderPlan plan(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
                 const std::filesystem::path& pe_image) {
   RenderPlan plan{};
   try {
-    const RenderSetup setup = make_setup(scene, quality, machine, load_image(pe_image));
+    const Image image = load_image(pe_image);
+    const RenderSetup setup = make_setup(scene, quality, machine, image);
     plan.triangles = setup.mesh.triangles.size();
     plan.patches = setup.mesh.patches.size();
     for (const MeshPatch& patch : setup.mesh.patches) plan.elements += patch.elements;
@@ -27,7 +28,14 @@ RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice&
         mean_neighbour_hops(setup.placement.grid, setup.placement.torus, setup.placement.pe_of_cell);
     if (!setup.memory) plan.refusals.push_back(setup.need.refusal(available));
     plan.notes = setup.notes;
-    plan.prediction = predict(scene, setup, quality, machine);
+    std::optional<RenderSetup> draft;
+    if (quality.refine > 0) {
+      draft = make_setup(scene, draft_of(quality), machine, image);
+      plan.notes.push_back("the draft of --refine adds up to " +
+                           with_commas(static_cast<std::uint64_t>(quality.refine * setup.mesh.elements)) +
+                           " elements; where is known only then, so the memory needed is without them");
+    }
+    plan.prediction = predict(scene, camera, setup, draft ? &*draft : nullptr, quality, machine);
   } catch (const InputError& error) {
     plan.refusals.emplace_back(error.what());
   }

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/render/camera_sample.hpp"
 #include "host_tools/render/path_sample.hpp"
 
 namespace torolux {
@@ -38,17 +39,15 @@ constexpr HostSpeed kTranslatedSpeed{2000e6, 0.5e-6};
 /// Records in a packet on its way between PEs, on average.
 constexpr double kRecordsPerPacket = 9;
 
-double path_cycles(const PathWork& work, double starts) {
-  return starts * kCyclesToStart + work.arrivals * kCyclesPerArrival + work.visits * kCyclesPerVisit +
-         work.polygons * kCyclesPerPolygon + work.turns * (kCyclesPerTurn + kCyclesToStart) +
-         work.deposits * kCyclesPerDeposit;
+double path_cycles(const PathWork& work) {
+  return work.starts * kCyclesToStart + work.arrivals * kCyclesPerArrival + work.visits * kCyclesPerVisit +
+         work.polygons * kCyclesPerPolygon + work.turns * kCyclesPerTurn + work.deposits * kCyclesPerDeposit;
 }
 
-/// Cycles of each PE per record of a sample. A path's start is counted where it ends, for want of better knowledge.
+/// Cycles of each PE per record of a sample.
 std::vector<double> cycles_of_pes(const PathSample& sample) {
-  const double deposits = std::max(1e-9, sample.sum().deposits);
   std::vector<double> cycles;
-  for (const PathWork& pe : sample.of_pe) cycles.push_back(path_cycles(pe, pe.deposits / deposits));
+  for (const PathWork& pe : sample.of_pe) cycles.push_back(path_cycles(pe));
   return cycles;
 }
 
@@ -66,8 +65,8 @@ std::vector<Source> sources_of(const Scene& scene, const RenderSetup& setup, con
   std::vector<Source> sources;
   for (std::size_t p = 0; p < setup.mesh.patches.size(); ++p) {
     const MeshPatch& patch = setup.mesh.patches[p];
-    const Vec3d& diffuse = scene.materials[patch.material].diffuse;
-    const double reflectance = (diffuse[0] + diffuse[1] + diffuse[2]) / 3;
+    double reflectance = 0;
+    for (const std::uint32_t channel : patch.reflectance) reflectance += static_cast<double>(channel) * 0x1p-32 / 3;
     const std::uint32_t pe = setup.placement.patch_home[p].pe;
     for (std::uint32_t side = 0; side < 2; ++side) {
       if (patch.side[side] == protocol::kNoSide) continue;
@@ -166,39 +165,64 @@ class Rounds {
   std::uint64_t shots_ = 0;
 };
 
-void predict_load(const RenderSetup& setup, const MachineDescription& machine, Prediction& prediction) {
+/// Of one stage, over the bus in turn and into each PE's memory.
+double load_cycles(const RenderSetup& setup, const MachineDescription& machine) {
   double all = 0;
   for (const std::uint64_t bytes : setup.need.pe_bytes) all += static_cast<double>(bytes);
-  // Both stages, over the bus in turn and into each PE's memory.
-  prediction.load_cycles = 2 * std::max(all / machine.bus.bytes_per_cycle, static_cast<double>(setup.need.most()));
+  return std::max(all / machine.bus.bytes_per_cycle, static_cast<double>(setup.need.most()));
 }
 
-void predict_rays(const Quality& quality, const PathSample& reflected, Prediction& prediction) {
-  const double rays = static_cast<double>(quality.width) * quality.height * quality.samples;
-  const std::vector<double> cycles = cycles_of_pes(reflected);
+void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& setup, const Quality& quality,
+                  const MachineChoice& machine, Prediction& prediction) {
+  const CameraRays rays(camera, setup.mesh.space, quality.width, quality.height,
+                        PixelSamples(quality.filter, quality.samples, setup.parameters.seed), setup.parameters.seed);
+  CameraSampleChoice choice;
+  choice.pixels = std::uint64_t{quality.width} * quality.height;
+  choice.samples = quality.samples;
+  choice.bounces = quality.bounces;
+  choice.least_weight = double{setup.parameters.least_weight} * quality.samples;
+  choice.shadow_rays = quality.shadow_rays;
+  choice.two_sided_lights = quality.two_sided_lights;
+  choice.skip_empty_subspaces = machine.skip_empty_subspaces;
+  const CameraSample sample = sample_camera(scene, setup.mesh, setup.placement, rays, choice, kPaths);
+  const double count = sample.sent * static_cast<double>(rays.count());
+  const std::vector<double> cycles = cycles_of_pes(sample.paths);
   const double busiest = *std::max_element(cycles.begin(), cycles.end());
   double sum = 0;
   for (const double pe : cycles) sum += pe;
-  prediction.rays = rays;
-  const double show = kCyclesToShow / static_cast<double>(cycles.size());
-  prediction.ray_tracing_cycles = rays * (busiest + show) / (cycles.size() > 1 ? kUtilisation : 1.0);
-  prediction.instructions += rays * (sum + kCyclesToShow) / kCyclesPerInstruction;
-  prediction.packets += rays * reflected.sum().arrivals / kRecordsPerPacket;
+  prediction.rays = count;
+  prediction.ray_tracing_cycles = count * busiest / (cycles.size() > 1 ? kUtilisation : 1.0);
+  prediction.instructions += count * sum / kCyclesPerInstruction;
+  prediction.packets += count * sample.paths.sum().arrivals / kRecordsPerPacket;
+}
+
+/// Of the radiosity stage: what `predict` then takes for the draft's, too.
+Prediction predict_radiosity(const Scene& scene, const RenderSetup& setup, const Quality& quality) {
+  Prediction prediction;
+  const LightSample light = sample_light(scene, setup.mesh, setup.placement, quality.bounces, kPaths);
+  Rounds(scene, setup, quality, light).run(prediction);
+  return prediction;
 }
 
 }  // namespace
 
-Prediction predict(const Scene& scene, const RenderSetup& setup, const Quality& quality, const MachineChoice& machine) {
-  Prediction prediction;
-  const LightSample light = sample_light(scene, setup.mesh, setup.placement, kPaths);
-  predict_load(setup, machine.description, prediction);
-  Rounds(scene, setup, quality, light).run(prediction);
-  predict_rays(quality, light.reflected, prediction);
+Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& setup, const RenderSetup* draft,
+                   const Quality& quality, const MachineChoice& machine) {
+  Prediction prediction = predict_radiosity(scene, setup, quality);
+  prediction.load_cycles = 2 * load_cycles(setup, machine.description);
+  predict_rays(scene, camera, setup, quality, machine, prediction);
+  if (draft != nullptr) {
+    const Prediction rough = predict_radiosity(scene, *draft, draft_of(quality));
+    prediction.draft_cycles = load_cycles(*draft, machine.description) + rough.radiosity_cycles;
+    prediction.draft_records = rough.records;
+    prediction.draft_packets = rough.packets;
+    prediction.draft_instructions = rough.instructions;
+  }
   const unsigned cores = machine.threads != 0 ? machine.threads : std::max(1U, std::thread::hardware_concurrency());
   const HostSpeed& speed = machine.engine == kQemuEngine ? kQemuSpeed : kTranslatedSpeed;
-  prediction.wall_seconds =
-      prediction.instructions / (speed.instructions_per_second * std::min(cores, setup.placement.torus.pes())) +
-      prediction.packets * speed.seconds_per_packet;
+  prediction.wall_seconds = (prediction.instructions + prediction.draft_instructions) /
+                                (speed.instructions_per_second * std::min(cores, setup.placement.torus.pes())) +
+                            (prediction.packets + prediction.draft_packets) * speed.seconds_per_packet;
   return prediction;
 }
 

@@ -10,7 +10,8 @@
 
 namespace torolux {
 
-/// Throws InputError where there is no light.
-Prediction predict(const Scene& scene, const RenderSetup& setup, const Quality& quality, const MachineChoice& machine);
+/// draft: the setup of draft_of(quality), where there is one. Throws InputError where there is no light.
+Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& setup, const RenderSetup* draft,
+                   const Quality& quality, const MachineChoice& machine);
 
 }  // namespace torolux

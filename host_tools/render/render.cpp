@@ -77,14 +77,6 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   }
 }
 
-/// A solution that is quick and rough, but for the light straight from emitters, whose shadows it is to find.
-Quality draft_of(Quality quality) {
-  quality.hemicube = std::max(8U, quality.hemicube / 4 * 2);
-  quality.shot_points = std::max(1U, quality.shot_points / 2);
-  quality.unshot = std::max(quality.unshot, 0.05);
-  return quality;
-}
-
 /// Where the mesh needs more elements. Absent: stopped by `progress`.
 std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera& camera, const Quality& full,
                                                const MachineChoice& choice, const Image& image,

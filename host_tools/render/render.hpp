@@ -109,12 +109,13 @@ struct Prediction {
   double load_cycles = 0, radiosity_cycles = 0, ray_tracing_cycles = 0;  ///< virtual time, both loads in one
   double records = 0;                                                    ///< of the radiosity stage
   std::uint64_t shots = 0;
-  double rays = 0;          ///< camera rays
-  double packets = 0;       ///< on the torus
-  double instructions = 0;  ///< of all PEs
-  double wall_seconds = 0;  ///< on a computer like the one where the engines' speed was measured
+  double rays = 0;                                                                        ///< camera rays
+  double packets = 0;                                                                     ///< on the torus
+  double instructions = 0;                                                                ///< of all PEs
+  double draft_cycles = 0, draft_records = 0, draft_packets = 0, draft_instructions = 0;  ///< of the draft's machine
+  double wall_seconds = 0;  ///< of both, on a computer like the one where the engines' speed was measured
 
-  double cycles() const { return load_cycles + radiosity_cycles + ray_tracing_cycles; }
+  double cycles() const { return draft_cycles + load_cycles + radiosity_cycles + ray_tracing_cycles; }
 };
 
 /// What `torolux info` tells: nothing is run.
@@ -136,7 +137,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
                     const RenderFiles& files, const std::filesystem::path& pe_image,
                     const std::function<bool(const RenderProgress&)>& progress);
 
-RenderPlan plan(const Scene& scene, const Quality& quality, const MachineChoice& machine,
+RenderPlan plan(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
                 const std::filesystem::path& pe_image);
 
 }  // namespace torolux

@@ -62,6 +62,13 @@ void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality,
 
 }  // namespace
 
+Quality draft_of(Quality quality) {
+  quality.hemicube = std::max(8U, quality.hemicube / 4 * 2);
+  quality.shot_points = std::max(1U, quality.shot_points / 2);
+  quality.unshot = std::max(quality.unshot, 0.05);
+  return quality;
+}
+
 std::uint32_t machine_seed(std::uint64_t seed) {
   const std::uint32_t low = protocol::hash_combine(0, static_cast<std::uint32_t>(seed));
   return protocol::hash_combine(low, static_cast<std::uint32_t>(seed >> 32U));

@@ -36,6 +36,10 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);
 
+/// The settings of a draft, which is quick and rough, but for the light straight from emitters, whose shadows it is to
+/// find.
+Quality draft_of(Quality quality);
+
 /// 32 bits of the user's seed.
 std::uint32_t machine_seed(std::uint64_t seed);
 

@@ -29,8 +29,9 @@ TEST_P(Prediction, IsWithinAFactorOfTwo) {
   render_case.machine.rows = GetParam().rows;
   render_case.machine.subspaces = {GetParam().cells, GetParam().cells, GetParam().cells};
   const RenderFigures figures = run_case(render_case).figures;
+  const Scene scene = load_scene(render_case.scene, {});
   const auto& prediction =
-      plan(load_scene(render_case.scene, {}), render_case.quality, render_case.machine, pe_image()).prediction;
+      plan(scene, scene.camera.value(), render_case.quality, render_case.machine, pe_image()).prediction;
 
   const auto expect_near = [](double predicted, double measured, const char* what) {
     EXPECT_GT(predicted, measured / 2) << what;

@@ -23,7 +23,7 @@ double hits_of(const PathSample& sample) {
 TEST(PathSample, AClosedRoomKeepsAllLight) {
   const Scene scene = room_with_box();
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2});
-  const LightSample light = sample_light(scene, mesh, placed(mesh, {1, 1}, 5), 500);
+  const LightSample light = sample_light(scene, mesh, placed(mesh, {1, 1}, 5), 32, 500);
   for (const PathSample* sample : {&light.emitted, &light.reflected}) {
     EXPECT_EQ(sample->escaped, 0);
     EXPECT_NEAR(sample->sum().deposits, 1, 1e-9);
@@ -38,8 +38,8 @@ TEST(PathSample, AClosedRoomKeepsAllLight) {
 TEST(PathSample, HandOversFollowTheAllocation) {
   const Scene scene = room_with_box();
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2});
-  const PathSample one = sample_light(scene, mesh, placed(mesh, {1, 1}, 6), 500).emitted;
-  const PathSample many = sample_light(scene, mesh, placed(mesh, {3, 2}, 6), 500).emitted;
+  const PathSample one = sample_light(scene, mesh, placed(mesh, {1, 1}, 6), 32, 500).emitted;
+  const PathSample many = sample_light(scene, mesh, placed(mesh, {3, 2}, 6), 32, 500).emitted;
   EXPECT_EQ(one.sum().visits, many.sum().visits) << "the same paths";
   // Each step crosses into another PE's subspace in a skewed allocation, and a deposit may go back to its owner.
   EXPECT_NEAR(many.sum().arrivals, many.sum().visits - 1 + many.forwarded, 1e-9);
@@ -54,7 +54,7 @@ TEST(PathSample, LightLeavesAnOpenScene) {
   builder.quad(lamp, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1});
   builder.quad(wall, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
   const Mesh mesh = make_mesh(builder.scene, {.patch_length = 0.5, .element_length = 0.5});
-  const PathSample emitted = sample_light(builder.scene, mesh, placed(mesh, {2, 2}, 4), 200).emitted;
+  const PathSample emitted = sample_light(builder.scene, mesh, placed(mesh, {2, 2}, 4), 32, 200).emitted;
   EXPECT_EQ(emitted.escaped, 1);
   EXPECT_EQ(hits_of(emitted), 0);
 }
@@ -72,7 +72,7 @@ TEST(PathSample, MirrorsTurnAndGlassLetsThrough) {
   mirrored.materials[glass].specular = {0.9, 0.9, 0.9};
   const auto top = [](const Scene& scene) {
     const Mesh mesh = make_mesh(scene, {.patch_length = 0.5, .element_length = 0.5});
-    const PathSample emitted = sample_light(scene, mesh, placed(mesh, {1, 1}, 3), 500).emitted;
+    const PathSample emitted = sample_light(scene, mesh, placed(mesh, {1, 1}, 3), 32, 500).emitted;
     EXPECT_GT(emitted.sum().turns, 0.3);
     double hits = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

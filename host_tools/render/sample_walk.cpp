@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// See sample_walk.hpp.
+#include "host_tools/render/sample_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/scene/vec.hpp"
+
+namespace torolux {
+namespace {
+
+/// Hits nearer than this are of the surface that the path leaves [scene lengths].
+constexpr double kLeast = 1e-6;
+
+Vec3d corner_of(const MeshTriangle& triangle, std::size_t i) {
+  return to_double(triangle.corner[i]);
+}
+
+/// Moeller & Trumbore 1997.
+void meet(const SampleRay& ray, const MeshTriangle& triangle, Meeting& nearest) {
+  const Vec3d a = vec::subtract(corner_of(triangle, 1), corner_of(triangle, 0));
+  const Vec3d b = vec::subtract(corner_of(triangle, 2), corner_of(triangle, 0));
+  const Vec3d p = vec::cross(ray.direction, b);
+  const double determinant = vec::dot(a, p);
+  if (determinant == 0) return;
+  const Vec3d s = vec::subtract(ray.origin, corner_of(triangle, 0));
+  const double b1 = vec::dot(s, p) / determinant;
+  const Vec3d q = vec::cross(s, a);
+  const double b2 = vec::dot(ray.direction, q) / determinant;
+  const double t = vec::dot(b, q) / determinant;
+  if (b1 < 0 || b2 < 0 || b1 + b2 > 1 || t < kLeast || t >= nearest.t) return;
+  nearest = {&triangle, t, b1, b2};
+}
+
+}  // namespace
+
+PathWork& PathWork::operator+=(const PathWork& other) {
+  starts += other.starts;
+  arrivals += other.arrivals;
+  visits += other.visits;
+  polygons += other.polygons;
+  deposits += other.deposits;
+  turns += other.turns;
+  return *this;
+}
+
+PathWork& PathWork::operator*=(double factor) {
+  for (double* value : {&starts, &arrivals, &visits, &polygons, &deposits, &turns}) *value *= factor;
+  return *this;
+}
+
+PathWork PathSample::sum() const {
+  PathWork all;
+  for (const PathWork& pe : of_pe) all += pe;
+  return all;
+}
+
+Vec3d normal_of(const MeshTriangle& triangle) {
+  const Vec3d a = vec::subtract(corner_of(triangle, 1), corner_of(triangle, 0));
+  return vec::unit(vec::cross(a, vec::subtract(corner_of(triangle, 2), corner_of(triangle, 0))));
+}
+
+Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) {
+  return vec::subtract(direction, vec::scale(normal, 2 * vec::dot(normal, direction)));
+}
+
+Vec3d Chance::sphere_direction() {
+  const double z = 2 * uniform() - 1;
+  const double angle = 2 * std::numbers::pi * uniform();
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+/// A uniform point on the unit sphere, added to the normal.
+Vec3d Chance::cosine_direction(const Vec3d& normal) {
+  const Vec3d sum = vec::add(normal, sphere_direction());
+  return vec::length(sum) > 1e-6 ? vec::unit(sum) : normal;
+}
+
+Vec3d Chance::lobe_direction(const Vec3d& axis, double exponent) {
+  const double cosine = std::pow(1 - uniform(), 1 / (exponent + 1));
+  const Vec3d any = sphere_direction();
+  const Vec3d aside = vec::subtract(any, vec::scale(axis, vec::dot(any, axis)));
+  if (!(vec::length(aside) > 1e-6)) return axis;
+  return vec::add(vec::scale(axis, cosine), vec::scale(vec::unit(aside), std::sqrt(1 - cosine * cosine)));
+}
+
+EmitterPoints::EmitterPoints(const Scene& scene, const Mesh& mesh) {
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    const SceneMaterial& material = scene.materials[triangle.material];
+    if (!emits(material)) continue;
+    flux_ += triangle.area * (material.emission[0] + material.emission[1] + material.emission[2]);
+    triangles_.push_back({flux_, &triangle});
+  }
+}
+
+EmitterPoints::Point EmitterPoints::point(Chance& chance) const {
+  const double at = chance.uniform() * flux_;
+  const auto found = std::upper_bound(triangles_.begin(), triangles_.end() - 1, at,
+                                      [](double value, const auto& entry) { return value < entry.first; });
+  const MeshTriangle& triangle = *found->second;
+  double b1 = chance.uniform();
+  double b2 = chance.uniform();
+  if (b1 + b2 > 1) {
+    b1 = 1 - b1;
+    b2 = 1 - b2;
+  }
+  Vec3d place = corner_of(triangle, 0);
+  place = vec::add(place, vec::scale(vec::subtract(corner_of(triangle, 1), corner_of(triangle, 0)), b1));
+  place = vec::add(place, vec::scale(vec::subtract(corner_of(triangle, 2), corner_of(triangle, 0)), b2));
+  return {&triangle, place};
+}
+
+SampleWalker::SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample)
+    : mesh_(mesh), placement_(placement), sample_(sample) {
+  sample_.of_pe.resize(placement.torus.pes());
+  sample_.hits.resize(mesh.triangles.size());
+}
+
+SampleWalker::Cell SampleWalker::cell_of(const Vec3d& point) const {
+  return placement_.grid.cell_of(to_float(point));
+}
+
+Meeting SampleWalker::walk(const SampleRay& ray, Cell& cell) {
+  const Grid& grid = placement_.grid;
+  work_at(cell).starts += 1;
+  for (;;) {
+    const auto& polygons = placement_.polygons_of_cell[grid.index(cell)];
+    work_at(cell).visits += 1;
+    work_at(cell).polygons += static_cast<double>(polygons.size());
+    double out = HUGE_VAL;
+    std::size_t axis = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (ray.direction[i] == 0) continue;
+      const auto plane = static_cast<double>(grid.plane(i, cell[i] + (ray.direction[i] > 0 ? 1U : 0U)));
+      const double t = (plane - ray.origin[i]) / ray.direction[i];
+      if (t < out) {
+        out = t;
+        axis = i;
+      }
+    }
+    Meeting nearest;
+    for (const std::uint32_t number : polygons) meet(ray, mesh_.triangles[number], nearest);
+    if (nearest.triangle != nullptr && nearest.t <= out + kLeast) return nearest;
+    if (cell[axis] == (ray.direction[axis] > 0 ? grid.cells[axis] - 1 : 0)) return {};
+    const protocol::PeNumber from = pe_of(cell);
+    cell[axis] += ray.direction[axis] > 0 ? 1U : ~0U;
+    if (pe_of(cell) != from) work_at(cell).arrivals += 1;
+  }
+}
+
+std::uint32_t SampleWalker::deposit(const Meeting& met, const Cell& at) {
+  protocol::Weights weights{static_cast<float>(1 - met.b1 - met.b2), static_cast<float>(met.b1),
+                            static_cast<float>(met.b2)};
+  const std::uint32_t path = protocol::enter_level(weights, met.triangle->patch_level);
+  const std::uint32_t patch = mesh_.parts[met.triangle->first_part + path].patch;
+  const protocol::PeNumber owner = placement_.patch_home[patch].pe;
+  sample_.of_pe[owner].deposits += 1;
+  if (owner != pe_of(at)) {
+    sample_.of_pe[owner].arrivals += 1;
+    sample_.forwarded += 1;
+  }
+  return patch;
+}
+
+void SampleWalker::seek(std::uint32_t patch, const Cell& to) {
+  Cell cell = placement_.grid.cell(placement_.patch_home[patch].cell);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    while (cell[axis] != to[axis]) {
+      const protocol::PeNumber from = pe_of(cell);
+      cell[axis] += cell[axis] < to[axis] ? 1U : ~0U;
+      if (pe_of(cell) != from) work_at(cell).arrivals += 1;
+    }
+  }
+}
+
+}  // namespace torolux
