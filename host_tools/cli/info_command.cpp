@@ -90,6 +90,11 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
   const double hertz = machine.description.processor.clock_hertz;
   const Prediction& prediction = plan.prediction;
   const auto rounded = [](double value) { return grouped(static_cast<std::uint64_t>(value)); };
+  if (prediction.draft_records > 0) {
+    line("predicted draft", rounded(prediction.draft_records) + " records, " +
+                                significant(prediction.draft_instructions, 2) + " instructions, " +
+                                significant(prediction.draft_cycles, 2) + " cycles");
+  }
   line("predicted work", rounded(prediction.records) + " records of " + grouped(prediction.shots) + " shots, " +
                              rounded(prediction.rays) + " camera rays, " + significant(prediction.instructions, 2) +
                              " instructions");

@@ -15,18 +15,21 @@ namespace {
 /// Paths that are followed for a prediction, from emitters; each goes on over some surfaces.
 constexpr std::uint32_t kPaths = 4000;
 
-/// Cycles of pe.elf with the built-in latencies, from the phases of renders of scenes/ on 1x1 to 4x4 PEs.
-constexpr double kCyclesToMake = 1000;    // a hemi-cube pixel's record, with its share of control
-constexpr double kCyclesToStart = 1700;   // a path: set-up, and the polygons that it really meets
+/// Cycles of pe.elf with the built-in latencies: fitted to the phases of renders of cornell_box, cornell_spheres,
+/// glossy_floor and two_mirrors on 1x1 to 4x4 PEs, whose busy cycles they give to 3 %.
+constexpr double kCyclesToMake = 1450;    // a hemi-cube pixel's record, with its share of control
+constexpr double kCyclesToStart = 1750;   // a segment: set-up, and the polygons that it really meets
 constexpr double kCyclesPerVisit = 130;   // of a subspace
-constexpr double kCyclesPerPolygon = 52;  // in its list; most are passed over by their boxes
-constexpr double kCyclesPerArrival = 830;
-constexpr double kCyclesPerTurn = 1000;  // at mirror or glass
+constexpr double kCyclesPerPolygon = 46;  // in its list; most are passed over by their boxes
+constexpr double kCyclesPerArrival = 800;
+constexpr double kCyclesPerTurn = 1000;  // at mirror or glass, or by a lobe
 constexpr double kCyclesPerDeposit = 400;
-constexpr double kCyclesToShow = 600;  // light of a surface, into the frame buffer
+constexpr double kCyclesToShow = 1000;  // in place of a deposit: light of a surface, into the frame buffer
 constexpr double kCyclesPerInstruction = 1.7;
 /// Of a PE's time in a round; the rest it waits for light that is on its way. With one PE nothing waits.
 constexpr double kUtilisation = 0.8;
+/// In the ray tracing stage, which has no rounds.
+constexpr double kRayUtilisation = 0.9;
 
 /// Instructions per second of this computer's cores and what a packet costs them, measured on one of 2020.
 struct HostSpeed {
@@ -39,15 +42,15 @@ constexpr HostSpeed kTranslatedSpeed{2000e6, 0.5e-6};
 /// Records in a packet on its way between PEs, on average.
 constexpr double kRecordsPerPacket = 9;
 
-double path_cycles(const PathWork& work) {
+double path_cycles(const PathWork& work, double deposit) {
   return work.starts * kCyclesToStart + work.arrivals * kCyclesPerArrival + work.visits * kCyclesPerVisit +
-         work.polygons * kCyclesPerPolygon + work.turns * kCyclesPerTurn + work.deposits * kCyclesPerDeposit;
+         work.polygons * kCyclesPerPolygon + work.turns * kCyclesPerTurn + work.deposits * deposit;
 }
 
-/// Cycles of each PE per record of a sample.
-std::vector<double> cycles_of_pes(const PathSample& sample) {
+/// Cycles of each PE per record of a sample. deposit: cycles of one.
+std::vector<double> cycles_of_pes(const PathSample& sample, double deposit = kCyclesPerDeposit) {
   std::vector<double> cycles;
-  for (const PathWork& pe : sample.of_pe) cycles.push_back(path_cycles(pe));
+  for (const PathWork& pe : sample.of_pe) cycles.push_back(path_cycles(pe, deposit));
   return cycles;
 }
 
@@ -186,12 +189,12 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
   choice.skip_empty_subspaces = machine.skip_empty_subspaces;
   const CameraSample sample = sample_camera(scene, setup.mesh, setup.placement, rays, choice, kPaths);
   const double count = sample.sent * static_cast<double>(rays.count());
-  const std::vector<double> cycles = cycles_of_pes(sample.paths);
+  const std::vector<double> cycles = cycles_of_pes(sample.paths, kCyclesToShow);
   const double busiest = *std::max_element(cycles.begin(), cycles.end());
   double sum = 0;
   for (const double pe : cycles) sum += pe;
   prediction.rays = count;
-  prediction.ray_tracing_cycles = count * busiest / (cycles.size() > 1 ? kUtilisation : 1.0);
+  prediction.ray_tracing_cycles = count * busiest / (cycles.size() > 1 ? kRayUtilisation : 1.0);
   prediction.instructions += count * sum / kCyclesPerInstruction;
   prediction.packets += count * sample.paths.sum().arrivals / kRecordsPerPacket;
 }

@@ -56,8 +56,10 @@ struct PresetBound {
   double walls;  ///< greatest error of a wall's mean radiosity
   double block;  ///< and of one of the short block's sides, which are dark
 };
+// Of `normal` and `fine` the issue's; it asks nothing of `draft` and of the block's sides. Seen: cells 5.1, 1.6, 0.9 %;
+// walls 3.5, 0.4, FINEW %; the block's sides 12, 1.5, FINEB %.
 constexpr std::array<PresetBound, 3> kBounds{
-    {{"draft", 0.10, 0.05, 0.15}, {"normal", 0.04, 0.02, 0.05}, {"fine", 0.015, 0.02, 0.02}}};
+    {{"draft", 0.07, 0.05, 0.15}, {"normal", 0.04, 0.02, 0.025}, {"fine", 0.015, 0.02, 0.02}}};
 
 class CornellAccuracy : public testing::TestWithParam<PresetBound> {};
 
@@ -71,12 +73,12 @@ TEST_P(CornellAccuracy, CellsAreThePathTracers) {
 }
 
 TEST_P(CornellAccuracy, WallsByAMirrorBlockAreThePathTracers) {
-  static const std::vector<GroupLight> traced = traced_mirror_block(8);
+  static const std::vector<GroupLight> traced = traced_mirror_block(4);
   const SolvedScene solved = solve_at(mirror_block_scene(), GetParam().preset);
   for (const WallError& wall : wall_errors(solved, traced)) {
     std::printf("%s, %s: %+.2f %% (noise of the reference %.2f %%)\n", GetParam().preset,
                 std::string(wall.wall).c_str(), 100 * wall.error, 100 * wall.noise);
-    EXPECT_LT(wall.noise, wall.of_block ? 0.006 : 0.002) << wall.wall;
+    EXPECT_LT(wall.noise, wall.of_block ? 0.007 : 0.003) << wall.wall;
     EXPECT_NEAR(wall.error, 0, wall.of_block ? GetParam().block : GetParam().walls) << wall.wall;
   }
 }

@@ -86,5 +86,22 @@ TEST(PathSample, MirrorsTurnAndGlassLetsThrough) {
   EXPECT_EQ(top(mirrored), 0) << "nothing gets past a mirror";
 }
 
+// All surfaces reflect by narrow lobes 0.4 times the cosine of the light, whose mean is 2/3 where light comes from
+// everywhere: so of its flux light falls on 1 / (1 - 0.4 * 2/3) = 1.36 surfaces.
+TEST(PathSample, LobesSendLightOn) {
+  Scene scene = room_with_box();
+  for (SceneMaterial& material : scene.materials) {
+    material.specular = {0.4, 0.4, 0.4};
+    material.exponent = 200;
+  }
+  const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2});
+  const PathSample sample = sample_light(scene, mesh, placed(mesh, {3, 2}, 5), 32, 2000).emitted;
+  EXPECT_NEAR(sample.sum().deposits, 1 + sample.sum().turns, 1e-9) << "where a path goes on it has fallen before";
+  EXPECT_NEAR(sample.sum().starts, sample.sum().deposits, 1e-9);
+  EXPECT_NEAR(hits_of(sample), 1.36, 0.07) << "a lamp's first light is steeper than that";
+  const PathSample once = sample_light(scene, mesh, placed(mesh, {3, 2}, 5), 1, 2000).emitted;
+  EXPECT_NEAR(once.sum().deposits, 1, 1e-9) << "one bounce";
+}
+
 }  // namespace
 }  // namespace torolux::test
