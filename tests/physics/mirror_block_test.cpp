@@ -7,9 +7,8 @@
 namespace torolux::test {
 namespace {
 
-// The bound; seen: 0.9 % at most. The light that the mirror adds is 5 % on the red wall and 20 % on the floor's
-// right half. Of the other block's sides, dark and no larger than a patch, none is asked here; at `normal` and finer
-// they are in tests/accuracy.
+// The bound; seen: 0.9 % at most. A mirror of 0.8 would be off by 12 %. Of the other block's sides, dark and no
+// larger than a patch, none is asked here; tests/accuracy has them at the presets.
 TEST(MirrorBlock, MeanRadiosityOfEveryWallIsThePathTracers) {
   RenderCase box = native_case(mirror_block_scene());
   box.quality.patch_length = 100;
