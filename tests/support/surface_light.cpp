@@ -79,6 +79,7 @@ std::vector<std::uint32_t> paths_by_area(const references::World& world, std::sp
   const std::vector<double> areas = areas_of_groups(world, group);
   const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
   std::vector<std::uint32_t> shares;
+  shares.reserve(areas.size());
   for (const double area : areas) shares.push_back(static_cast<std::uint32_t>(std::ceil(area / all * paths)));
   return shares;
 }

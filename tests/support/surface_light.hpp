@@ -17,8 +17,9 @@ struct GroupLight {
   std::array<double, 3> flux{};
   std::array<double, 3> variance{};  ///< of flux; of a solution 0
 
-  double all() const;             ///< flux of all channels
-  double relative_noise() const;  ///< standard deviation of all(), over it, at most: channels go together
+  double all() const;  ///< flux of all channels
+  /// Standard deviation of all() over all(), at most: as if the channels went together.
+  double relative_noise() const;
   double relative_noise(std::size_t channel) const;
 };
 
