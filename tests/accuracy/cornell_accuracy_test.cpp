@@ -41,7 +41,7 @@ double error_of_cells(const SolvedScene& cornell) {
 SolvedScene solve_at(const std::filesystem::path& scene, std::string_view preset) {
   const accuracy::SceneRun run = accuracy::settle_scene(scene, {});
   RenderCase render_case;
-  render_case.quality = accuracy::quality_at(preset_named(preset).value(), run.settled.quality);
+  render_case.quality = accuracy::quality_at(preset_named(preset).value(), run.scene);
   render_case.quality.shadow_rays = false;
   render_case.quality.width = render_case.quality.height = 4;
   render_case.machine = run.settled.machine;

@@ -75,7 +75,7 @@ TEST_P(PredictionOfEffects, IsWithinAQuarter) {
   for (auto* length : {&quality.patch_length, &quality.element_length}) {
     if (*length) **length *= 4;
   }
-  quality.lengths = 4;
+  quality.patch_factor = quality.element_factor = 4;
   quality.shot_points = 2;
   quality.emission_records = 100'000;
   quality.width = quality.height = 128;
