@@ -108,6 +108,7 @@ references::TracedPicture reference_picture(const Scene& scene, const View& view
   choice.height = size[1];
   choice.samples = effort.first_samples;
   choice.threads = threads;
+  choice.caustics = references::Caustics::from_light;
   const references::World world(scene, view.two_sided_lights);
   references::TracedPicture traced = trace_until_smooth(world, view.camera, choice, effort);
   write_picture(traced.first_half, first);

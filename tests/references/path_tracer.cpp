@@ -9,6 +9,8 @@
 #include <numbers>
 #include <thread>
 
+#include "tests/references/eye.hpp"
+#include "tests/references/light_paths.hpp"
 #include "tests/references/scattering.hpp"
 
 namespace torolux::references {
@@ -17,8 +19,9 @@ namespace {
 /// One light path, followed from the eye.
 class Path {
  public:
-  Path(const World& world, LightFinding finding, Samples& samples)
-      : world_(world), finding_(finding), samples_(samples) {}
+  /// caustics: how those are found that light_paths.hpp describes.
+  Path(const World& world, LightFinding finding, Caustics caustics, Samples& samples)
+      : world_(world), finding_(finding), caustics_(caustics), samples_(samples) {}
 
   /// A camera ray.
   Colour along(const Vec& origin, const Vec& direction) {
@@ -41,6 +44,7 @@ class Path {
       const auto hit = world_.closest(origin_, direction_, leaving_);
       if (!hit) return;
       meet_emitter(*hit);
+      if (turns_ == 0) sees_diffuse_ = world_.material(*hit).model == Model::diffuse;
       if (!turn(*hit) || !survives()) return;
     }
   }
@@ -123,6 +127,7 @@ class Path {
   /// What the emitter that the path has come upon adds.
   void meet_emitter(const Hit& hit) {
     if ((world_.emission_at(hit) == 0).all()) return;
+    if (caustics_ == Caustics::from_light && sees_diffuse_ && density_ == 0) return;
     double share = 1;
     if (density_ > 0) {
       if (finding_ == LightFinding::emitters_only) return;  // asked for where the path was turned
@@ -159,9 +164,11 @@ class Path {
 
   const World& world_;
   LightFinding finding_;
+  Caustics caustics_;
   Samples& samples_;
-  Vec vertex_ = Vec::Zero();  // where the path was last turned
-  Vec origin_ = Vec::Zero();  // the same, off the surface
+  bool sees_diffuse_ = false;  // the camera, at the path's first turn
+  Vec vertex_ = Vec::Zero();   // where the path was last turned
+  Vec origin_ = Vec::Zero();   // the same, off the surface
   Vec direction_ = Vec::Zero();
   std::uint32_t leaving_ = kNoTriangle;
   Colour weight_ = Colour::Ones();
@@ -171,36 +178,21 @@ class Path {
   Colour light_ = Colour::Zero();
 };
 
-/// The product's pixels: squares, all samples in one of equal weight.
-class Eye {
- public:
-  Eye(const Camera& camera, const TraceChoice& choice) : choice_(choice), eye_(vec(camera.eye)) {
-    forward_ = (vec(camera.look_at) - eye_).normalized();
-    right_ = forward_.cross(vec(camera.up)).normalized();
-    const double half = std::tan(camera.field_of_view_degrees / 2 * std::numbers::pi / 180);
-    down_ = forward_.cross(right_) * half;
-    right_ *= half * choice.width / choice.height;
-  }
-  const Vec& place() const { return eye_; }
-  /// x rightwards, y downwards, in pixels.
-  Vec direction(double x, double y) const {
-    return (forward_ + (2 * x / choice_.width - 1) * right_ + (2 * y / choice_.height - 1) * down_).normalized();
-  }
-
- private:
-  TraceChoice choice_;
-  Vec eye_, forward_, right_, down_;
-};
-
 std::array<float, 3> to_pixel(const Colour& sum, double samples) {
   const Colour mean = sum / samples;
   return {static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])};
 }
 
+void add(const Picture& more, Picture& sum) {
+  for (std::size_t pixel = 0; pixel < sum.pixels.size(); ++pixel) {
+    for (std::size_t c = 0; c < 3; ++c) sum.pixels[pixel][c] += more.pixels[pixel][c];
+  }
+}
+
 }  // namespace
 
 Colour incident_over_pi(const World& world, const Hit& hit, LightFinding finding, Samples& samples) {
-  return Path(world, finding, samples).from(hit);
+  return Path(world, finding, Caustics::from_eye, samples).from(hit);
 }
 
 TracedPicture trace(const World& world, const Camera& camera, const TraceChoice& choice) {
@@ -220,7 +212,8 @@ TracedPicture trace(const World& world, const Camera& camera, const TraceChoice&
       for (std::uint32_t sample = 0; sample < half; ++sample) {
         samples.begin(sample);
         const auto [x, y] = samples.pair(0);
-        light += Path(world, choice.finding, samples).along(eye.place(), eye.direction(column + x, row + y));
+        light += Path(world, choice.finding, choice.caustics, samples)
+                     .along(eye.place(), eye.direction(column + x, row + y));
       }
       return light;
     };
@@ -241,6 +234,12 @@ TracedPicture trace(const World& world, const Camera& camera, const TraceChoice&
   for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work);
   work();
   helpers.clear();
+  if (choice.caustics == Caustics::from_light) {
+    const TracedPicture more = trace_caustics(world, camera, choice);
+    add(more.picture, result.picture);
+    add(more.first_half, result.first_half);
+    add(more.second_half, result.second_half);
+  }
   return result;
 }
 

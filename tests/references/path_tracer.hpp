@@ -17,12 +17,16 @@ namespace torolux::references {
 /// How light finds emitters. The last two are for tests: each alone must give the same as both.
 enum class LightFinding : std::uint8_t { both, emitters_only, directions_only };
 
+/// Light that comes to a diffuse surface in view by way of mirrors or glass: by luck, or as light_paths.hpp has it.
+enum class Caustics : std::uint8_t { from_eye, from_light };
+
 struct TraceChoice {
   std::uint32_t width = 256, height = 256;
   std::uint32_t samples = 256;  ///< per pixel, even; spread evenly over the pixel's square, all of equal weight
   std::uint64_t seed = 1;
   unsigned threads = 0;  ///< 0: all cores; the picture is the same for any number
   LightFinding finding = LightFinding::both;
+  Caustics caustics = Caustics::from_eye;
 };
 
 struct TracedPicture {

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "host_tools/scene/load_scene.hpp"
+#include "tests/references/light_paths.hpp"
 #include "tests/support/memory_files.hpp"
 
 namespace torolux::references {
@@ -152,13 +153,48 @@ TEST(PathTracer, EitherWayToFindEmittersGivesTheSameLight) {
 }
 
 TEST(PathTracer, ThreadsDoNotShow) {
-  const Scene scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / "cornell_box", {});
+  const Scene scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / "cornell_spheres", {});
   const World world(scene, false);
   TraceChoice choice = small(4);
+  choice.caustics = Caustics::from_light;
   const Picture one = trace(world, *scene.camera, choice).picture;
   choice.threads = 3;
   const Picture three = trace(world, *scene.camera, choice).picture;
   EXPECT_EQ(std::memcmp(one.pixels.data(), three.pixels.data(), one.pixels.size() * sizeof(one.pixels[0])), 0);
+}
+
+/// What comes by way of mirrors and glass (round ones, with interpolated normals), from the eye and from the light: as
+/// bright. Most surfaces emit, so that chance finds them from the eye, too; one wall is glossy.
+TEST(PathTracer, CausticsFromTheLightAreAsBrightAsFromTheEye) {
+  const Scene scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / "cornell_spheres", {});
+  auto materials = materials_of(scene);
+  for (Material& material : materials) {
+    if (material.diffuse[1] > 0.7) material.emission = {1, 2, 3};
+    if (material.diffuse[1] < 0.1 && material.model == Model::diffuse) {
+      material.model = Model::glossy;
+      material.specular = Colour::Constant(0.3);
+      material.exponent = 30;
+    }
+  }
+  const World world(scene, materials, false);
+  TraceChoice choice = small(1024);
+  const TracedPicture all = trace(world, *scene.camera, choice);
+  choice.caustics = Caustics::from_light;
+  TracedPicture caustics = trace(world, *scene.camera, choice);  // of the same paths from the eye
+  const TracedPicture from_light = trace_caustics(world, *scene.camera, choice);
+  const auto found_by_eye = [](const Picture& eye, const Picture& light, Picture& sum) {
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) sum.pixels[i][c] = eye.pixels[i][c] - (sum.pixels[i][c] - light.pixels[i][c]);
+    }
+  };
+  found_by_eye(all.picture, from_light.picture, caustics.picture);
+  found_by_eye(all.first_half, from_light.first_half, caustics.first_half);
+  found_by_eye(all.second_half, from_light.second_half, caustics.second_half);
+  const Mean eye = mean_of(caustics);
+  const Mean light = mean_of(from_light);
+  const double error = std::hypot(eye.error, light.error);
+  EXPECT_LT(error, 0.01 * light.value);
+  EXPECT_NEAR(eye.value, light.value, 3 * error);
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ class World {
   EmitterChoice pick_emitter(const Vec& point, double uniform) const;
   /// What pick_emitter(point) has for the triangle of a hit; 0 where it never takes that.
   double light_density(const Vec& point, const Hit& hit) const;
+  const std::vector<Emitter>& emitters() const { return emitters_; }
   bool emits_from_back() const { return two_sided_lights_; }
 
   /// The hit at (b1, b2) of a triangle.
