@@ -26,7 +26,7 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
   }
   const double greatest = std::max({emitted[0], emitted[1], emitted[2]});
   if (!(greatest > 0)) throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke)");
-  units.watts_per_quantum = std::ldexp(greatest, -48);
+  units.watts_per_quantum = greatest / kEmittedQuanta;
   // The machine's floats must hold radiances and their reciprocals.
   if (!std::isfinite(greatest) || !(units.watts_per_quantum > 1e-300) || !(units.unit_radiance > 1e-30) ||
       !(units.unit_radiance < 1e30)) {

@@ -11,9 +11,12 @@
 
 namespace torolux {
 
+/// Quanta of the greatest channel of all that is emitted.
+inline constexpr double kEmittedQuanta = 0x1p48;
+
 struct LightUnits {
   double unit_radiance = 1;      ///< greatest emitted radiance of all channels [W/(m^2 sr)]
-  double watts_per_quantum = 1;  ///< greatest channel's emitted flux * 2^-48
+  double watts_per_quantum = 1;  ///< greatest channel's emitted flux / kEmittedQuanta
   bool two_sided_lights = false;
 };
 

@@ -96,16 +96,15 @@ class Rounds {
  public:
   Rounds(const Scene& scene, const RenderSetup& setup, const Quality& quality, const LightSample& light)
       : setup_(setup), settings_(radiosity_settings(scene, setup, quality)), sources_(sources_of(scene, setup, light)) {
-    const double pixels = protocol::hemicube_pixels(quality.hemicube);
-    kinds_ = {Kind{pixels * setup.parameters.shot_points * setup.parameters.shot_points, cycles_of_pes(light.reflected),
-                   light.reflected.sum().arrivals},
-              Kind{pixels * setup.parameters.emission_points * setup.parameters.emission_points,
-                   cycles_of_pes(light.emitted), light.emitted.sum().arrivals}};
+    kinds_ = {Kind{cycles_of_pes(light.reflected), light.reflected.sum().arrivals},
+              Kind{cycles_of_pes(light.emitted), light.emitted.sum().arrivals}};
+    double emitted = 0;
+    for (const Source& source : sources_) emitted += source.unshot;
+    greatest_channel_ = kEmittedQuanta / emitted;
   }
 
   void run(Prediction& prediction) {
-    double unshot = 0;
-    for (const Source& source : sources_) unshot += source.unshot;
+    double unshot = kEmittedQuanta / greatest_channel_;
     while (unshot > static_cast<double>(settings_.enough_unshot) && shots_ < most_shots()) {
       const std::size_t chosen = choose();
       if (chosen == 0) break;
@@ -117,11 +116,19 @@ class Rounds {
  private:
   /// Of light reflected, or emitted.
   struct Kind {
-    double records;              ///< of a shot
     std::vector<double> cycles;  ///< of each PE, per record
     double arrivals;             ///< per record
   };
   const Kind& kind_of(const Source& source) const { return kinds_[source.emits ? 1 : 0]; }
+  /// Of a shot, as if light had everywhere the colour that it was emitted in.
+  double records_of(const Source& source) const {
+    const StageParameters& parameters = setup_.parameters;
+    const double points = source.unshot * greatest_channel_ * parameters.points_per_quantum;
+    const double grid =
+        source.emits ? parameters.emission_points
+                     : std::clamp(std::ceil(std::sqrt(points)), 1.0, static_cast<double>(parameters.shot_points));
+    return protocol::hemicube_pixels(parameters.hemicube) * grid * grid;
+  }
   std::uint64_t most_shots() const { return settings_.max_shots > 0 ? settings_.max_shots : 10'000'000; }
 
   /// Puts the shooters of the next round in front; their number.
@@ -144,12 +151,13 @@ class Rounds {
       if (!(source->unshot > static_cast<double>(settings_.least_unshot))) continue;
       --chosen;
       const Kind& kind = kind_of(*source);
+      const double records = records_of(*source);
       (source->emits ? emitted : reflected) += source->unshot;
       source->unshot = 0;
-      busy[source->pe] += kind.records * kCyclesToMake;
-      for (std::size_t pe = 0; pe < busy.size(); ++pe) busy[pe] += kind.records * kind.cycles[pe];
-      prediction.records += kind.records;
-      prediction.packets += kind.records * kind.arrivals / kRecordsPerPacket;
+      busy[source->pe] += records * kCyclesToMake;
+      for (std::size_t pe = 0; pe < busy.size(); ++pe) busy[pe] += records * kind.cycles[pe];
+      prediction.records += records;
+      prediction.packets += records * kind.arrivals / kRecordsPerPacket;
       ++shots_;
     }
     double unshot = 0;
@@ -166,6 +174,7 @@ class Rounds {
   RadiositySettings settings_;
   std::vector<Source> sources_;
   std::array<Kind, 2> kinds_;
+  double greatest_channel_;  ///< its share of the flux
   std::uint64_t shots_ = 0;
 };
 

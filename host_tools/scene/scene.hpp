@@ -36,7 +36,8 @@ struct SceneMaterial {
 };
 
 inline bool emits(const SceneMaterial& material) {
-  return material.kind == SurfaceKind::diffuse && std::ranges::any_of(material.emission, [](double e) { return e > 0; });
+  return material.kind == SurfaceKind::diffuse &&
+         std::ranges::any_of(material.emission, [](double e) { return e > 0; });
 }
 
 /// Diffuse, with a lobe about the mirror direction.
