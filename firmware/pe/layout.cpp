@@ -107,9 +107,10 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
   require(niu, n >= 2 && n % 2U == 0 && n <= protocol::kMostHemicubeSize, LayoutField::hemicube_size, n);
   require(niu, l.hemicube.count == protocol::hemicube_weights(n), LayoutField::hemicube, l.hemicube.address,
           l.hemicube.count);
-  const auto points = [](std::uint32_t k) { return k >= 1 && k <= protocol::kMostShotPoints; };
-  require(niu, points(l.shot_points), LayoutField::shot_points, l.shot_points);
-  require(niu, points(l.emission_points), LayoutField::emission_points, l.emission_points);
+  const auto from_1 = [](std::uint32_t k, std::uint32_t most) { return k >= 1 && k <= most; };
+  require(niu, from_1(l.shot_points, protocol::kMostShotPoints), LayoutField::shot_points, l.shot_points);
+  require(niu, from_1(l.emission_points, protocol::kMostEmissionPoints), LayoutField::emission_points,
+          l.emission_points);
   require(niu, finite_positive(l.points_per_quantum), LayoutField::points_per_quantum, bits(l.points_per_quantum));
 }
 

@@ -204,9 +204,10 @@ inline constexpr std::uint32_t kOwnSlots = own_slots(Stage::radiosity);
 
 /// Path segments are counted in a byte of the record.
 inline constexpr std::uint32_t kMostBounces = 255;
-/// Hemi-cube pixels across the top; shot points are k * k.
+/// Hemi-cube pixels across the top; shot points are k * k, of emitted light more: one lamp may be all there is.
 inline constexpr std::uint32_t kMostHemicubeSize = 256;
 inline constexpr std::uint32_t kMostShotPoints = 64;
+inline constexpr std::uint32_t kMostEmissionPoints = 256;
 
 /// What the host tells a PE before a stage. The PE checks it: stores inside its free memory, aligned to 8, apart from
 /// each other.

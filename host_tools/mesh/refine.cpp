@@ -13,8 +13,10 @@
 namespace torolux {
 namespace {
 
-/// Levels that are added to an element at most.
+/// Levels that are added to an element at most,
 constexpr std::uint32_t kMostAdded = 3;
+/// and records of the draft that each part must expect: some dozens when all is solved again.
+constexpr double kLeastRecords = 4;
 /// A quarter as large an element, across which light changes half as much.
 constexpr std::int64_t kChildPart = 8;
 
@@ -23,6 +25,7 @@ struct Wish {
   Split split;
   std::uint32_t sides;  ///< 1 or 2
   std::uint32_t added;  ///< levels below the draft's element
+  double records;       ///< of the draft that came here, about
 
   bool operator<(const Wish& other) const {  // the greatest comes first, of equal ones the first in the mesh
     return key != other.key ? key < other.key : split > other.split;
@@ -34,65 +37,97 @@ double sum_of(const protocol::Vec3f& v, const Vec3d& by) {
 }
 
 /// How wrong interpolated light may be on a side of an element: how far its own light lies off the mean of its
-/// corners', and, since shadows are sharper than elements show, some of how much the corners differ.
-double doubt(const protocol::LatticeTriangle& corners, const protocol::Vec3f& own, const Vec3d& reflectance) {
+/// corners', and, since shadows are sharper than elements show, some of how much the corners differ; each but for what
+/// may be noise of so many records.
+double doubt(const protocol::LatticeTriangle& corners, const protocol::Vec3f& own, const Vec3d& reflectance,
+             double records) {
   std::array<double, 3> value{};
   for (std::size_t c = 0; c < 3; ++c) value[c] = sum_of(corners.irradiance_over_pi[c], reflectance);
   const double mean = (value[0] + value[1] + value[2]) / 3;
   const auto [least, most] = std::minmax({value[0], value[1], value[2]});
-  return std::abs(sum_of(own, reflectance) - mean) + 0.25 * (most - least);
+  const double light = sum_of(own, reflectance);
+  const double noise = records > 0 ? light / std::sqrt(records) : 0;
+  return std::max(0.0, std::abs(light - mean) - noise) + 0.25 * std::max(0.0, most - least - noise);
 }
 
-}  // namespace
+/// Of an element, both sides.
+struct Doubt {
+  Split split;
+  std::uint32_t sides;
+  double size;
+  double records;  ///< of the side that got more
+};
 
-std::vector<Split> choose_splits(const Mesh& mesh, const Scene& scene, std::span<const protocol::Flux> flux,
-                                 std::uint64_t more) {
-  const Lattice lattice = make_lattice(mesh, flux, 1, 1);
-  struct Doubt {
-    Split split;
-    std::uint32_t sides;
-    double size;
-  };
+/// What balancing has cut must stay so for its parts to be cut.
+void add_ancestors(std::vector<Split>& splits) {
+  const std::size_t chosen = splits.size();
+  for (std::size_t i = 0; i < chosen; ++i) {
+    for (std::uint32_t code = splits[i].code >> 2U; code != 0; code >>= 2U) splits.push_back({splits[i].triangle, code});
+  }
+  std::sort(splits.begin(), splits.end());
+  splits.erase(std::unique(splits.begin(), splits.end()), splits.end());
+}
+
+double mean_of(const protocol::Flux& flux) {
+  return static_cast<double>(flux[0] + flux[1] + flux[2]) / 3;
+}
+
+std::vector<Doubt> doubts_of(const Mesh& mesh, const Scene& scene, const DraftLight& draft) {
+  const Lattice lattice = make_lattice(mesh, draft.flux, 1, 1);
   std::vector<Doubt> doubts;
-  double greatest = 0;
   for (const MeshPatch& patch : mesh.patches) {
     if (patch.is_clustered()) continue;
     for (std::uint32_t e = 0; e < patch.elements; ++e) {
       const MeshFacet& facet = mesh.facets[patch.first_facet + e];
       const double area = mesh.facet_area(facet);
-      Doubt worst{{facet.triangle, facet.code}, 0, 0};
+      Doubt worst{{facet.triangle, facet.code}, 0, 0, 0};
       for (std::uint32_t side = 0; side < 2; ++side) {
         if (patch.side[side] == protocol::kNoSide) continue;
-        const protocol::Flux& here = flux[patch.first_element[side] + e];
+        const protocol::Flux& here = draft.flux[patch.first_element[side] + e];
+        const double records = draft.of_record > 0 ? mean_of(here) / draft.of_record : HUGE_VAL;
         protocol::Vec3f own{};
         for (std::size_t c = 0; c < 3; ++c)
           own[c] = static_cast<float>(static_cast<double>(here[c]) / area / std::numbers::pi);
         const auto& corners = lattice.triangles[lattice.first[patch.first_facet + e] + worst.sides];
-        worst.size = std::max(worst.size, area * doubt(corners, own, scene.materials[patch.material].diffuse));
+        const Vec3d& reflectance = scene.materials[patch.material].diffuse;
+        worst.size = std::max(worst.size, area * doubt(corners, own, reflectance, records));
+        worst.records = std::max(worst.records, records);
         ++worst.sides;
       }
-      greatest = std::max(greatest, worst.size);
       doubts.push_back(worst);
     }
   }
+  return doubts;
+}
+
+}  // namespace
+
+std::vector<Split> choose_splits(const Mesh& mesh, const Scene& scene, const DraftLight& draft, std::uint64_t more) {
+  const std::vector<Doubt> doubts = doubts_of(mesh, scene, draft);
+  double greatest = 0;
+  for (const Doubt& here : doubts) greatest = std::max(greatest, here.size);
   std::priority_queue<Wish> wishes;
   for (const Doubt& here : doubts) {
-    if (here.size > 0) wishes.push({std::llround(std::ldexp(here.size / greatest, 60)), here.split, here.sides, 0});
+    if (here.size <= 0) continue;
+    wishes.push({std::llround(std::ldexp(here.size / greatest, 60)), here.split, here.sides, 0, here.records});
   }
   std::vector<Split> splits;
   for (std::uint64_t added = 0; added < more && !wishes.empty();) {
     const Wish wish = wishes.top();
     wishes.pop();
-    if (protocol::level_of_code(wish.split.code) == protocol::kMostLevels) continue;
+    if (wish.records < 4 * kLeastRecords || protocol::level_of_code(wish.split.code) == protocol::kMostLevels) continue;
     splits.push_back(wish.split);
     added += 3 * wish.sides;
     if (wish.added + 1 == kMostAdded) continue;
     for (std::uint32_t child = 0; child < 4; ++child) {
-      wishes.push(
-          {wish.key / kChildPart, {wish.split.triangle, wish.split.code << 2U | child}, wish.sides, wish.added + 1});
+      wishes.push({wish.key / kChildPart,
+                   {wish.split.triangle, wish.split.code << 2U | child},
+                   wish.sides,
+                   wish.added + 1,
+                   wish.records / 4});
     }
   }
-  std::sort(splits.begin(), splits.end());
+  add_ancestors(splits);
   return splits;
 }
 

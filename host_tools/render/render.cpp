@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "emulator/errors.hpp"
@@ -77,21 +78,34 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   }
 }
 
+/// Drafts of a refined solution, each on the mesh that the one before asked for: so edges of light are followed.
+constexpr std::uint64_t kDrafts = 2;
+
 /// Where the mesh needs more elements. Absent: stopped by `progress`.
 std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera& camera, const Quality& full,
                                                const MachineChoice& choice, const Image& image,
                                                const std::function<bool(const RenderProgress&)>& progress,
                                                RenderFigures& figures) {
   const Quality quality = draft_of(full);
-  const RenderSetup setup = settled_setup(scene, quality, choice, image, {});
-  RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
-  Machine torolux(machine_setup(setup, quality, choice), image);
-  torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
-  if (!program.finished()) return std::nullopt;
-  figures.draft_cycles = program.times().read;
-  figures.draft_records = program.solution()->tally.rays;
-  const auto more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements);
-  return choose_splits(setup.mesh, scene, incident_flux(*program.solution(), full.shadow_rays), more);
+  std::vector<Split> splits;
+  std::uint64_t more = 0;
+  for (std::uint64_t round = 0; round < kDrafts; ++round) {
+    const RenderSetup setup = settled_setup(scene, quality, choice, image, splits);
+    if (round == 0) more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDrafts;
+    RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
+    Machine torolux(machine_setup(setup, quality, choice), image);
+    torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
+    if (!program.finished()) return std::nullopt;
+    const Solution& draft = *program.solution();
+    figures.draft_cycles += program.times().read;
+    figures.draft_records += draft.tally.rays;
+    const DraftLight light{incident_flux(draft, full.shadow_rays), flux_of_record(draft)};
+    std::vector<Split> chosen = choose_splits(setup.mesh, scene, light, more);
+    std::vector<Split> all;
+    std::set_union(splits.begin(), splits.end(), chosen.begin(), chosen.end(), std::back_inserter(all));
+    splits = std::move(all);
+  }
+  return splits;
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ TEST(Malformed, LayoutsThatDoNotHoldAreRefused) {
       [](StageLayout& l) { l.hemicube_size = 5; },
       [](StageLayout& l) { l.hemicube.count -= 1; },
       [](StageLayout& l) { l.shot_points = 0; },
-      [](StageLayout& l) { l.emission_points = protocol::kMostShotPoints + 1; },
+      [](StageLayout& l) { l.shot_points = protocol::kMostShotPoints + 1; },
+      [](StageLayout& l) { l.emission_points = protocol::kMostEmissionPoints + 1; },
       [](StageLayout& l) { l.points_per_quantum = 0; },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {

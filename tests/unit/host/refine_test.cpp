@@ -45,7 +45,7 @@ TEST(Refine, CutsWhereLightChanges) {
   const Scene scene = floor_scene();
   MeshChoice choice{.patch_length = 0.75, .element_length = 0.19};
   const Mesh coarse = make_mesh(scene, choice);
-  choice.splits = choose_splits(coarse, scene, step_of_light(coarse), coarse.elements / 2);
+  choice.splits = choose_splits(coarse, scene, {step_of_light(coarse)}, coarse.elements / 2);
   EXPECT_TRUE(std::is_sorted(choice.splits.begin(), choice.splits.end()));
   const Mesh fine = make_mesh(scene, choice);
   EXPECT_GT(fine.elements, coarse.elements + coarse.elements / 3);
@@ -65,7 +65,7 @@ TEST(Refine, CutsWhereLightChanges) {
 TEST(Refine, EvenLightAsksForNothing) {
   const Scene scene = floor_scene();
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.75, .element_length = 0.19});
-  EXPECT_TRUE(choose_splits(mesh, scene, std::vector<protocol::Flux>(mesh.elements), 100).empty());
+  EXPECT_TRUE(choose_splits(mesh, scene, {std::vector<protocol::Flux>(mesh.elements)}, 100).empty());
 }
 
 // One element is cut three times over: its neighbours follow, so that none lies at the edge of one a quarter its size.
