@@ -25,10 +25,10 @@ class SideLight {
             std::uint32_t side)
       : mesh_(mesh), flux_(flux), crossed_(crossed), side_(side), vertices_(mesh, side) {
     take_means();
-    anchor();
+    settle();
     for (int step = 0; step < kBorderSteps; ++step) {
       follow_to_borders();
-      anchor();
+      settle();
     }
     note_lit_sides();
   }
@@ -38,7 +38,7 @@ class SideLight {
   std::array<Vec3d, 3> at_corners(std::uint32_t facet) const {
     std::array<Vec3d, 3> light{};
     for (std::size_t c = 0; c < 3; ++c) light[c] = values_[corners(facet)[c]];
-    if ((is_dark(light[0]) || is_dark(light[1]) || is_dark(light[2])) && crossed_[facet]) show_lit_side(facet, light);
+    if (crossed_[facet] && is_hidden(facet)) show_lit_side(facet, light);
     return light;
   }
 
@@ -51,6 +51,13 @@ class SideLight {
         visit(patch, f, flux_[patch.first_element[side_] + mesh_.facets[f].element]);
       }
     }
+  }
+  /// Its middle lies under a thing, or so it seems.
+  bool is_hidden(std::uint32_t facet) const {
+    const auto no_light = [this](std::uint32_t v) { return is_dark(values_[v]) || !known_[v]; };
+    if (std::ranges::any_of(corners(facet), no_light)) return true;
+    const MeshFacet& at = mesh_.facets[facet];
+    return mesh_.hiding.hides(mesh_, at.triangle, side_, middle_of_grid(at.code));
   }
   static bool is_dark(const Vec3d& light) { return light == Vec3d{0, 0, 0}; }
   std::uint64_t key(std::uint32_t facet, std::size_t corner) const {
@@ -66,8 +73,9 @@ class SideLight {
     if (lit_.empty()) return;
     for_each_facet([&](const MeshPatch&, std::uint32_t f, const protocol::Flux&) {
       for (std::size_t c = 0; c < 3; ++c) {
-        const Vec3d& light = values_[corners(f)[c]];
-        const auto found = is_dark(light) ? lit_.end() : lit_.find(key(f, c));
+        const std::uint32_t v = corners(f)[c];
+        const Vec3d& light = values_[v];
+        const auto found = is_dark(light) || !known_[v] ? lit_.end() : lit_.find(key(f, c));
         if (found != lit_.end()) found->second = light;
       }
     });
@@ -76,17 +84,17 @@ class SideLight {
   /// No light at all on the side of the wall where its middle is: that is what the wall's thing covers, and none of it
   /// is seen. What is seen lies on the other side.
   void show_lit_side(std::uint32_t facet, std::array<Vec3d, 3>& light) const {
+    std::array<Vec3d, 3> beyond{};
     Vec3d sum{0, 0, 0};
     double known = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      light[c] = lit_.at(key(facet, c));
-      if (is_dark(light[c])) continue;
-      sum = vec::add(sum, light[c]);
+      beyond[c] = lit_.at(key(facet, c));
+      if (is_dark(beyond[c])) continue;
+      sum = vec::add(sum, beyond[c]);
       known += 1;
     }
-    for (Vec3d& corner : light) {
-      if (is_dark(corner) && known > 0) corner = vec::scale(sum, 1 / known);
-    }
+    if (!(known > 0)) return;
+    for (std::size_t c = 0; c < 3; ++c) light[c] = is_dark(beyond[c]) ? vec::scale(sum, 1 / known) : beyond[c];
   }
 
   void take_means() {
@@ -98,13 +106,45 @@ class SideLight {
         clusters.add(patch, f, corners(f), flux);
         return;
       }
-      // What a wall crosses got the light of both sides: it counts only where there is nothing else.
+      // What a wall crosses got the light of both sides, or of a part of its area.
       auto& into = crossed_[f] ? of_crossed : sums;
       for (const std::uint32_t corner : corners(f)) into[corner].add(flux, mesh_.facet_area(mesh_.facets[f]));
     });
     clusters.smooth(sums);
     for (std::size_t v = 0; v < sums.size(); ++v) {
+      measured_.push_back(sums[v].area > 0);
       values_.push_back((sums[v].area > 0 ? sums[v] : of_crossed[v]).irradiance());
+    }
+  }
+
+  void settle() {
+    spread();
+    anchor();
+  }
+
+  /// Vertices among elements that walls cross take their light from vertices on the same side of the wall, from one to
+  /// the next. What cannot be reached so stays unknown.
+  void spread() {
+    known_ = measured_;
+    for (bool more = true; more;) {
+      more = false;
+      std::vector<Vec3d> sums(values_.size(), {0, 0, 0});
+      std::vector<double> counts(values_.size(), 0);
+      for (std::uint32_t f = 0; f < crossed_.size(); ++f) {
+        if (!crossed_[f]) continue;
+        for (const std::uint32_t from : corners(f)) {
+          for (const std::uint32_t to : corners(f)) {
+            if (!known_[from] || known_[to]) continue;
+            sums[to] = vec::add(sums[to], values_[from]);
+            counts[to] += 1;
+          }
+        }
+      }
+      for (std::size_t v = 0; v < counts.size(); ++v) {
+        if (!(counts[v] > 0)) continue;
+        values_[v] = vec::scale(sums[v], 1 / counts[v]);
+        known_[v] = more = true;
+      }
     }
   }
 
@@ -142,6 +182,8 @@ class SideLight {
   std::uint32_t side_;
   SurfaceVertices vertices_;
   std::vector<Vec3d> values_;
+  std::vector<bool> measured_;                    ///< by vertex: of elements that no wall crosses
+  std::vector<bool> known_;                       ///< or taken from such a vertex
   std::unordered_map<std::uint64_t, Vec3d> lit_;  ///< by vertex_key
 };
 

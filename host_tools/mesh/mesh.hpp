@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/mesh/hiding.hpp"
 #include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/normalise.hpp"
 #include "host_tools/mesh/smooth_surfaces.hpp"
@@ -95,6 +96,7 @@ struct Mesh {
   std::vector<MachineTexture> textures;  ///< by number in the scene
   SmoothSurfaces smooth;
   Walls walls;  ///< of triangles that are cut
+  Hiding hiding;
   std::vector<MeshPart> parts;
   std::vector<std::uint32_t> nodes;
   std::vector<MeshFacet> facets;  ///< patch by patch, there by element

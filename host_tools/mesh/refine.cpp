@@ -62,7 +62,8 @@ struct Doubt {
 void add_ancestors(std::vector<Split>& splits) {
   const std::size_t chosen = splits.size();
   for (std::size_t i = 0; i < chosen; ++i) {
-    for (std::uint32_t code = splits[i].code >> 2U; code != 0; code >>= 2U) splits.push_back({splits[i].triangle, code});
+    for (std::uint32_t code = splits[i].code >> 2U; code != 0; code >>= 2U)
+      splits.push_back({splits[i].triangle, code});
   }
   std::sort(splits.begin(), splits.end());
   splits.erase(std::unique(splits.begin(), splits.end()), splits.end());

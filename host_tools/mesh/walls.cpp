@@ -16,8 +16,6 @@ namespace {
 constexpr double kFoot = 1e-5;
 /// and what lies below this one hides it as if it stood on it. Edges of a Cornell box's lamp, for one.
 constexpr double kClose = 1e-3;
-/// An element's inside begins this far from its edges, of the way to its centre: a wall along an edge crosses nothing.
-constexpr double kInside = 0.04;
 /// A way ends so far behind the point where it leads, of its length, so that a wall there counts.
 constexpr double kBehind = 0.05;
 
@@ -159,7 +157,7 @@ Walls::Walls(const Mesh& mesh, const std::vector<bool>& wanted) : of_side_(mesh.
   }
 }
 
-bool Walls::cross(std::uint32_t triangle, std::uint32_t code) const {
+bool Walls::pass_inside(std::uint32_t triangle, std::uint32_t code, double inside) const {
   if (of_side_.empty() || (of_side_[triangle][0].empty() && of_side_[triangle][1].empty())) return false;
   const protocol::GridTriangle grid = protocol::grid_triangle_of(code);
   constexpr double unit = 1.0 / (1U << protocol::kMostLevels);
@@ -170,7 +168,7 @@ bool Walls::cross(std::uint32_t triangle, std::uint32_t code) const {
     centre = {centre.b1 + corner[c].b1 / 3, centre.b2 + corner[c].b2 / 3};
   }
   for (PlanePoint& c : corner) {
-    c = {c.b1 + (centre.b1 - c.b1) * kInside, c.b2 + (centre.b2 - c.b2) * kInside};
+    c = {c.b1 + (centre.b1 - c.b1) * inside, c.b2 + (centre.b2 - c.b2) * inside};
   }
   const auto passes = [&](const WallSegment& wall) { return passes_through(wall, corner); };
   return std::any_of(of_side_[triangle][0].begin(), of_side_[triangle][0].end(), passes) ||

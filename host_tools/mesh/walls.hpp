@@ -29,12 +29,17 @@ class Walls {
   /// None anywhere.
   Walls() = default;
 
-  /// Whether a wall of either side passes through the inside of a triangle of the grid.
-  bool cross(std::uint32_t triangle, std::uint32_t code) const;
+  /// Whether a wall of either side passes through the inside of a triangle of the grid: so far from its edges, of the
+  /// way to its centre, that little lies beyond.
+  bool cross(std::uint32_t triangle, std::uint32_t code) const { return pass_inside(triangle, code, 0.04); }
+  /// Or so far that next to nothing does, but more than rounding.
+  bool touch(std::uint32_t triangle, std::uint32_t code) const { return pass_inside(triangle, code, 0.002); }
   /// Whether a wall on one side (0 front, 1 back) lies between two points of a triangle, or at the second one.
   bool between(std::uint32_t triangle, std::uint32_t side, const PlanePoint& from, const PlanePoint& to) const;
 
  private:
+  bool pass_inside(std::uint32_t triangle, std::uint32_t code, double inside) const;
+
   std::vector<std::array<std::vector<WallSegment>, 2>> of_side_;  ///< by triangle
 };
 

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// See hiding.hpp.
+#include "host_tools/mesh/hiding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "firmware/protocol/random.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/mesh/edges.hpp"
+#include "host_tools/mesh/mesh.hpp"
+
+namespace torolux {
+namespace {
+
+/// Points are looked at from so high over their triangle, as walls' feet are, in the space's longest edge.
+constexpr double kHeight = 1e-5;
+/// A thing that leaves this much of half a sphere open, in steradians, has an opening: light may come in.
+constexpr double kOpening = 1e-4;
+/// Larger things hide nothing: to look from many points would take too long.
+constexpr std::size_t kMostTriangles = 20'000;
+/// A facet is looked at in 4^kParts parts.
+constexpr std::uint32_t kParts = 2;
+
+bool contains(const vec::Box& box, const Vec3d& point) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (point[axis] < box.low[axis] || point[axis] > box.high[axis]) return false;
+  }
+  return true;
+}
+
+std::array<Vec3d, 3> corners_of(const MeshTriangle& triangle) {
+  return {to_double(triangle.corner[0]), to_double(triangle.corner[1]), to_double(triangle.corner[2])};
+}
+
+/// In each set of triangles that hang together, the lowest one, by triangle.
+std::vector<std::uint32_t> roots_of(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> positions;
+  for (const MeshTriangle& triangle : mesh.triangles) positions.push_back(triangle.position);
+  const std::vector<EdgeUse> uses = edge_uses(positions);
+  DisjointSets sets(positions.size());
+  for_each_edge(uses, [&sets](std::span<const EdgeUse> edge) {
+    for (const EdgeUse& use : edge) sets.merge(edge[0].triangle, use.triangle);
+  });
+  std::vector<std::uint32_t> roots;
+  for (std::uint32_t t = 0; t < positions.size(); ++t) roots.push_back(sets.root(t));
+  return roots;
+}
+
+bool hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code) {
+  for (std::uint32_t side = 0; side < 2; ++side) {
+    if ((mesh.triangles[triangle].sides & (1U << side)) == 0) continue;
+    if (mesh.hiding.hides(mesh, triangle, side, middle_of_grid(code))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PlanePoint middle_of_grid(std::uint32_t code) {
+  const auto corner = grid_points(code);
+  constexpr double third = 1.0 / (3U << protocol::kMostLevels);
+  return {third * (corner[0].i + corner[1].i + corner[2].i), third * (corner[0].j + corner[1].j + corner[2].j)};
+}
+
+Hiding::Hiding(const Mesh& mesh, const Scene& scene) : thing_of_(roots_of(mesh)) {
+  std::vector<Thing> sets(mesh.triangles.size());
+  std::vector<bool> may_hide(mesh.triangles.size(), true);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const SceneMaterial& material = scene.materials[mesh.triangles[t].material];
+    Thing& thing = sets[thing_of_[t]];
+    thing.corners.push_back(corners_of(mesh.triangles[t]));
+    for (const Vec3d& corner : thing.corners.back()) thing.box.include(corner);
+    if (material.kind == SurfaceKind::glass || emits(material)) may_hide[thing_of_[t]] = false;
+  }
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (!emits(scene.materials[triangle.material])) continue;
+    const auto corner = corners_of(triangle);
+    const Vec3d middle = vec::scale(vec::add(vec::add(corner[0], corner[1]), corner[2]), 1.0 / 3);
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      if (sets[s].corners.empty() || !may_hide[s] || !contains(sets[s].box, middle)) continue;
+      // Half a sphere is enough for what stands on the floor: elsewhere, be careful.
+      if (std::abs(solid_angle(sets[s], middle)) > std::numbers::pi) may_hide[s] = false;
+    }
+  }
+  std::vector<std::uint32_t> number(sets.size(), protocol::kNoSide);
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    if (sets[s].corners.size() < 4 || sets[s].corners.size() > kMostTriangles || !may_hide[s]) continue;
+    number[s] = static_cast<std::uint32_t>(things_.size());
+    things_.push_back(std::move(sets[s]));
+  }
+  for (std::uint32_t& thing : thing_of_) thing = number[thing];
+}
+
+/// Van Oosterom & Strackee 1983, "The solid angle of a plane triangle"; triangles that are seen from behind count
+/// against those that are seen from the front.
+double Hiding::solid_angle(const Thing& thing, const Vec3d& point) {
+  double angle = 0;
+  for (const auto& corner : thing.corners) {
+    const Vec3d a = vec::subtract(corner[0], point);
+    const Vec3d b = vec::subtract(corner[1], point);
+    const Vec3d c = vec::subtract(corner[2], point);
+    const double la = vec::length(a);
+    const double lb = vec::length(b);
+    const double lc = vec::length(c);
+    angle += 2 * std::atan2(vec::dot(a, vec::cross(b, c)),
+                            la * lb * lc + vec::dot(a, b) * lc + vec::dot(b, c) * la + vec::dot(c, a) * lb);
+  }
+  return angle;
+}
+
+bool Hiding::hides(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side, const PlanePoint& point) const {
+  if (things_.empty()) return false;
+  const auto corner = corners_of(mesh.triangles[triangle]);
+  const Vec3d across = vec::subtract(corner[1], corner[0]);
+  const Vec3d up = vec::subtract(corner[2], corner[0]);
+  const Vec3d normal = vec::unit(vec::cross(across, up));
+  Vec3d at = vec::add(corner[0], vec::add(vec::scale(across, point.b1), vec::scale(up, point.b2)));
+  at = vec::add(at, vec::scale(normal, side == 0 ? kHeight : -kHeight));
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    if (thing_of_[triangle] == i || !contains(things_[i].box, at)) continue;
+    // What stands on the triangle fills half a sphere, whether it has a bottom of its own or not.
+    if (std::abs(solid_angle(things_[i], at)) > 2 * std::numbers::pi - kOpening) return true;
+  }
+  return false;
+}
+
+std::optional<std::uint32_t> sending_part(const Mesh& mesh, const MeshFacet& facet) {
+  if (!mesh.walls.touch(facet.triangle, facet.code)) return facet.code;
+  const std::uint32_t most = std::min(kParts, protocol::kMostLevels - protocol::level_of_code(facet.code));
+  const auto is_hidden = [&](std::uint32_t code) { return hidden(mesh, facet.triangle, code); };
+  const auto parts = [&](std::uint32_t levels) {
+    std::vector<std::uint32_t> codes;
+    for (std::uint32_t path = 0; path < protocol::triangles_of_level(levels); ++path) {
+      codes.push_back(facet.code << (2 * levels) | path);
+    }
+    return codes;
+  };
+  if (std::ranges::none_of(parts(most), is_hidden)) return facet.code;
+  for (std::uint32_t levels = 0; levels <= most; ++levels) {
+    std::vector<std::uint32_t> open = parts(levels);
+    std::erase_if(open, [&](std::uint32_t code) { return mesh.walls.touch(facet.triangle, code) || is_hidden(code); });
+    // Any of them, so that not all elements along a wall lean one way.
+    if (!open.empty()) return open[protocol::hash_combine(facet.triangle, facet.code) % open.size()];
+  }
+  return std::nullopt;
+}
+
+}  // namespace torolux

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What lies under things that stand on a surface: no light comes there and nothing of it is seen, though elements lie
+// half under the thing's foot and half beside it. A function of scene alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host_tools/mesh/walls.hpp"
+#include "host_tools/scene/vec.hpp"
+
+namespace torolux {
+
+struct MeshFacet;
+
+class Hiding {
+ public:
+  /// Of the mesh's triangles with their materials.
+  Hiding(const Mesh& mesh, const Scene& scene);
+  /// Nothing is hidden.
+  Hiding() = default;
+
+  /// Whether all ways from a point of a triangle, on one side (0 front, 1 back), end inside one opaque thing that the
+  /// triangle is no part of and that has no emitter in it.
+  bool hides(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side, const PlanePoint& point) const;
+
+ private:
+  /// Triangles that hang together by edges.
+  struct Thing {
+    vec::Box box;
+    std::vector<std::array<Vec3d, 3>> corners;
+  };
+  static double solid_angle(const Thing& thing, const Vec3d& point);
+
+  std::vector<Thing> things_;            ///< that may hide
+  std::vector<std::uint32_t> thing_of_;  ///< by triangle; >= things_.size(): none of them
+};
+
+/// Of a triangle of a grid.
+PlanePoint middle_of_grid(std::uint32_t code);
+
+/// The part of a facet from which it sends light: all of it where nothing is hidden, else one that is not and that no
+/// wall touches. Absent: there is none. A location code.
+std::optional<std::uint32_t> sending_part(const Mesh& mesh, const MeshFacet& facet);
+
+}  // namespace torolux
