@@ -34,21 +34,36 @@ std::array<Vec3d, 3> corners_of(const MeshTriangle& triangle) {
   return {to_double(triangle.corner[0]), to_double(triangle.corner[1]), to_double(triangle.corner[2])};
 }
 
-/// In each set of triangles that hang together, the lowest one, by triangle.
-std::vector<std::uint32_t> roots_of(const Mesh& mesh) {
+/// Triangles that hang together, by triangle.
+struct Sets {
+  std::vector<std::uint32_t> root;  ///< the lowest of the set
+  std::vector<bool> alike;          ///< by root: wound alike, no edge is shared by more than two
+};
+
+Sets sets_of(const Mesh& mesh) {
   std::vector<std::array<std::uint32_t, 3>> positions;
   for (const MeshTriangle& triangle : mesh.triangles) positions.push_back(triangle.position);
   const std::vector<EdgeUse> uses = edge_uses(positions);
-  DisjointSets sets(positions.size());
-  for_each_edge(uses, [&sets](std::span<const EdgeUse> edge) {
-    for (const EdgeUse& use : edge) sets.merge(edge[0].triangle, use.triangle);
+  DisjointSets joined(positions.size());
+  std::vector<bool> alike(positions.size(), true);
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    const bool one_way = edge.size() == 1 || (edge.size() == 2 && edge[0].forward != edge[1].forward);
+    for (const EdgeUse& use : edge) {
+      joined.merge(edge[0].triangle, use.triangle);
+      if (!one_way) alike[use.triangle] = false;
+    }
   });
-  std::vector<std::uint32_t> roots;
-  for (std::uint32_t t = 0; t < positions.size(); ++t) roots.push_back(sets.root(t));
-  return roots;
+  Sets sets{{}, std::vector<bool>(positions.size(), true)};
+  for (std::uint32_t t = 0; t < positions.size(); ++t) {
+    sets.root.push_back(joined.root(t));
+    if (!alike[t]) sets.alike[sets.root[t]] = false;
+  }
+  return sets;
 }
 
+/// Of parts that no wall touches: at its very foot, a wall fills more than it does beside it.
 bool hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code) {
+  if (mesh.walls.touch(triangle, code)) return false;
   for (std::uint32_t side = 0; side < 2; ++side) {
     if ((mesh.triangles[triangle].sides & (1U << side)) == 0) continue;
     if (mesh.hiding.hides(mesh, triangle, side, middle_of_grid(code))) return true;
@@ -64,9 +79,10 @@ PlanePoint middle_of_grid(std::uint32_t code) {
   return {third * (corner[0].i + corner[1].i + corner[2].i), third * (corner[0].j + corner[1].j + corner[2].j)};
 }
 
-Hiding::Hiding(const Mesh& mesh, const Scene& scene) : thing_of_(roots_of(mesh)) {
+Hiding::Hiding(const Mesh& mesh, const Scene& scene) {
+  auto [root, may_hide] = sets_of(mesh);
+  thing_of_ = std::move(root);
   std::vector<Thing> sets(mesh.triangles.size());
-  std::vector<bool> may_hide(mesh.triangles.size(), true);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const SceneMaterial& material = scene.materials[mesh.triangles[t].material];
     Thing& thing = sets[thing_of_[t]];

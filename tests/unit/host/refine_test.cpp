@@ -68,6 +68,46 @@ TEST(Refine, EvenLightAsksForNothing) {
   EXPECT_TRUE(choose_splits(mesh, scene, {std::vector<protocol::Flux>(mesh.elements)}, 100).empty());
 }
 
+/// Even light of some 25 records on each element, more or fewer by one spread.
+std::vector<protocol::Flux> noisy_light(const Mesh& mesh, std::int64_t of_record) {
+  std::vector<protocol::Flux> flux(mesh.elements);
+  for (std::size_t e = 0; e < flux.size(); ++e) flux[e].fill((e % 3 == 0 ? 30 : e % 3 == 1 ? 25 : 20) * of_record);
+  return flux;
+}
+
+// The same differences, of few records and of so many that they must be light.
+TEST(Refine, NoiseIsNoReasonToCut) {
+  const Scene scene = floor_scene();
+  const Mesh mesh = make_mesh(scene, {.patch_length = 0.75, .element_length = 0.19});
+  constexpr std::int64_t kRecord = 1'000'000;
+  const auto cut = [&](double of_record) {
+    const auto splits = choose_splits(mesh, scene, {noisy_light(mesh, kRecord), of_record}, 100'000);
+    return std::ranges::count_if(mesh.facets, [&](const MeshFacet& facet) {
+      return std::ranges::binary_search(splits, Split{facet.triangle, facet.code});
+    });
+  };
+  // At borders, where corners are guessed from one side, noise is more than what is taken off for it.
+  EXPECT_LT(cut(kRecord), static_cast<std::ptrdiff_t>(mesh.facets.size() / 10));
+  EXPECT_GT(cut(kRecord / 100.0), static_cast<std::ptrdiff_t>(mesh.facets.size() / 2));
+}
+
+// A step of light is cut as deep as there are records for the parts, and no deeper.
+TEST(Refine, PartsMustExpectRecords) {
+  const Scene scene = floor_scene();
+  const Mesh mesh = make_mesh(scene, {.patch_length = 0.75, .element_length = 0.19});
+  const auto flux = step_of_light(mesh);
+  const double brightest = static_cast<double>(std::ranges::max(flux)[0]) / 3;
+  const auto deepest = [&](double records) {
+    std::uint32_t level = 0;
+    for (const Split& split : choose_splits(mesh, scene, {flux, brightest / records}, 100'000)) {
+      level = std::max(level, protocol::level_of_code(split.code));
+    }
+    return level;
+  };
+  EXPECT_EQ(deepest(10), 0U);
+  EXPECT_EQ(deepest(100) + 1, deepest(300));
+}
+
 // One element is cut three times over: its neighbours follow, so that none lies at the edge of one a quarter its size.
 TEST(Refine, MeshStaysBalanced) {
   MeshChoice choice{.patch_length = 2, .element_length = 0.75};
