@@ -20,10 +20,10 @@ constexpr int kBorderSteps = 1;
 /// Irradiance at all vertices of one side [quanta / user unit^2].
 class SideLight {
  public:
-  /// crossed: by facet, whether a wall does; outlives this.
+  /// crossed, covered: by facet, whether a wall crosses it and whether a thing lies on a part of it; outlive this.
   SideLight(const Mesh& mesh, std::span<const protocol::Flux> flux, const std::vector<bool>& crossed,
-            std::uint32_t side)
-      : mesh_(mesh), flux_(flux), crossed_(crossed), side_(side), vertices_(mesh, side) {
+            const std::vector<bool>& covered, std::uint32_t side)
+      : mesh_(mesh), flux_(flux), crossed_(crossed), covered_(covered), side_(side), vertices_(mesh, side) {
     take_means();
     settle();
     for (int step = 0; step < kBorderSteps; ++step) {
@@ -122,16 +122,21 @@ class SideLight {
     anchor();
   }
 
-  /// Vertices among elements that walls cross take their light from vertices on the same side of the wall, from one to
-  /// the next. What cannot be reached so stays unknown.
+  /// Vertices among elements that reach under things take their light from vertices on the same side of the foot, from
+  /// one to the next. What cannot be reached so stays unknown. Where a wall only parts two rooms, what crossed elements
+  /// got must do: it lies between the light of both, and so does what is seen of them on either side.
   void spread() {
     known_ = measured_;
+    for (std::uint32_t f = 0; f < crossed_.size(); ++f) {
+      if (!crossed_[f] || covered_[f]) continue;
+      for (const std::uint32_t v : corners(f)) known_[v] = true;
+    }
     for (bool more = true; more;) {
       more = false;
       std::vector<Vec3d> sums(values_.size(), {0, 0, 0});
       std::vector<double> counts(values_.size(), 0);
       for (std::uint32_t f = 0; f < crossed_.size(); ++f) {
-        if (!crossed_[f]) continue;
+        if (!crossed_[f] || !covered_[f]) continue;
         for (const std::uint32_t from : corners(f)) {
           for (const std::uint32_t to : corners(f)) {
             if (!known_[from] || known_[to]) continue;
@@ -179,6 +184,7 @@ class SideLight {
   const Mesh& mesh_;
   std::span<const protocol::Flux> flux_;
   const std::vector<bool>& crossed_;
+  const std::vector<bool>& covered_;
   std::uint32_t side_;
   SurfaceVertices vertices_;
   std::vector<Vec3d> values_;
@@ -192,9 +198,14 @@ class SideLight {
 Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
                      double unit_radiance) {
   std::vector<bool> crossed;
+  std::vector<bool> covered;
   crossed.reserve(mesh.facets.size());
-  for (const MeshFacet& facet : mesh.facets) crossed.push_back(mesh.walls.cross(facet.triangle, facet.code));
-  const std::array<SideLight, 2> light{SideLight(mesh, flux, crossed, 0), SideLight(mesh, flux, crossed, 1)};
+  for (const MeshFacet& facet : mesh.facets) {
+    crossed.push_back(mesh.walls.cross(facet.triangle, facet.code));
+    covered.push_back(crossed.back() && sending_part(mesh, facet) != facet.code);
+  }
+  const std::array<SideLight, 2> light{SideLight(mesh, flux, crossed, covered, 0),
+                                       SideLight(mesh, flux, crossed, covered, 1)};
   const double factor = watts_per_quantum / (std::numbers::pi * unit_radiance);
   Lattice lattice;
   lattice.first.assign(mesh.facets.size(), 0);
