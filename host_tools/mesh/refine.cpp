@@ -46,6 +46,7 @@ double doubt(const protocol::LatticeTriangle& corners, const protocol::Vec3f& ow
   const double mean = (value[0] + value[1] + value[2]) / 3;
   const auto [least, most] = std::minmax({value[0], value[1], value[2]});
   const double light = sum_of(own, reflectance);
+  // Twice: a spread of one is no rarity among thousands of elements.
   const double noise = records > 0 ? 2 * light / std::sqrt(records) : 0;
   return std::max(0.0, std::abs(light - mean) - noise) + 0.25 * std::max(0.0, most - least - noise);
 }

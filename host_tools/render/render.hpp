@@ -82,7 +82,7 @@ struct RenderFigures {
   std::uint64_t shots = 0;  ///< patches shot
   std::uint64_t radiosity_records = 0;
   std::uint64_t rays = 0;   ///< camera rays
-  Cycles draft_cycles = 0;  ///< of the machine that solved the draft
+  Cycles draft_cycles = 0;  ///< of the machines that solved the drafts
   std::uint64_t draft_records = 0;
   std::uint64_t splits = 0;                           ///< elements that were cut by it
   std::uint64_t credits_total = 0, credits_home = 0;  ///< at the end
