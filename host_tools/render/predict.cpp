@@ -226,10 +226,10 @@ Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& 
   predict_rays(scene, camera, setup, quality, machine, prediction);
   if (draft != nullptr) {
     const Prediction rough = predict_radiosity(scene, *draft, draft_of(quality));
-    prediction.draft_cycles = load_cycles(*draft, machine.description) + rough.radiosity_cycles;
-    prediction.draft_records = rough.records;
-    prediction.draft_packets = rough.packets;
-    prediction.draft_instructions = rough.instructions;
+    prediction.draft_cycles = kDrafts * (load_cycles(*draft, machine.description) + rough.radiosity_cycles);
+    prediction.draft_records = kDrafts * rough.records;
+    prediction.draft_packets = kDrafts * rough.packets;
+    prediction.draft_instructions = kDrafts * rough.instructions;
   }
   const unsigned cores = machine.threads != 0 ? machine.threads : std::max(1U, std::thread::hardware_concurrency());
   const HostSpeed& speed = machine.engine == kQemuEngine ? kQemuSpeed : kTranslatedSpeed;

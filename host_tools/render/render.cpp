@@ -78,9 +78,6 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   }
 }
 
-/// Drafts of a refined solution, each on the mesh that the one before asked for: so edges of light are followed.
-constexpr std::uint64_t kDrafts = 2;
-
 /// Where the mesh needs more elements. Absent: stopped by `progress`.
 std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera& camera, const Quality& full,
                                                const MachineChoice& choice, const Image& image,

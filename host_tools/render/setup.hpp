@@ -39,6 +39,8 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
 /// The settings of a draft, which is quick and rough, but for the light straight from emitters, whose shadows it is to
 /// find.
 Quality draft_of(Quality quality);
+/// Drafts of a refined solution, each on the mesh that the one before asked for: so edges of light are followed.
+inline constexpr unsigned kDrafts = 2;
 
 /// 32 bits of the user's seed.
 std::uint32_t machine_seed(std::uint64_t seed);
