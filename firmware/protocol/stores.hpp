@@ -103,8 +103,8 @@ struct Patch {
 static_assert(sizeof(Patch) == 40);
 
 /// A flat part of one element, from which it shoots: the whole of it where a polygon is cut into elements, less where a
-/// thing stands on it, one of many where an element is a cluster of small triangles. Facets of a patch follow its elements' order, so that those near each other lie
-/// together.
+/// thing stands on it, one of many where an element is a cluster of small triangles. Facets of a patch follow its
+/// elements' order, so that those near each other lie together.
 struct Facet {
   std::uint32_t polygon;  ///< index into the PE's polygons
   std::uint32_t code;     ///< which triangle of its grid: location_code (triangle_grid.hpp)

@@ -149,6 +149,78 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_THAT(settled.outputs, testing::ElementsAre("a.exr", "b.pfm"));
 }
 
+Quality quality_of(const Scene& scene, const char* preset) {
+  RenderOptions options;
+  options.preset = preset_named(preset);
+  return settle(options, scene).quality;
+}
+
+TEST(Settle, APresetIsAllThatABareSceneGets) {
+  for (const Preset& preset : kPresets) {
+    Quality should;
+    apply(preset, should);
+    const Quality is = quality_of(bare_scene(), preset.name.data());
+    EXPECT_EQ(is.samples, should.samples);
+    EXPECT_EQ(is.hemicube, should.hemicube);
+    EXPECT_EQ(is.shot_points, should.shot_points);
+    EXPECT_EQ(is.emission_records, should.emission_records);
+    EXPECT_EQ(is.unshot, should.unshot);
+    EXPECT_EQ(is.refine, should.refine);
+    EXPECT_EQ(is.shadow_rays, should.shadow_rays);
+    EXPECT_EQ(is.patch_factor, should.patch_factor);
+    EXPECT_EQ(is.element_factor, should.element_factor);
+  }
+}
+
+// A scene says what it needs at `normal`, or at the preset that it names.
+TEST(Settle, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
+  Scene scene = bare_scene();
+  scene.defaults.samples = 32;
+  scene.defaults.emission_records = 12'000'000;
+  scene.defaults.patch_length = 2;
+  scene.defaults.element_length = 1;
+  scene.defaults.refine = 2;
+  scene.defaults.shadow_rays = true;
+  const Quality fine = quality_of(scene, "fine");
+  EXPECT_EQ(fine.samples, 128U);
+  EXPECT_EQ(fine.emission_records, 48'000'000U);
+  EXPECT_EQ(fine.patch_length, 1.0);
+  EXPECT_EQ(fine.element_length, 1.0);
+  EXPECT_EQ(fine.refine, 2.0);
+  EXPECT_TRUE(fine.shadow_rays);
+  const Quality draft = quality_of(scene, "draft");
+  EXPECT_EQ(draft.samples, 8U);
+  EXPECT_EQ(draft.emission_records, 1'500'000U);
+  EXPECT_EQ(draft.patch_length, 4.0);
+  EXPECT_EQ(draft.element_length, 2.0);
+  EXPECT_EQ(draft.refine, 0.0);
+  EXPECT_TRUE(draft.shadow_rays);
+  scene.defaults.quality = "fine";
+  EXPECT_EQ(quality_of(scene, "fine").samples, 32U);
+  EXPECT_EQ(quality_of(scene, "normal").samples, 8U);
+}
+
+TEST(Settle, PresetsSendNoShadowRaysToLargeEmitters) {
+  Scene scene = bare_scene();
+  scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 3, 0}};
+  scene.materials.resize(2);
+  scene.materials[1].emission = {1, 1, 1};
+  scene.triangles.resize(2);
+  scene.triangles[0].position = {0, 1, 2};
+  scene.triangles[1].position = {0, 1, 3};
+  scene.triangles[1].material = 1;
+  EXPECT_FALSE(quality_of(scene, "fine").shadow_rays) << "three quarters of all surface emit";
+  RenderOptions options;
+  options.preset = preset_named("fine");
+  options.shadow_rays = true;
+  EXPECT_TRUE(settle(options, scene).quality.shadow_rays) << "asked for";
+  scene.defaults.shadow_rays = true;
+  EXPECT_TRUE(quality_of(scene, "fine").shadow_rays) << "the scene asks for them";
+  scene.defaults.shadow_rays.reset();
+  scene.positions[3] = {0, 0.1, 0};
+  EXPECT_TRUE(quality_of(scene, "fine").shadow_rays) << "a tenth";
+}
+
 TEST(Settle, FaultsOfTheSceneNameTheirPlace) {
   Scene scene = scene_with_defaults();
   scene.defaults.subspaces = "2x3";

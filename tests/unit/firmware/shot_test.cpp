@@ -250,6 +250,23 @@ TEST(Shot, DividesItsFluxExactly) {
   }
 }
 
+// Light reflected by a quarter: as many points as its greatest channel is worth, a whole grid, no more than asked for.
+TEST(Shot, LittleLightLeavesFromFewPoints) {
+  struct Case {
+    std::int64_t amount;
+    std::uint32_t grid;
+  };
+  for (const Case& shot : {Case{160'000, 1}, {800'000, 2}, {1'600'000, 2}, {1'640'000, 3}, {1LL << 40, 4}}) {
+    TestScene scene = lamp_in_room(4);
+    scene.points_per_quantum = 1e-5F;
+    FakeMachine machine(1);
+    begin_with(machine, scene, {1LL << 41, 1LL << 41, 1LL << 41}, {0, 0, 0});
+    const auto patch = static_cast<std::uint32_t>(machine.stores[0].patches.size() - 1);
+    const std::uint32_t records = machine.shoot(0, {{7, shot.amount, 0}, patch, 0, ShotKind::reflected, 0});
+    EXPECT_EQ(records, shot.grid * shot.grid * protocol::hemicube_pixels(6)) << shot.amount;
+  }
+}
+
 // A reflected shot takes `amount` and carries that times the reflectance; from the back it goes to the other half.
 TEST(Shot, ReflectsOnItsOwnSide) {
   FakeMachine machine(1);

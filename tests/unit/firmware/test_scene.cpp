@@ -92,7 +92,7 @@ class Builder {
     l.bounces = scene_.bounces;
     l.hemicube_size = scene_.hemicube_size;
     l.shot_points = l.emission_points = scene_.points;
-    l.points_per_quantum = 1;
+    l.points_per_quantum = scene_.points_per_quantum;
     l.pixel_scale = scene_.pixel_scale;
     l.least_weight = scene_.least_weight;
     l.layers = scene_.layers;

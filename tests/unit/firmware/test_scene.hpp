@@ -32,6 +32,7 @@ struct TestScene {
   std::uint32_t bounces = 32;
   std::uint32_t hemicube_size = 4;
   std::uint32_t points = 1;
+  float points_per_quantum = 1;
   float pixel_scale = 0x1p20F;
   float least_weight = 0;
   std::uint32_t layers = 0;
