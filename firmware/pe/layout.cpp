@@ -111,7 +111,8 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
   require(niu, from_1(l.shot_points, protocol::kMostShotPoints), LayoutField::shot_points, l.shot_points);
   require(niu, from_1(l.emission_points, protocol::kMostEmissionPoints), LayoutField::emission_points,
           l.emission_points);
-  require(niu, finite_positive(l.points_per_quantum), LayoutField::points_per_quantum, bits(l.points_per_quantum));
+  require(niu, finite_positive(l.points_per_quantum), LayoutField::points_per_quantum,
+          static_cast<std::uint32_t>(bits(l.points_per_quantum)));
 }
 
 }  // namespace

@@ -109,20 +109,10 @@ Hiding::Hiding(const Mesh& mesh, const Scene& scene) {
   for (std::uint32_t& thing : thing_of_) thing = number[thing];
 }
 
-/// Van Oosterom & Strackee 1983, "The solid angle of a plane triangle"; triangles that are seen from behind count
-/// against those that are seen from the front.
+/// Triangles that are seen from behind count against those that are seen from the front.
 double Hiding::solid_angle(const Thing& thing, const Vec3d& point) {
   double angle = 0;
-  for (const auto& corner : thing.corners) {
-    const Vec3d a = vec::subtract(corner[0], point);
-    const Vec3d b = vec::subtract(corner[1], point);
-    const Vec3d c = vec::subtract(corner[2], point);
-    const double la = vec::length(a);
-    const double lb = vec::length(b);
-    const double lc = vec::length(c);
-    angle += 2 * std::atan2(vec::dot(a, vec::cross(b, c)),
-                            la * lb * lc + vec::dot(a, b) * lc + vec::dot(b, c) * la + vec::dot(c, a) * lb);
-  }
+  for (const auto& corner : thing.corners) angle += vec::solid_angle(corner, point);
   return angle;
 }
 

@@ -150,20 +150,10 @@ class Sides {
     return six / 6;
   }
 
-  /// Whether a point off the surface is inside: winding number by solid angles (Van Oosterom & Strackee 1983).
+  /// Whether a point off the surface is inside: winding number by solid angles.
   bool inside(const Component& component, const Vec3d& point) const {
     double angle = 0;
-    for (const std::uint32_t t : component.triangles) {
-      const auto corner = corners(t);
-      const Vec3d a = vec::subtract(corner[0], point);
-      const Vec3d b = vec::subtract(corner[1], point);
-      const Vec3d c = vec::subtract(corner[2], point);
-      const double la = vec::length(a);
-      const double lb = vec::length(b);
-      const double lc = vec::length(c);
-      angle += 2 * std::atan2(vec::dot(a, vec::cross(b, c)),
-                              la * lb * lc + vec::dot(a, b) * lc + vec::dot(b, c) * la + vec::dot(c, a) * lb);
-    }
+    for (const std::uint32_t t : component.triangles) angle += vec::solid_angle(corners(t), point);
     return std::abs(angle) > 2 * std::numbers::pi;
   }
 

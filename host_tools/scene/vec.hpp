@@ -35,6 +35,18 @@ inline double largest(const Vec3d& a) {
   return std::max({a[0], a[1], a[2]});
 }
 
+/// Of a triangle seen from a point, in steradians; seen from behind it is negative (Van Oosterom & Strackee 1983, "The
+/// solid angle of a plane triangle").
+inline double solid_angle(const std::array<Vec3d, 3>& corner, const Vec3d& point) {
+  const Vec3d a = subtract(corner[0], point);
+  const Vec3d b = subtract(corner[1], point);
+  const Vec3d c = subtract(corner[2], point);
+  const double la = length(a);
+  const double lb = length(b);
+  const double lc = length(c);
+  return 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+}
+
 /// Axis-parallel box around points.
 struct Box {
   Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
