@@ -5,6 +5,8 @@ set datafile columnheaders
 set terminal svg size 900,600 font "sans,14" background "white"
 set logscale xy
 set grid
+set linetype 9 linecolor rgb "gray50"
+set linetype 10 linecolor rgb "brown"
 set key outside right
 set ylabel "relative RMSE of 4x4-pixel blocks [%]"
 set ytics (0.25, 0.5, 1, 2, 4, 8, 16, 32)
