@@ -112,7 +112,8 @@ Quality settle_quality(const RenderOptions& options, const Scene& scene) {
   Quality quality;
   const Preset scenes_preset = take_scenes(defaults, quality);
   if (options.preset) change_preset(scenes_preset, *options.preset, quality);
-  if (!defaults.shadow_rays && emitting_share(scene) > kMostEmittingShare) quality.shadow_rays = false;
+  if (quality.shadow_rays && !defaults.shadow_rays && emitting_share(scene) > kMostEmittingShare)
+    quality.shadow_rays = false;
   take_options(options, quality);
   // A preset makes the scene's own lengths shorter or longer; one that is given holds.
   const auto length = [](const std::optional<LengthOption>& given, const std::optional<double>& scenes, double factor) {

@@ -242,12 +242,11 @@ class ImageWriter {
     const double area = mesh_.facet_area(facet);
     double of_element = patch.is_clustered() ? area / mesh_.element_area(patch, facet.element) : 1;
     // Light that came beside a thing's foot must not leave under it. Where all is under it, next to nothing comes.
-    const std::optional<std::uint32_t> part = sending_part(mesh_, facet);
-    if (!part) of_element *= 0x1p-20;
+    if (!facet.sends_from) of_element *= 0x1p-20;
     // Never nothing, however small: a PE takes that for a mistake.
     const auto share = [](double value) { return std::max(static_cast<float>(value), 0x1p-100F); };
     put(layout_.facets, index,
-        protocol::Facet{local_polygon(facet.triangle), part.value_or(facet.code), facet.element,
+        protocol::Facet{local_polygon(facet.triangle), facet.sends_from.value_or(facet.code), facet.element,
                         std::min(share(area / patch.area), 1.0F), std::min(share(of_element), 1.0F)});
   }
 

@@ -75,8 +75,9 @@ bool hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code) {
 
 PlanePoint middle_of_grid(std::uint32_t code) {
   const auto corner = grid_points(code);
-  constexpr double third = 1.0 / (3U << protocol::kMostLevels);
-  return {third * (corner[0].i + corner[1].i + corner[2].i), third * (corner[0].j + corner[1].j + corner[2].j)};
+  constexpr double unit = 1.0 / (1U << protocol::kMostLevels);
+  return {unit * ((corner[0].i + corner[1].i + corner[2].i) / 3.0),
+          unit * ((corner[0].j + corner[1].j + corner[2].j) / 3.0)};
 }
 
 Hiding::Hiding(const Mesh& mesh, const Scene& scene) {

@@ -202,7 +202,7 @@ Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, dou
   crossed.reserve(mesh.facets.size());
   for (const MeshFacet& facet : mesh.facets) {
     crossed.push_back(mesh.walls.cross(facet.triangle, facet.code));
-    covered.push_back(crossed.back() && sending_part(mesh, facet) != facet.code);
+    covered.push_back(crossed.back() && facet.sends_from != facet.code);
   }
   const std::array<SideLight, 2> light{SideLight(mesh, flux, crossed, covered, 0),
                                        SideLight(mesh, flux, crossed, covered, 1)};

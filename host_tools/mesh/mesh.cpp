@@ -254,6 +254,7 @@ Mesh make_mesh(const Scene& scene, const MeshChoice& choice) {
   take_triangles(scene, mesh);
   choose_sides(scene, choice, mesh);
   make_patches(choose_cutting(scene, choice, mesh), choice.splits, mesh);
+  for (MeshFacet& facet : mesh.facets) facet.sends_from = sending_part(mesh, facet);
   for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, choice.texels));
   set_reflectances(scene, mesh);
   return mesh;

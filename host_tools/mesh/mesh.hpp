@@ -68,8 +68,9 @@ struct MeshPart {
 /// The flat piece of an element that one leaf of a tree stands for.
 struct MeshFacet {
   std::uint32_t triangle = 0;
-  std::uint32_t code = 0;     ///< protocol::location_code
-  std::uint32_t element = 0;  ///< of the patch
+  std::uint32_t code = 0;                                  ///< protocol::location_code
+  std::uint32_t element = 0;                               ///< of the patch
+  std::optional<std::uint32_t> sends_from = std::nullopt;  ///< sending_part()
 };
 
 struct MeshPatch {
@@ -83,6 +84,10 @@ struct MeshPatch {
   std::array<std::uint32_t, 2> side{protocol::kNoSide, protocol::kNoSide};           ///< front, back: global number
   std::array<std::uint32_t, 2> first_element{protocol::kNoSide, protocol::kNoSide};  ///< likewise
 
+  /// Of the three channels.
+  double mean_reflectance() const {
+    return (static_cast<double>(reflectance[0]) + reflectance[1] + reflectance[2]) * 0x1p-32 / 3;
+  }
   /// Its elements are of several triangles each.
   bool is_clustered() const { return facets > elements; }
 };

@@ -17,8 +17,8 @@ struct DraftLight {
 
 /// Elements of the mesh to be cut in four, and then of their children, so that about `more` elements are added on all
 /// sides: first those whose light, were it interpolated, would be most wrong, times their area (an order over the whole
-/// scene, by integers). Noise is no reason to cut, nor are elements cut whose
-/// children would get next to no records. Clusters are not cut. Ascending.
+/// scene, by integers). Noise is no reason to cut, nor are elements cut whose children would get next to no records.
+/// Clusters are not cut. Ascending.
 std::vector<Split> choose_splits(const Mesh& mesh, const Scene& scene, const DraftLight& draft, std::uint64_t more);
 
 }  // namespace torolux

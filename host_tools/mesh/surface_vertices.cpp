@@ -119,10 +119,8 @@ class Joiner {
     return wall_before(part.facet, part.from, part.to) || wall_before(edge.facet, a, b);
   }
   bool wall_before(std::uint32_t facet, const GridPoint& a, const GridPoint& b) const {
-    const auto corners = grid_points(mesh_.facets[facet].code);
-    const PlanePoint centre = on_plane((corners[0].i + corners[1].i + corners[2].i) / 3.0,
-                                       (corners[0].j + corners[1].j + corners[2].j) / 3.0);
-    return mesh_.walls.between(mesh_.facets[facet].triangle, side_, centre,
+    const MeshFacet& from = mesh_.facets[facet];
+    return mesh_.walls.between(from.triangle, side_, middle_of_grid(from.code),
                                on_plane((a.i + b.i) / 2.0, (a.j + b.j) / 2.0));
   }
 

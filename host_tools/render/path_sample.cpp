@@ -54,7 +54,8 @@ class Follower {
       sample_.hits[static_cast<std::size_t>(met.triangle - mesh_.triangles.data())][front ? 0 : 1] += path.flux;
       const std::uint32_t patch = walker_.deposit(met, path.cell);
       fallen += path.flux;
-      if (chance.uniform() * fallen < path.flux) chosen = Start{path.ray.origin, normal, reflectance(patch)};
+      if (chance.uniform() * fallen < path.flux)
+        chosen = Start{path.ray.origin, normal, mesh_.patches[patch].mean_reflectance()};
       if (!is_glossy(material) || !go_on(path, normal, material, patch, chance)) break;
     }
     if (chosen) chosen->flux *= fallen;
@@ -77,11 +78,6 @@ class Follower {
     SampleWalker::Cell cell;
     double flux;
   };
-
-  double reflectance(std::uint32_t patch) const {
-    const auto& channels = mesh_.patches[patch].reflectance;
-    return (static_cast<double>(channels[0]) + channels[1] + channels[2]) * 0x1p-32 / 3;
-  }
 
   void turn(Path& path, const Vec3d& normal, const SceneMaterial& material) {
     walker_.work_at(path.cell).turns += 1;

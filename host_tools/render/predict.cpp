@@ -69,8 +69,7 @@ std::vector<Source> sources_of(const Scene& scene, const RenderSetup& setup, con
   std::vector<Source> sources;
   for (std::size_t p = 0; p < setup.mesh.patches.size(); ++p) {
     const MeshPatch& patch = setup.mesh.patches[p];
-    double reflectance = 0;
-    for (const std::uint32_t channel : patch.reflectance) reflectance += static_cast<double>(channel) * 0x1p-32 / 3;
+    const double reflectance = patch.mean_reflectance();
     const std::uint32_t pe = setup.placement.patch_home[p].pe;
     for (std::uint32_t side = 0; side < 2; ++side) {
       if (patch.side[side] == protocol::kNoSide) continue;

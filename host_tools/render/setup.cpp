@@ -44,6 +44,7 @@ void check(const Quality& quality, const MachineChoice& machine) {
 
 /// A record of reflected light is to carry no less than this part of what a record of emission does, on average.
 constexpr double kFaintestRecord = 0.2;
+
 void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality, StageParameters& parameters) {
   double emitting = 0;
   for (const MeshPatch& patch : mesh.patches) {

@@ -36,8 +36,8 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);
 
-/// The settings of a draft, which is quick and rough, but for the light straight from emitters, whose shadows it is to
-/// find.
+/// The settings of a draft, which is quick and rough, but least so for light straight from emitters, whose shadows it
+/// is to find.
 Quality draft_of(Quality quality);
 /// Drafts of a refined solution, each on the mesh that the one before asked for: so edges of light are followed.
 inline constexpr unsigned kDrafts = 2;
