@@ -10,6 +10,7 @@
 #include "firmware/pe/walk.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
+#include "firmware/protocol/stratified.hpp"
 
 namespace torolux::pe {
 namespace {
@@ -60,17 +61,20 @@ std::uint32_t grid_of(const protocol::StageLayout& layout, const Shot& shot) {
   return grid;
 }
 
-/// Sets up the current point: its share of the flux, its place, its spin.
+std::uint32_t key_of(const Scene& scene, const Shoot& shoot) {
+  std::uint32_t key = protocol::hash_combine(scene.layout.seed, scene.patches[shoot.patch].number);
+  key = protocol::hash_combine(key, shoot.side * 2U + static_cast<std::uint32_t>(shoot.kind));
+  return protocol::hash_combine(key, shoot.number);
+}
+
+/// Sets up the current point: its share of the flux, its place.
 void begin_point(Pe& pe) {
   Shot& shot = pe.shot;
   shot.passed = {};
   shot.weight = 0;
   shot.next_pixel = 0;
   const Patch& patch = pe.scene.patches[shot.command.patch];
-  std::uint32_t key = protocol::hash_combine(pe.scene.layout.seed, patch.number);
-  key = protocol::hash_combine(key, shot.command.side * 2U + static_cast<std::uint32_t>(shot.command.kind));
-  key = protocol::hash_combine(key, shot.command.number);
-  shot.key = protocol::hash_combine(key, shot.point);
+  shot.point_key = protocol::hash_combine(shot.key, shot.point);
   place_point(pe.scene, shot);
   shot.seeks = seek_face(pe.scene.layout, shot.origin, pe.scene.subspaces[patch.subspace].cell) != protocol::kFaces;
 
@@ -107,12 +111,14 @@ bool next_pixel(Pe& pe) {
 void create_record(Pe& pe, Niu& niu) {
   const Shot& shot = pe.shot;
   const Patch& patch = pe.scene.patches[shot.command.patch];
-  const std::uint32_t key = protocol::hash_combine(shot.key, shot.pixel);
   // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
-  // hemi-cubes there are.
-  const PixelPoint at{protocol::uniform(key, Dimension::along), protocol::uniform(key, Dimension::across)};
+  // hemi-cubes there are. The shot's points share the pixel out among themselves: to what is far away they are one
+  // hemi-cube of so many times the pixels.
+  const protocol::StratifiedPair at =
+      protocol::stratified_pair(shot.point, protocol::hash_combine(shot.key, shot.pixel));
   const std::uint32_t n = pe.scene.layout.hemicube_size;
-  const glm::vec3 direction = pixel_direction(shot.frame, n, hemicube_pixel(n, shot.pixel), at);
+  const glm::vec3 direction = pixel_direction(shot.frame, n, hemicube_pixel(n, shot.pixel),
+                                              {protocol::uniform_float(at.x), protocol::uniform_float(at.y)});
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
   record.origin = to_array(shot.origin);
@@ -120,7 +126,7 @@ void create_record(Pe& pe, Niu& niu) {
   record.flux = shot.pixel_flux;
   record.subspace = patch.subspace;
   record.polygon = pe.scene.polygons[shot.polygon].number;
-  record.key = key;
+  record.key = protocol::hash_combine(shot.point_key, shot.pixel);
   record.kind = shot.seeks ? protocol::RecordKind::seek : protocol::RecordKind::light;
   record.bounce = 0;
   record.flags =
@@ -147,6 +153,7 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   shot.command = shoot;
   shot.flux = withdraw(pe, niu, shot.command);
   shot.grid = grid_of(pe.scene.layout, shot);
+  shot.key = key_of(pe.scene, shot.command);
   shot.active = true;
   shot.point = 0;
   shot.credits = 0;

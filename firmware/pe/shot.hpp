@@ -26,6 +26,7 @@ struct Shot {
   protocol::Shoot command{};
   protocol::Flux flux{};      ///< of the whole shot [quanta]
   std::uint32_t grid = 0;     ///< k: k * k points
+  std::uint32_t key = 0;      ///< of its random numbers
   std::uint32_t credits = 0;  ///< granted and not used yet
   // Of the points: each stands for an equal part of what the facets would send, one behind the other.
   bool by_area = false;    ///< facets send by their area alone
@@ -37,8 +38,8 @@ struct Shot {
   std::uint32_t polygon = 0;  ///< index
   glm::vec3 origin{};
   bool seeks = false;  ///< the point lies outside the subspace that holds the patch's centre
-  Frame frame{};       ///< spun
-  std::uint32_t key = 0;
+  Frame frame{};       ///< spun, by the same turn at all points
+  std::uint32_t point_key = 0;
   protocol::Flux share{};  ///< of the flux
   // Of the current pixel: the next record to create.
   std::uint32_t pixel = 0;

@@ -118,7 +118,7 @@ void place_point(const Scene& scene, Shot& shot) {
   const std::uint32_t points = shot.grid * shot.grid;
   const float part = sum_of(shot.all) / static_cast<float>(points);
   const auto begin = static_cast<float>(shot.point);
-  const float at = begin + protocol::uniform(shot.key, protocol::Dimension::place);
+  const float at = begin + protocol::uniform(shot.point_key, protocol::Dimension::place);
   const float along = walk_to(scene, shot, at * part, shot.walk);
   const Facet& facet = scene.facets[scene.patches[shot.command.patch].first_facet + shot.walk.facet];
   shot.polygon = facet.polygon;

@@ -30,8 +30,6 @@ enum class Dimension : std::uint32_t {
   fresnel,
   branch,
   emitter,
-  along,
-  across,
   place,
   lobe,
   lobe_height,

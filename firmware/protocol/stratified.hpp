@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random numbers of a pixel's samples that keep apart: pairs of a (0,2)-sequence, scrambled by a key. Of any 2^m
-// samples that begin at a multiple of 2^m, one lies in each of the 2^m cells of every grid of equal boxes over the unit
-// square.
+// Random numbers that keep apart, of a pixel's samples or of a shot's points: pairs of a (0,2)-sequence, scrambled by a
+// key. Of any 2^m of them that begin at a multiple of 2^m, one lies in each of the 2^m cells of every grid of equal
+// boxes over the unit square.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ struct Preset {
 /// `normal` is what Quality has built in.
 inline constexpr std::array<Preset, 3> kPresets{{
     {"draft", "a few seconds: to see what is there", 2, 2, 8, 3, 500'000, 0.02, 0, false, 4},
-    {"normal", "the default", 1, 1, 8, 6, 4'000'000, 0.002, 0, false, 16},
+    {"normal", "the default", 1, 1, 8, 6, 4'000'000, 0.002, 0, true, 16},
     {"fine", "minutes: sharp shadows, little noise", 0.5, 1, 8, 8, 16'000'000, 0.0005, 0.5, true, 64},
 }};
 
