@@ -2,6 +2,8 @@
 // Options and a scene enter, complete settings leave.
 #include "host_tools/cli/settle.hpp"
 
+#include <algorithm>
+
 #include "emulator/errors.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/scene/load_scene.hpp"
@@ -122,6 +124,8 @@ Quality settle_quality(const RenderOptions& options, const Scene& scene) {
   };
   quality.patch_length = length(options.patches, defaults.patch_length, quality.patch_factor);
   quality.element_length = length(options.elements, defaults.element_length, quality.element_factor);
+  // What is not refined is as fine as patches are, or as elements that are given.
+  quality.cluster_factor = options.elements ? 1 : std::min(1.0, quality.patch_factor / quality.element_factor);
   return quality;
 }
 

@@ -19,6 +19,7 @@ struct CutTriangle {
 /// [user units]
 struct MeshLengths {
   double patch = 0, element = 0;
+  double cluster = 0;  ///< elements of several small triangles each
 };
 
 /// Lengths that make about 300 patches and 4,500 elements of a small scene (see `data/references.md`: finer elements

@@ -113,17 +113,18 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh)
     if (!choice.patch_length || !choice.element_length) lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
     lengths.patch = choice.patch_length.value_or(lengths.patch * choice.patch_factor);
     lengths.element = choice.element_length.value_or(lengths.element * choice.element_factor);
+    lengths.cluster = lengths.element * choice.cluster_factor;
     std::size_t next = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.triangles[t].sides == 0) continue;
       const double edge = cut[next++].longest_edge;
       cutting.patch_level[t] = level_for(edge, lengths.patch);
       cutting.element_level[t] = std::max<int>(cutting.patch_level[t], level_for(edge, lengths.element));
-      small[t] = edge <= lengths.element / 2;
+      small[t] = edge <= lengths.cluster / 2;
     }
   }
   mesh.smooth = find_smooth_surfaces(mesh, small);
-  cutting.clusters = find_clusters(mesh, scene, small, lengths.patch, lengths.element);
+  cutting.clusters = find_clusters(mesh, scene, small, lengths.patch, lengths.cluster);
   for (const PatchCluster& cluster : cutting.clusters) {
     for (const ElementCluster& element : cluster) {
       for (const std::uint32_t t : element) cutting.patch_level[t] = cutting.element_level[t] = -1;

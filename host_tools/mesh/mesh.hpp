@@ -37,6 +37,7 @@ struct MeshChoice {
   std::uint32_t texels = 16384;                 ///< at most, of each texture
   std::vector<Split> splits = {};               ///< ascending
   double patch_factor = 1, element_factor = 1;  ///< of lengths that are chosen by themselves
+  double cluster_factor = 1;                    ///< of clusters, times the length of elements
 };
 
 struct MeshTriangle {

@@ -9,23 +9,30 @@
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/lattice.hpp"
+#include "host_tools/mesh/surface_vertices.hpp"
 
 namespace torolux {
 namespace {
 
-/// Levels that are added to an element at most,
+/// Levels that are added to an element at most.
 constexpr std::uint32_t kMostAdded = 3;
-/// and records of the draft that each part must expect: some dozens when all is solved again.
-constexpr double kLeastRecords = 4;
-/// A quarter as large an element, across which light changes half as much.
-constexpr std::int64_t kChildPart = 8;
+/// Spreads of the noise that light must differ by: one is no rarity among thousands of elements.
+constexpr double kSpreads = 2.5;
+
+/// How wrong interpolated light may be on an element, times its area.
+struct Doubt {
+  double light = 0;  ///< with noise
+  double noise = 0;  ///< its spread
+
+  double beyond_noise() const { return light - kSpreads * noise; }
+};
 
 struct Wish {
   std::int64_t key;  ///< how much cutting it helps
   Split split;
   std::uint32_t sides;  ///< 1 or 2
   std::uint32_t added;  ///< levels below the draft's element
-  double records;       ///< of the draft that came here, about
+  Doubt doubt;
 
   bool operator<(const Wish& other) const {  // the greatest comes first, of equal ones the first in the mesh
     return key != other.key ? key < other.key : split > other.split;
@@ -36,27 +43,99 @@ double sum_of(const protocol::Vec3f& v, const Vec3d& by) {
   return v[0] * by[0] + v[1] * by[1] + v[2] * by[2];
 }
 
-/// How wrong interpolated light may be on a side of an element: how far its own light lies off the mean of its
-/// corners', and, since shadows are sharper than elements show, some of how much the corners differ; each but for what
-/// may be noise of so many records.
-double doubt(const protocol::LatticeTriangle& corners, const protocol::Vec3f& own, const Vec3d& reflectance,
-             double records) {
-  std::array<double, 3> value{};
-  for (std::size_t c = 0; c < 3; ++c) value[c] = sum_of(corners.irradiance_over_pi[c], reflectance);
-  const double mean = (value[0] + value[1] + value[2]) / 3;
-  const auto [least, most] = std::minmax({value[0], value[1], value[2]});
-  const double light = sum_of(own, reflectance);
-  // Twice: a spread of one is no rarity among thousands of elements.
-  const double noise = records > 0 ? 2 * light / std::sqrt(records) : 0;
-  return std::max(0.0, std::abs(light - mean) - noise) + 0.25 * std::max(0.0, most - least - noise);
-}
+/// Of a facet: how far its own light lies off the mean of its corners', and its corners from each other.
+using Deviation = std::array<double, 4>;
 
-/// Of an element, both sides.
-struct Doubt {
-  Split split;
-  std::uint32_t sides;
-  double size;
-  double records;  ///< of the side that got more
+/// What interpolation makes of the two solutions on one side of all surfaces, and how much of it is noise: by how much
+/// they differ on the elements around.
+class SideDoubts {
+ public:
+  SideDoubts(const Mesh& mesh, const Scene& scene, const DraftLight& draft, const std::array<Lattice, 2>& lattices,
+             std::uint32_t side)
+      : mesh_(mesh), side_(side), vertices_(mesh, side), noise_(vertices_.count()) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      deviations_[k].resize(mesh.facets.size());
+      for (const MeshPatch& patch : mesh.patches) {
+        if (!has(patch)) continue;
+        for (std::uint32_t e = 0; e < patch.elements; ++e) {
+          deviations_[k][patch.first_facet + e] =
+              deviation(patch, e, draft[k], lattices[k], scene.materials[patch.material].diffuse);
+        }
+      }
+    }
+    note_noise();
+  }
+
+  bool has(const MeshPatch& patch) const { return patch.side[side_] != protocol::kNoSide && !patch.is_clustered(); }
+
+  /// Shadows are sharper than elements show, so some of what corners differ by counts, too.
+  Doubt of(std::uint32_t facet) const {
+    const Deviation& a = deviations_[0][facet];
+    const Deviation& b = deviations_[1][facet];
+    const auto mean = [&](std::size_t i) { return std::abs(a[i] + b[i]) / 2; };
+    // In a corner of the room noise is greater than beside it, and by luck both solutions may be wrong alike.
+    const Noise here = noise_of(facet);
+    Noise around;
+    for (const std::uint32_t v : vertices_.corners(facet)) around.add(noise_[v]);
+    const double own = std::max(here.own, around.own / around.count);
+    const double corners = std::max(here.corners, around.corners / around.count);
+    const double area = mesh_.facet_area(mesh_.facets[facet]);
+    return {area * (mean(0) + kOfCorners * std::max({mean(1), mean(2), mean(3)})),
+            area * (std::sqrt(own) + kOfCorners * std::sqrt(corners))};
+  }
+
+ private:
+  static constexpr double kOfCorners = 0.25;
+
+  /// Squares of the spread of two solutions' mean.
+  struct Noise {
+    double own = 0, corners = 0, count = 0;
+
+    void add(const Noise& more) {
+      own += more.own;
+      corners += more.corners;
+      count += more.count;
+    }
+  };
+
+  Deviation deviation(const MeshPatch& patch, std::uint32_t element, const std::vector<protocol::Flux>& flux,
+                      const Lattice& lattice, const Vec3d& reflectance) const {
+    const std::uint32_t facet = patch.first_facet + element;
+    const protocol::Flux& here = flux[patch.first_element[side_] + element];
+    const double to_radiance = 1 / (mesh_.facet_area(mesh_.facets[facet]) * std::numbers::pi);
+    protocol::Vec3f own{};
+    for (std::size_t c = 0; c < 3; ++c) own[c] = static_cast<float>(static_cast<double>(here[c]) * to_radiance);
+    const bool behind = side_ == 1 && patch.side[0] != protocol::kNoSide;
+    const auto& corners = lattice.triangles[lattice.first[facet] + (behind ? 1U : 0U)];
+    std::array<double, 3> value{};
+    for (std::size_t c = 0; c < 3; ++c) value[c] = sum_of(corners.irradiance_over_pi[c], reflectance);
+    return {sum_of(own, reflectance) - (value[0] + value[1] + value[2]) / 3, value[1] - value[0], value[2] - value[1],
+            value[0] - value[2]};
+  }
+
+  Noise noise_of(std::uint32_t facet) const {
+    const auto square = [&](std::size_t i) {
+      const double half = (deviations_[0][facet][i] - deviations_[1][facet][i]) / 2;
+      return half * half;
+    };
+    return {square(0), (square(1) + square(2) + square(3)) / 3, 1};
+  }
+
+  void note_noise() {
+    for (const MeshPatch& patch : mesh_.patches) {
+      if (!has(patch)) continue;
+      for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+        const Noise here = noise_of(f);
+        for (const std::uint32_t v : vertices_.corners(f)) noise_[v].add(here);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  std::uint32_t side_;
+  SurfaceVertices vertices_;
+  std::array<std::vector<Deviation>, 2> deviations_;  ///< by facet
+  std::vector<Noise> noise_;                          ///< by vertex, of the facets around it
 };
 
 /// What balancing has cut must stay so for its parts to be cut.
@@ -70,63 +149,56 @@ void add_ancestors(std::vector<Split>& splits) {
   splits.erase(std::unique(splits.begin(), splits.end()), splits.end());
 }
 
-double mean_of(const protocol::Flux& flux) {
-  return static_cast<double>(flux[0] + flux[1] + flux[2]) / 3;
-}
-
-std::vector<Doubt> doubts_of(const Mesh& mesh, const Scene& scene, const DraftLight& draft) {
-  const Lattice lattice = make_lattice(mesh, draft.flux, 1, 1);
-  std::vector<Doubt> doubts;
+/// The greater of its sides' for each element that may be cut; keys are not set.
+std::vector<Wish> wishes_of(const Mesh& mesh, const Scene& scene, const DraftLight& draft) {
+  const std::array<Lattice, 2> lattices{make_lattice(mesh, draft[0], 1, 1), make_lattice(mesh, draft[1], 1, 1)};
+  const std::array<SideDoubts, 2> sides{SideDoubts(mesh, scene, draft, lattices, 0),
+                                        SideDoubts(mesh, scene, draft, lattices, 1)};
+  std::vector<Wish> wishes;
   for (const MeshPatch& patch : mesh.patches) {
-    if (patch.is_clustered()) continue;
-    for (std::uint32_t e = 0; e < patch.elements; ++e) {
-      const MeshFacet& facet = mesh.facets[patch.first_facet + e];
-      const double area = mesh.facet_area(facet);
-      Doubt worst{{facet.triangle, facet.code}, 0, 0, 0};
-      for (std::uint32_t side = 0; side < 2; ++side) {
-        if (patch.side[side] == protocol::kNoSide) continue;
-        const protocol::Flux& here = draft.flux[patch.first_element[side] + e];
-        const double records = draft.of_record > 0 ? mean_of(here) / draft.of_record : HUGE_VAL;
-        protocol::Vec3f own{};
-        for (std::size_t c = 0; c < 3; ++c)
-          own[c] = static_cast<float>(static_cast<double>(here[c]) / area / std::numbers::pi);
-        const auto& corners = lattice.triangles[lattice.first[patch.first_facet + e] + worst.sides];
-        const Vec3d& reflectance = scene.materials[patch.material].diffuse;
-        worst.size = std::max(worst.size, area * doubt(corners, own, reflectance, records));
-        worst.records = std::max(worst.records, records);
-        ++worst.sides;
+    for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+      Wish wish{0, {mesh.facets[f].triangle, mesh.facets[f].code}, 0, 0, {}};
+      for (const SideDoubts& side : sides) {
+        if (!side.has(patch)) continue;
+        const Doubt doubt = side.of(f);
+        if (wish.sides == 0 || doubt.beyond_noise() > wish.doubt.beyond_noise()) wish.doubt = doubt;
+        ++wish.sides;
       }
-      doubts.push_back(worst);
+      if (wish.sides > 0) wishes.push_back(wish);
     }
   }
-  return doubts;
+  return wishes;
+}
+
+/// Of a quarter as large an element, across which light changes half as much. Its noise is twice as much; but that of
+/// the whole solution, which has some four times the records of both drafts, is half of the drafts'.
+Doubt of_child(const Wish& wish) {
+  return {wish.doubt.light / 8, wish.doubt.noise / (wish.added == 0 ? 4 : 2)};
 }
 
 }  // namespace
 
 std::vector<Split> choose_splits(const Mesh& mesh, const Scene& scene, const DraftLight& draft, std::uint64_t more) {
-  const std::vector<Doubt> doubts = doubts_of(mesh, scene, draft);
+  std::vector<Wish> all = wishes_of(mesh, scene, draft);
   double greatest = 0;
-  for (const Doubt& here : doubts) greatest = std::max(greatest, here.size);
+  for (const Wish& wish : all) greatest = std::max(greatest, wish.doubt.beyond_noise());
   std::priority_queue<Wish> wishes;
-  for (const Doubt& here : doubts) {
-    if (here.size <= 0) continue;
-    wishes.push({std::llround(std::ldexp(here.size / greatest, 60)), here.split, here.sides, 0, here.records});
-  }
+  const auto wish_for = [&](Wish wish) {
+    const double beyond = wish.doubt.beyond_noise();
+    if (beyond <= 0 || protocol::level_of_code(wish.split.code) == protocol::kMostLevels) return;
+    wish.key = std::llround(std::ldexp(beyond / greatest, 60));
+    wishes.push(wish);
+  };
+  for (const Wish& wish : all) wish_for(wish);
   std::vector<Split> splits;
   for (std::uint64_t added = 0; added < more && !wishes.empty();) {
     const Wish wish = wishes.top();
     wishes.pop();
-    if (wish.records < 4 * kLeastRecords || protocol::level_of_code(wish.split.code) == protocol::kMostLevels) continue;
     splits.push_back(wish.split);
     added += 3 * wish.sides;
     if (wish.added + 1 == kMostAdded) continue;
     for (std::uint32_t child = 0; child < 4; ++child) {
-      wishes.push({wish.key / kChildPart,
-                   {wish.split.triangle, wish.split.code << 2U | child},
-                   wish.sides,
-                   wish.added + 1,
-                   wish.records / 4});
+      wish_for({0, {wish.split.triangle, wish.split.code << 2U | child}, wish.sides, wish.added + 1, of_child(wish)});
     }
   }
   add_ancestors(splits);

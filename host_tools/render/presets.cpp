@@ -34,7 +34,6 @@ void apply(const Preset& preset, Quality& quality) {
   quality.emission_records = preset.emission_records;
   quality.unshot = preset.unshot;
   quality.refine = preset.refine;
-  quality.shadow_rays = preset.shadow_rays;
   quality.samples = preset.samples;
 }
 
@@ -49,7 +48,6 @@ void change_preset(const Preset& was, const Preset& is, Quality& quality) {
   quality.unshot = std::min(in_measure(quality.unshot, was.unshot, is.unshot), 1.0);
   const bool refined = quality.refine > was.refine && is.patch_factor <= was.patch_factor;
   quality.refine = refined ? std::max(quality.refine, is.refine) : is.refine;
-  quality.shadow_rays = is.shadow_rays || (quality.shadow_rays && !was.shadow_rays);
   quality.samples = in_measure(quality.samples, was.samples, is.samples, kMostSamples);
 }
 

@@ -17,15 +17,14 @@ struct Preset {
   std::uint32_t hemicube, shot_points, emission_records;
   double unshot;
   double refine;
-  bool shadow_rays;
   std::uint32_t samples;
 };
 
 /// `normal` is what Quality has built in.
 inline constexpr std::array<Preset, 3> kPresets{{
-    {"draft", "a few seconds: to see what is there", 2, 2, 8, 3, 500'000, 0.02, 0, false, 4},
-    {"normal", "the default", 1, 1, 8, 6, 4'000'000, 0.002, 0, true, 16},
-    {"fine", "minutes: sharp shadows, little noise", 0.5, 1, 8, 8, 16'000'000, 0.0005, 0.5, true, 64},
+    {"draft", "a few seconds: to see what is there", 2, 2, 8, 3, 500'000, 0.02, 0, 4},
+    {"normal", "the default", 1, 1, 8, 6, 4'000'000, 0.002, 0, 16},
+    {"fine", "minutes: little noise, light followed into corners", 0.5, 2, 4, 24, 24'000'000, 0.0005, 4, 64},
 }};
 
 /// Absent: there is none of this name.
@@ -34,8 +33,8 @@ std::optional<Preset> preset_named(std::string_view name);
 /// Sets all that a preset decides.
 void apply(const Preset& preset, Quality& quality);
 
-/// From `was`, at which a scene has settings of its own, to `is`: numbers change in the same measure, shadow rays stay,
-/// and so does refinement that goes beyond `is` (but not to a coarser preset).
+/// From `was`, at which a scene has settings of its own, to `is`: numbers change in the same measure; refinement
+/// stays that goes beyond `is` (but not to a coarser preset).
 void change_preset(const Preset& was, const Preset& is, Quality& quality);
 
 }  // namespace torolux

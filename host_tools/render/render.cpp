@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
+#include "firmware/protocol/random.hpp"
 #include "host_tools/mesh/refine.hpp"
 #include "host_tools/render/frame_layers.hpp"
 #include "host_tools/render/setup.hpp"
@@ -86,17 +87,20 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
   const Quality quality = draft_of(full);
   std::vector<Split> splits;
   std::uint64_t more = 0;
-  for (std::uint64_t round = 0; round < kDrafts; ++round) {
-    const RenderSetup setup = settled_setup(scene, quality, choice, image, splits);
-    if (round == 0) more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDrafts;
-    RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
-    Machine torolux(machine_setup(setup, quality, choice), image);
-    torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
-    if (!program.finished()) return std::nullopt;
-    const Solution& draft = *program.solution();
-    figures.draft_cycles += program.times().read;
-    figures.draft_records += draft.tally.rays;
-    const DraftLight light{incident_flux(draft, full.shadow_rays), flux_of_record(draft)};
+  for (std::uint32_t round = 0; round < kDraftRounds; ++round) {
+    RenderSetup setup = settled_setup(scene, quality, choice, image, splits);
+    DraftLight light;
+    for (std::uint32_t half = 0; half < light.size(); ++half) {
+      setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
+      RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
+      Machine torolux(machine_setup(setup, quality, choice), image);
+      torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
+      if (!program.finished()) return std::nullopt;
+      figures.draft_cycles += program.times().read;
+      figures.draft_records += program.solution()->tally.rays;
+      light[half] = incident_flux(*program.solution(), full.shadow_rays);
+    }
+    if (round == 0) more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDraftRounds;
     std::vector<Split> chosen = choose_splits(setup.mesh, scene, light, more);
     std::vector<Split> all;
     std::set_union(splits.begin(), splits.end(), chosen.begin(), chosen.end(), std::back_inserter(all));

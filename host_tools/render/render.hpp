@@ -30,6 +30,8 @@ struct Quality {
   std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
   std::optional<double> element_length;
   double patch_factor = 1, element_factor = 1;  ///< of lengths that are chosen by themselves
+  /// Of elements of several small triangles each, which are not refined, times the length of the others.
+  double cluster_factor = 1;
   /// Elements that are added where a draft of the solution says so, as a multiple of those without; 0: no draft.
   double refine = 0;
   std::uint32_t hemicube = 8;     ///< pixels across the top, even, 4..256
@@ -41,7 +43,7 @@ struct Quality {
   std::uint32_t max_shots = 0;  ///< patches shot in all; 0: no limit
   std::uint32_t bounces = 32;   ///< path segments
   /// Light straight from emitters comes by a shadow ray from each diffuse point that is seen, not from the elements.
-  bool shadow_rays = false;
+  bool shadow_rays = true;
   bool two_sided_lights = false;
   std::uint32_t texels = 16384;  ///< of each texture, at most; 1..kMostTexels
   std::uint64_t seed = 1;

@@ -62,9 +62,8 @@ void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality,
 }  // namespace
 
 Quality draft_of(Quality quality) {
-  quality.hemicube = std::max(8U, quality.hemicube / 4 * 2);
-  quality.shot_points = std::max(1U, quality.shot_points / 2);
-  quality.emission_records /= 4;
+  quality.shot_points = std::max(1U, quality.shot_points / 4);
+  quality.emission_records /= 8;
   quality.unshot = std::max(quality.unshot, 0.05);
   return quality;
 }
@@ -76,7 +75,7 @@ std::uint32_t machine_seed(std::uint64_t seed) {
 
 MeshChoice mesh_choice(const Quality& quality, const std::vector<Split>& splits) {
   return {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels, splits,
-          quality.patch_factor, quality.element_factor};
+          quality.patch_factor, quality.element_factor, quality.cluster_factor};
 }
 
 RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,

@@ -36,11 +36,12 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);
 
-/// The settings of a draft, which is quick and rough, but least so for light straight from emitters, whose shadows it
-/// is to find.
+/// The settings of a draft, which is quick and rough.
 Quality draft_of(Quality quality);
-/// Drafts of a refined solution, each on the mesh that the one before asked for: so edges of light are followed.
-inline constexpr unsigned kDrafts = 2;
+/// Refinement takes so many rounds, each on the mesh that the one before asked for: so edges of light are followed.
+inline constexpr unsigned kDraftRounds = 2;
+/// Drafts of all rounds: two of each, which differ by chance, so that noise is told from light.
+inline constexpr unsigned kDrafts = 2 * kDraftRounds;
 
 /// 32 bits of the user's seed.
 std::uint32_t machine_seed(std::uint64_t seed);

@@ -64,6 +64,7 @@ Json settings_json(const RunDescription& run, const RenderFigures& figures) {
           {"elements", value_or_auto(quality.element_length)},
           {"patch_factor", quality.patch_factor},
           {"element_factor", quality.element_factor},
+          {"cluster_factor", quality.cluster_factor},
           {"refine", quality.refine},
           {"hemicube", quality.hemicube},
           {"shot_points", quality.shot_points},

@@ -25,7 +25,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 5;
+constexpr std::uint16_t kVersion = 6;
 
 struct SavedSums {
   protocol::Tally tally;
@@ -100,6 +100,7 @@ void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected,
   differ("--elements (0: auto)", saved.element_length, expected.element_length);
   differ("patches of --quality", saved.patch_factor, expected.patch_factor);
   differ("elements of --quality", saved.element_factor, expected.element_factor);
+  differ("clusters of --quality", saved.cluster_factor, expected.cluster_factor);
   differ("--refine", saved.refine, expected.refine);
   differ("--unshot", saved.unshot, expected.unshot);
   differ("--seed", saved.seed, expected.seed);
@@ -176,6 +177,7 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   origin.element_length = quality.element_length.value_or(0);
   origin.patch_factor = quality.patch_factor;
   origin.element_factor = quality.element_factor;
+  origin.cluster_factor = quality.cluster_factor;
   origin.refine = quality.refine;
   origin.unshot = quality.unshot;
   origin.seed = quality.seed;

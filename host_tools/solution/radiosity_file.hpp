@@ -19,7 +19,7 @@ struct RadiosityOrigin {
   std::uint64_t geometry = 0;                   ///< hash of positions and triangles
   std::uint64_t materials = 0;                  ///< hash of all materials
   double patch_length = 0, element_length = 0;  ///< 0: auto
-  double patch_factor = 1, element_factor = 1, refine = 0;
+  double patch_factor = 1, element_factor = 1, cluster_factor = 1, refine = 0;
   double unshot = 0;
   std::uint64_t seed = 0;
   std::uint32_t hemicube = 0, shot_points = 0, max_shots = 0, bounces = 0;
@@ -29,7 +29,7 @@ struct RadiosityOrigin {
   std::uint32_t texels = 0;
   std::uint32_t unused = 0;
 };
-static_assert(sizeof(RadiosityOrigin) == 112);
+static_assert(sizeof(RadiosityOrigin) == 120);
 
 RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, const Mesh& mesh);
 

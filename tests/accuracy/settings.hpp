@@ -11,11 +11,11 @@ namespace torolux::accuracy {
 using Setting = Preset;
 
 inline constexpr std::array<Setting, 6> kSettings = {{
-    {"coarse", "", 4, 4, 6, 2, 100'000, 0.1, 0, false, 2},
+    {"coarse", "", 4, 4, 6, 2, 100'000, 0.1, 0, 2},
     kPresets[0],
-    {"rough", "", 1.4, 1.4, 8, 4, 1'500'000, 0.006, 0, false, 8},
+    {"rough", "", 1.4, 1.4, 8, 4, 1'500'000, 0.006, 0, 8},
     kPresets[1],
-    {"good", "", 0.7, 1, 8, 6, 8'000'000, 0.001, 0.25, true, 32},
+    {"good", "", 0.7, 1, 8, 6, 8'000'000, 0.001, 0.25, 32},
     kPresets[2],
 }};
 

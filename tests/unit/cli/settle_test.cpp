@@ -54,7 +54,7 @@ TEST(Settle, BuiltInValues) {
   EXPECT_EQ(settled.quality.unshot, built_in.unshot);
   EXPECT_EQ(settled.quality.patch_length, std::nullopt);
   EXPECT_FALSE(settled.quality.two_sided_lights);
-  EXPECT_FALSE(settled.quality.shadow_rays);
+  EXPECT_TRUE(settled.quality.shadow_rays);
   EXPECT_EQ(settled.quality.filter, built_in.filter);
   EXPECT_EQ(settled.machine.columns, 4U);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
@@ -166,7 +166,7 @@ TEST(Settle, APresetIsAllThatABareSceneGets) {
     EXPECT_EQ(is.emission_records, should.emission_records);
     EXPECT_EQ(is.unshot, should.unshot);
     EXPECT_EQ(is.refine, should.refine);
-    EXPECT_EQ(is.shadow_rays, should.shadow_rays);
+    EXPECT_TRUE(is.shadow_rays);
     EXPECT_EQ(is.patch_factor, should.patch_factor);
     EXPECT_EQ(is.element_factor, should.element_factor);
   }
@@ -179,22 +179,23 @@ TEST(Settle, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   scene.defaults.emission_records = 12'000'000;
   scene.defaults.patch_length = 2;
   scene.defaults.element_length = 1;
-  scene.defaults.refine = 2;
-  scene.defaults.shadow_rays = true;
+  scene.defaults.refine = 6;
+  scene.defaults.shadow_rays = false;
   const Quality fine = quality_of(scene, "fine");
   EXPECT_EQ(fine.samples, 128U);
-  EXPECT_EQ(fine.emission_records, 48'000'000U);
+  EXPECT_EQ(fine.emission_records, 72'000'000U);
   EXPECT_EQ(fine.patch_length, 1.0);
-  EXPECT_EQ(fine.element_length, 1.0);
-  EXPECT_EQ(fine.refine, 2.0);
-  EXPECT_TRUE(fine.shadow_rays);
+  EXPECT_EQ(fine.element_length, 2.0);
+  EXPECT_EQ(fine.cluster_factor, 0.25) << "half of normal's, as patches";
+  EXPECT_EQ(fine.refine, 6.0);
+  EXPECT_FALSE(fine.shadow_rays);
   const Quality draft = quality_of(scene, "draft");
   EXPECT_EQ(draft.samples, 8U);
   EXPECT_EQ(draft.emission_records, 1'500'000U);
   EXPECT_EQ(draft.patch_length, 4.0);
   EXPECT_EQ(draft.element_length, 2.0);
   EXPECT_EQ(draft.refine, 0.0);
-  EXPECT_TRUE(draft.shadow_rays);
+  EXPECT_FALSE(draft.shadow_rays);
   scene.defaults.quality = "fine";
   EXPECT_EQ(quality_of(scene, "fine").samples, 32U);
   EXPECT_EQ(quality_of(scene, "normal").samples, 8U);
@@ -219,6 +220,17 @@ TEST(Settle, PresetsSendNoShadowRaysToLargeEmitters) {
   scene.defaults.shadow_rays.reset();
   scene.positions[3] = {0, 0.1, 0};
   EXPECT_TRUE(quality_of(scene, "fine").shadow_rays) << "a tenth";
+}
+
+// Clusters are not refined, so they do not grow with elements that are; a length that is given is theirs, too.
+TEST(Settle, ClustersAreAsFineAsPatches) {
+  EXPECT_EQ(quality_of(bare_scene(), "normal").cluster_factor, 1.0);
+  EXPECT_EQ(quality_of(bare_scene(), "draft").cluster_factor, 1.0);
+  EXPECT_EQ(quality_of(bare_scene(), "fine").cluster_factor, 0.25);
+  RenderOptions options;
+  options.preset = preset_named("fine");
+  options.elements = LengthOption{0.5};
+  EXPECT_EQ(settle(options, bare_scene()).quality.cluster_factor, 1.0);
 }
 
 TEST(Settle, FaultsOfTheSceneNameTheirPlace) {
