@@ -32,6 +32,8 @@ void ClusterVertices::add(const MeshPatch& patch, std::uint32_t facet, const std
   const double area = mesh_.facet_area(here);
   const Vec3d normal = vec::scale(mesh_.facet_normal(here), area);
   const auto places = grid_corners(mesh_.triangles[here.triangle], here.code);
+  Facet& added = facets_.emplace_back();
+  added = {static_cast<std::uint32_t>(clusters_.size() - 1), {}, mesh_.facet_normal(here), area};
   for (std::size_t c = 0; c < 3; ++c) {
     if (corners[c] >= vertex_of_.size()) vertex_of_.resize(corners[c] + 1, protocol::kNoSide);
     std::uint32_t& v = vertex_of_[corners[c]];
@@ -43,13 +45,17 @@ void ClusterVertices::add(const MeshPatch& patch, std::uint32_t facet, const std
     vertices_[v].touching.push_back(static_cast<std::uint32_t>(clusters_.size() - 1));
     cluster.centre = vec::add(cluster.centre, vec::scale(places[c], area / 3));
     cluster.vertices.push_back(v);
+    added.vertex[c] = v;
   }
   cluster.normal = vec::add(cluster.normal, normal);
   cluster.area += area;
 }
 
 void ClusterVertices::link() {
-  for (Vertex& vertex : vertices_) sort_unique(vertex.touching);
+  for (Vertex& vertex : vertices_) {
+    sort_unique(vertex.touching);
+    if (vec::length(vertex.normal) > 0) vertex.normal = vec::unit(vertex.normal);
+  }
   beside_.resize(clusters_.size());
   for (std::uint32_t c = 0; c < clusters_.size(); ++c) {
     Cluster& cluster = clusters_[c];
@@ -63,39 +69,68 @@ void ClusterVertices::link() {
   }
 }
 
-void ClusterVertices::fit(Vertex& vertex) {
+std::vector<ClusterVertices::Near> ClusterVertices::near(const Vertex& vertex) const {
   const double reach = kReach * mesh_.lengths.element * mesh_.space.scale;
-  const Vec3d normal = vec::length(vertex.normal) > 0 ? vec::unit(vertex.normal) : vertex.normal;
   // Light does not pass from one cluster to another that it does not touch.
-  std::vector<std::uint32_t> near = vertex.touching;
-  std::vector<IrradianceSample> samples;
-  for (std::size_t n = 0; n < near.size(); ++n) {
-    const Cluster& cluster = clusters_[near[n]];
+  std::vector<std::uint32_t> seen = vertex.touching;
+  std::vector<Near> found;
+  for (std::size_t n = 0; n < seen.size(); ++n) {
+    const Cluster& cluster = clusters_[seen[n]];
     const Vec3d offset = vec::scale(vec::subtract(cluster.centre, vertex.place), 1 / reach);
     const double far = vec::length(offset);
     const double close = far < 1 ? (1 - far * far) * (1 - far * far) : 0;
     const double length = vec::length(cluster.normal);
-    const double alike = length > 0 ? std::max(0.0, vec::dot(cluster.normal, normal) / length) : 0;
+    const double alike = length > 0 ? std::max(0.0, vec::dot(cluster.normal, vertex.normal) / length) : 0;
     const bool touches = n < vertex.touching.size();
     // A little of what it touches in any case: a cluster may be longer than its reach.
     const double weight = std::max(close * alike * alike, touches ? 1e-3 : 0.0) * cluster.area;
     if (!(weight > 0)) continue;
-    samples.push_back({cluster.normal, offset, cluster.irradiance, weight});
-    for (const std::uint32_t other : beside_[near[n]]) {
-      if (std::find(near.begin(), near.end(), other) == near.end()) near.push_back(other);
+    found.push_back({seen[n], offset, weight});
+    for (const std::uint32_t other : beside_[seen[n]]) {
+      if (std::find(seen.begin(), seen.end(), other) == seen.end()) seen.push_back(other);
     }
   }
+  return found;
+}
+
+void ClusterVertices::fit(Vertex& vertex) const {
+  std::vector<IrradianceSample> samples;
+  for (const Near& at : near(vertex)) {
+    const Cluster& cluster = clusters_[at.cluster];
+    samples.push_back({cluster.normal, at.offset, cluster.irradiance, at.weight});
+  }
   vertex.fit = fit_irradiance(samples);
-  vertex.normal = normal;
+}
+
+void ClusterVertices::make_up() {
+  std::vector<Vec3d> missing;
+  for (const Cluster& cluster : clusters_) missing.push_back(cluster.irradiance);
+  for (const Facet& facet : facets_) {
+    const double share = facet.area / clusters_[facet.cluster].area / 3;
+    for (const std::uint32_t v : facet.vertex) {
+      missing[facet.cluster] =
+          vec::subtract(missing[facet.cluster], vec::scale(vertices_[v].fit.facing(facet.normal), share));
+    }
+  }
+  for (Vertex& vertex : vertices_) {
+    Vec3d sum{0, 0, 0};
+    double weight = 0;
+    for (const Near& at : near(vertex)) {
+      sum = vec::add(sum, vec::scale(missing[at.cluster], at.weight));
+      weight += at.weight;
+    }
+    vertex.fit.value = vec::add(vertex.fit.value, vec::scale(sum, 1 / weight));
+  }
 }
 
 void ClusterVertices::smooth(std::vector<VertexSum>& sums) {
   link();
+  for (Vertex& vertex : vertices_) fit(vertex);
+  make_up();
   vertex_of_.resize(sums.size(), protocol::kNoSide);
   for (std::size_t v = 0; v < sums.size(); ++v) {
     if (vertex_of_[v] == protocol::kNoSide) continue;
     Vertex& vertex = vertices_[vertex_of_[v]];
-    fit(vertex);
     double area = 0;
     for (const std::uint32_t c : vertex.touching) area += clusters_[c].area;
     vertex.touching = {};  // a dense mesh has many vertices

@@ -56,11 +56,29 @@ class ClusterVertices {
     IrradianceFit fit;
   };
 
+  /// A cluster that counts at a vertex.
+  struct Near {
+    std::uint32_t cluster;
+    Vec3d offset;  ///< of its centre, in units of the reach
+    double weight;
+  };
+  struct Facet {
+    std::uint32_t cluster;
+    std::array<std::uint32_t, 3> vertex;  ///< into `vertices_`
+    Vec3d normal;
+    double area;  ///< [user units^2]
+  };
+
   void link();
-  void fit(Vertex& vertex);
+  std::vector<Near> near(const Vertex& vertex) const;
+  void fit(Vertex& vertex) const;
+  /// What was smoothed away of each cluster's own light is added again, itself smoothed ("twicing", Tukey 1977,
+  /// "Exploratory data analysis").
+  void make_up();
 
   const Mesh& mesh_;
   std::vector<Cluster> clusters_;
+  std::vector<Facet> facets_;
   std::vector<std::vector<std::uint32_t>> beside_;  ///< by cluster: which meet it at a vertex
   std::vector<std::uint32_t> vertex_of_;            ///< by vertex of the surface: number of `vertices_`, or kNoSide
   std::vector<Vertex> vertices_;

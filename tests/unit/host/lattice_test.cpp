@@ -295,6 +295,41 @@ TEST(Lattice, TrianglesOfClustersShowTheirOwnNormals) {
   EXPECT_NEAR(sum_shown, sum, 0.005 * sum) << "the mean stays what came";
 }
 
+// A dome of light over the floor: smoothing flattens it, but not by much.
+TEST(Lattice, ClustersKeepTheirOwnLight) {
+  const Mesh mesh = make_mesh(test::finely_tessellated_floor(), {.patch_length = 2, .element_length = 0.2});
+  std::vector<double> exact(mesh.elements, 0);
+  const auto for_each_floor_facet = [&](const auto& visit) {
+    for (const MeshPatch& patch : mesh.patches) {
+      if (!patch.is_clustered()) continue;
+      for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+        visit(f, patch.first_element[0] + mesh.facets[f].element, mesh.facet_area(mesh.facets[f]));
+      }
+    }
+  };
+  for_each_floor_facet([&](std::uint32_t f, std::uint32_t element, double area) {
+    const auto corner = grid_corners(mesh.triangles[mesh.facets[f].triangle], mesh.facets[f].code);
+    const double x = (corner[0][0] + corner[1][0] + corner[2][0]) / 3 / mesh.space.scale + mesh.space.origin[0];
+    exact[element] += 1e9 * area * x * (1 - x);
+  });
+  std::vector<protocol::Flux> flux(mesh.elements);
+  for (std::uint32_t e = 0; e < mesh.elements; ++e) flux[e] = {std::llround(exact[e]), 0, 0};
+  const Lattice lattice = make_lattice(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
+  std::vector<double> shown(mesh.elements, 0);
+  for_each_floor_facet([&](std::uint32_t f, std::uint32_t element, double area) {
+    const auto& corner = lattice.triangles[lattice.first[f]].irradiance_over_pi;
+    shown[element] += 1e9 * area * static_cast<double>(corner[0][0] + corner[1][0] + corner[2][0]) / 3;
+  });
+  double missing = 0;
+  double sum = 0;
+  for (std::uint32_t e = 0; e < mesh.elements; ++e) {
+    missing += std::abs(exact[e] - shown[e]);
+    sum += exact[e];
+  }
+  ASSERT_GT(sum, 0.0);
+  EXPECT_LT(missing / sum, 0.05) << "0.08 with nothing made up";
+}
+
 // Two finely tessellated floors, one close over the other: light on one must not show on the other.
 TEST(Lattice, NothingPassesBetweenClustersThatDoNotTouch) {
   test::SceneBuilder builder;
