@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Light at the vertices of clusters. Enters: the flux of their elements; leaves: sums for each vertex.
+// Light at the vertices of clusters. Enters: the flux of their elements; leaves: sums for each vertex, and how the
+// light there depends on the normal.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "host_tools/mesh/irradiance_fit.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
 namespace torolux {
@@ -25,8 +27,8 @@ struct VertexSum {
   }
 };
 
-/// A cluster spans many triangles, so each vertex takes the light of all elements that meet one of its triangles'
-/// corners, weighted by how near their centres are: without that, clusters would show as flat spots.
+/// A cluster spans many triangles that do not face alike, so each vertex finds from the clusters near it how irradiance
+/// varies with place and normal: without that, clusters would show as flat spots.
 class ClusterVertices {
  public:
   explicit ClusterVertices(const Mesh& mesh) : mesh_(mesh) {}
@@ -34,25 +36,52 @@ class ClusterVertices {
   /// A facet of a cluster: its corners' vertices, and the flux of its element.
   void add(const MeshPatch& patch, std::uint32_t facet, const std::array<std::uint32_t, 3>& corners,
            const protocol::Flux& flux);
-  /// Adds to the sums of all vertices that facets of clusters have.
-  void smooth(std::vector<VertexSum>& sums) const;
+  /// Adds to the sums of all vertices that facets of clusters have, once all have been added.
+  void smooth(std::vector<VertexSum>& sums);
+  /// Irradiance at a vertex of a cluster's facet with this normal, where the vertex itself has so much.
+  Vec3d facing(std::uint32_t vertex, const Vec3d& unit_normal, const Vec3d& irradiance) const;
 
  private:
   struct Cluster {
-    Vec3d centre{0, 0, 0};  ///< [normalised], times area until `smooth`
-    double area = 0;        ///< [user units^2]
-    protocol::Flux flux{};
+    Vec3d centre{0, 0, 0};      ///< [normalised], times area until `smooth`
+    Vec3d normal{0, 0, 0};      ///< mean, likewise
+    double area = 0;            ///< [user units^2]
+    Vec3d irradiance{0, 0, 0};  ///< [quanta / user unit^2], flux until `smooth`
     std::vector<std::uint32_t> vertices;
   };
-  struct Corner {
-    std::uint32_t vertex;
-    std::uint32_t cluster;
-    Vec3d place;  ///< normalised
+  struct Vertex {
+    std::vector<std::uint32_t> touching;  ///< clusters; until `smooth`
+    Vec3d place{0, 0, 0};                 ///< normalised
+    Vec3d normal{0, 0, 0};                ///< of its facets, times their area until `smooth`
+    IrradianceFit fit;
   };
+
+  /// A cluster that counts at a vertex.
+  struct Near {
+    std::uint32_t cluster;
+    Vec3d offset;  ///< of its centre, in units of the reach
+    double weight;
+  };
+  struct Facet {
+    std::uint32_t cluster;
+    std::array<std::uint32_t, 3> vertex;  ///< into `vertices_`
+    Vec3d normal;
+    double area;  ///< [user units^2]
+  };
+
+  void link();
+  std::vector<Near> near(const Vertex& vertex) const;
+  void fit(Vertex& vertex) const;
+  /// What was smoothed away of each cluster's own light is added again, itself smoothed ("twicing", Tukey 1977,
+  /// "Exploratory data analysis").
+  void make_up();
 
   const Mesh& mesh_;
   std::vector<Cluster> clusters_;
-  std::vector<Corner> corners_;
+  std::vector<Facet> facets_;
+  std::vector<std::vector<std::uint32_t>> beside_;  ///< by cluster: which meet it at a vertex
+  std::vector<std::uint32_t> vertex_of_;            ///< by vertex of the surface: number of `vertices_`, or kNoSide
+  std::vector<Vertex> vertices_;
   std::uint32_t last_patch_ = protocol::kNoSide;
   std::uint32_t last_element_ = 0;
 };

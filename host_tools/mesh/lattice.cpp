@@ -23,7 +23,13 @@ class SideLight {
   /// crossed, covered: by facet, whether a wall crosses it and whether a thing lies on a part of it; outlive this.
   SideLight(const Mesh& mesh, std::span<const protocol::Flux> flux, const std::vector<bool>& crossed,
             const std::vector<bool>& covered, std::uint32_t side)
-      : mesh_(mesh), flux_(flux), crossed_(crossed), covered_(covered), side_(side), vertices_(mesh, side) {
+      : mesh_(mesh),
+        flux_(flux),
+        crossed_(crossed),
+        covered_(covered),
+        side_(side),
+        vertices_(mesh, side),
+        clusters_(mesh) {
     take_means();
     settle();
     for (int step = 0; step < kBorderSteps; ++step) {
@@ -35,9 +41,13 @@ class SideLight {
 
   const std::array<std::uint32_t, 3>& corners(std::uint32_t facet) const { return vertices_.corners(facet); }
   /// Irradiance at a facet's corners.
-  std::array<Vec3d, 3> at_corners(std::uint32_t facet) const {
+  std::array<Vec3d, 3> at_corners(const MeshPatch& patch, std::uint32_t facet) const {
     std::array<Vec3d, 3> light{};
     for (std::size_t c = 0; c < 3; ++c) light[c] = values_[corners(facet)[c]];
+    if (patch.is_clustered()) {
+      const Vec3d normal = mesh_.facet_normal(mesh_.facets[facet]);
+      for (std::size_t c = 0; c < 3; ++c) light[c] = clusters_.facing(corners(facet)[c], normal, light[c]);
+    }
     if (crossed_[facet] && is_hidden(facet)) show_lit_side(facet, light);
     return light;
   }
@@ -100,17 +110,16 @@ class SideLight {
   void take_means() {
     std::vector<VertexSum> sums(vertices_.count());
     std::vector<VertexSum> of_crossed(vertices_.count());
-    ClusterVertices clusters(mesh_);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
       if (patch.is_clustered()) {
-        clusters.add(patch, f, corners(f), flux);
+        clusters_.add(patch, f, corners(f), flux);
         return;
       }
       // What a wall crosses got the light of both sides, or of a part of its area.
       auto& into = crossed_[f] ? of_crossed : sums;
       for (const std::uint32_t corner : corners(f)) into[corner].add(flux, mesh_.facet_area(mesh_.facets[f]));
     });
-    clusters.smooth(sums);
+    clusters_.smooth(sums);
     for (std::size_t v = 0; v < sums.size(); ++v) {
       measured_.push_back(sums[v].area > 0);
       values_.push_back((sums[v].area > 0 ? sums[v] : of_crossed[v]).irradiance());
@@ -187,6 +196,7 @@ class SideLight {
   const std::vector<bool>& covered_;
   std::uint32_t side_;
   SurfaceVertices vertices_;
+  ClusterVertices clusters_;
   std::vector<Vec3d> values_;
   std::vector<bool> measured_;                    ///< by vertex: of elements that no wall crosses
   std::vector<bool> known_;                       ///< or taken from such a vertex
@@ -215,7 +225,7 @@ Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, dou
       for (std::uint32_t side = 0; side < 2; ++side) {
         if (patch.side[side] == protocol::kNoSide) continue;
         protocol::LatticeTriangle& triangle = lattice.triangles.emplace_back();
-        const std::array<Vec3d, 3> corners = light[side].at_corners(f);
+        const std::array<Vec3d, 3> corners = light[side].at_corners(patch, f);
         for (std::size_t c = 0; c < 3; ++c) triangle.irradiance_over_pi[c] = to_float(vec::scale(corners[c], factor));
       }
     }

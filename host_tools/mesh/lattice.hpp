@@ -18,9 +18,9 @@ struct Lattice {
 
 /// flux: incident, by global element (Mesh::elements of them), in quanta. watts_per_quantum: of the flux.
 /// unit_radiance: values are irradiance / pi in this unit [W/(m^2 sr)].
-/// A vertex takes the flux of all elements around it on its smooth surface, divided by their area; where they are
-/// clusters, of those near it, too, less the farther away their centres are. A vertex on the edge of a larger element
-/// is anchored: it lies on the line between that element's corners.
+/// A vertex takes the flux of all elements around it on its smooth surface, divided by their area. A vertex on the edge
+/// of a larger element is anchored: it lies on the line between that element's corners. Facets of clusters share their
+/// vertices' light but for what their own normals make of it.
 Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
                      double unit_radiance);
 

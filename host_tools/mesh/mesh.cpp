@@ -261,6 +261,13 @@ Mesh make_mesh(const Scene& scene, const MeshChoice& choice) {
   return mesh;
 }
 
+Vec3d Mesh::facet_normal(const MeshFacet& facet) const {
+  const auto& corner = triangles[facet.triangle].corner;
+  const Vec3d across = vec::cross(vec::subtract(to_double(corner[1]), to_double(corner[0])),
+                                  vec::subtract(to_double(corner[2]), to_double(corner[0])));
+  return vec::length(across) > 0 ? vec::unit(across) : across;
+}
+
 std::array<Vec3d, 3> grid_corners(const MeshTriangle& triangle, std::uint32_t code) {
   const protocol::GridTriangle grid = protocol::grid_triangle_of(code);
   constexpr double one = 1U << protocol::kMostLevels;

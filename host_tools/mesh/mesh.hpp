@@ -113,6 +113,8 @@ struct Mesh {
   std::vector<std::string> notes;
 
   double facet_area(const MeshFacet& facet) const;  ///< [user units^2]
+  /// Length 1; zero for one that has no area in float.
+  Vec3d facet_normal(const MeshFacet& facet) const;
   /// Of an element of a patch, [user units^2].
   double element_area(const MeshPatch& patch, std::uint32_t element) const;
   /// The facet that holds a point of a triangle with sides; b1, b2: weights of corners 1 and 2.
