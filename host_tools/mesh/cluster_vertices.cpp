@@ -70,7 +70,7 @@ void ClusterVertices::link() {
 }
 
 std::vector<ClusterVertices::Near> ClusterVertices::near(const Vertex& vertex) const {
-  const double reach = kReach * mesh_.lengths.element * mesh_.space.scale;
+  const double reach = kReach * mesh_.lengths.cluster * mesh_.space.scale;
   // Light does not pass from one cluster to another that it does not touch.
   std::vector<std::uint32_t> seen = vertex.touching;
   std::vector<Near> found;
