@@ -79,18 +79,19 @@ std::vector<Doubt> doubts_of(const Mesh& mesh, const Scene& scene, const DraftLi
   std::vector<Doubt> doubts;
   for (const MeshPatch& patch : mesh.patches) {
     if (patch.is_clustered()) continue;
-    for (std::uint32_t e = 0; e < patch.elements; ++e) {
-      const MeshFacet& facet = mesh.facets[patch.first_facet + e];
-      const double area = mesh.facet_area(facet);
+    for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+      const MeshFacet& facet = mesh.facets[f];
+      if (facet.is_piece || !(facet.seen > 0)) continue;
+      const double area = mesh.facet_area(facet) * facet.seen;
       Doubt worst{{facet.triangle, facet.code}, 0, 0, 0};
       for (std::uint32_t side = 0; side < 2; ++side) {
         if (patch.side[side] == protocol::kNoSide) continue;
-        const protocol::Flux& here = draft.flux[patch.first_element[side] + e];
+        const protocol::Flux& here = draft.flux[patch.first_element[side] + facet.element];
         const double records = draft.of_record > 0 ? mean_of(here) / draft.of_record : HUGE_VAL;
         protocol::Vec3f own{};
         for (std::size_t c = 0; c < 3; ++c)
           own[c] = static_cast<float>(static_cast<double>(here[c]) / area / std::numbers::pi);
-        const auto& corners = lattice.triangles[lattice.first[patch.first_facet + e] + worst.sides];
+        const auto& corners = lattice.triangles[lattice.first[f] + worst.sides];
         const Vec3d& reflectance = scene.materials[patch.material].diffuse;
         worst.size = std::max(worst.size, area * doubt(corners, own, reflectance, records));
         worst.records = std::max(worst.records, records);
