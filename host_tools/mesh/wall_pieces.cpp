@@ -28,6 +28,7 @@ void cut(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code, std::uint
 std::uint32_t number_parts(const Mesh& mesh, std::uint32_t triangle, std::vector<WallPiece>& pieces) {
   const auto count = static_cast<std::uint32_t>(pieces.size());
   std::vector<PlanePoint> middle;
+  middle.reserve(count);
   for (const WallPiece& piece : pieces) middle.push_back(middle_of_grid(piece.code));
   DisjointSets joined(count);
   for (std::uint32_t a = 0; a < count; ++a) {

@@ -15,8 +15,8 @@ namespace torolux {
 namespace {
 
 constexpr MeshChoice kChoice{.patch_length = 0.5, .element_length = 0.25};
-/// A quarter of an element's length, in steps of a quarter.
-constexpr double kStep = 0.25 / 4 / 4;
+/// Elements are cut at level 3, twice more at walls, and pieces twice again.
+constexpr double kStep = 1.0 / 128;
 
 /// A floor of edge 1 with a wall on it, at x = 0.3, so far along y.
 Scene floor_with_wall(double until) {
