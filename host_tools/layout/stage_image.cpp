@@ -183,7 +183,7 @@ class ImageWriter {
     return first;
   }
 
-  /// number: of a leaf, from its element.
+  /// number: of a leaf, from its place among the facets of the tree.
   template <typename Number>
   std::uint32_t write_tree(std::uint32_t node, const Number& number) {
     if ((node & protocol::kLeaf) != 0) return protocol::kLeaf | number(node & ~protocol::kLeaf);
@@ -203,7 +203,8 @@ class ImageWriter {
       for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
         const MeshPart& part = mesh_.parts[triangle.first_part + path];
         const PatchHome& home = placement_.patch_home[part.patch];
-        const std::uint32_t tree = write_tree(part.tree, [](std::uint32_t element) { return element; });
+        const std::uint32_t tree =
+            write_tree(part.tree, [&](std::uint32_t leaf) { return mesh_.facets[part.facet + leaf].element; });
         put(layout_.patch_references, next++, protocol::PatchReference{home.local, home.pe, 0, tree});
       }
     }
@@ -240,7 +241,7 @@ class ImageWriter {
 
   void write_facet(const MeshPatch& patch, const MeshFacet& facet, std::uint32_t index) {
     const double area = mesh_.facet_area(facet);
-    double of_element = patch.is_clustered() ? area / mesh_.element_area(patch, facet.element) : 1;
+    double of_element = facet.of_element;
     // Light that came beside a thing's foot must not leave under it. Where all is under it, next to nothing comes.
     if (!facet.sends_from) of_element *= 0x1p-20;
     // Never nothing, however small: a PE takes that for a mistake.

@@ -61,16 +61,6 @@ Sets sets_of(const Mesh& mesh) {
   return sets;
 }
 
-/// Of parts that no wall touches: at its very foot, a wall fills more than it does beside it.
-bool hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code) {
-  if (mesh.walls.touch(triangle, code)) return false;
-  for (std::uint32_t side = 0; side < 2; ++side) {
-    if ((mesh.triangles[triangle].sides & (1U << side)) == 0) continue;
-    if (mesh.hiding.hides(mesh, triangle, side, middle_of_grid(code))) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 PlanePoint middle_of_grid(std::uint32_t code) {
@@ -133,10 +123,23 @@ bool Hiding::hides(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side,
   return false;
 }
 
+bool is_hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code) {
+  if (mesh.walls.touch(triangle, code)) return false;  // at its very foot, a wall fills more than it does beside it
+  for (std::uint32_t side = 0; side < 2; ++side) {
+    if ((mesh.triangles[triangle].sides & (1U << side)) == 0) continue;
+    if (mesh.hiding.hides(mesh, triangle, side, middle_of_grid(code))) return true;
+  }
+  return false;
+}
+
 std::optional<std::uint32_t> sending_part(const Mesh& mesh, const MeshFacet& facet) {
-  if (!mesh.walls.touch(facet.triangle, facet.code)) return facet.code;
+  if (!mesh.walls.touch(facet.triangle, facet.code)) {
+    // What came to a hidden part of an element came to its pieces that reach out beside the foot.
+    if (facet.is_piece && is_hidden(mesh, facet.triangle, facet.code)) return std::nullopt;
+    return facet.code;
+  }
   const std::uint32_t most = std::min(kParts, protocol::kMostLevels - protocol::level_of_code(facet.code));
-  const auto is_hidden = [&](std::uint32_t code) { return hidden(mesh, facet.triangle, code); };
+  const auto hidden = [&](std::uint32_t code) { return is_hidden(mesh, facet.triangle, code); };
   const auto parts = [&](std::uint32_t levels) {
     std::vector<std::uint32_t> codes;
     for (std::uint32_t path = 0; path < protocol::triangles_of_level(levels); ++path) {
@@ -144,10 +147,10 @@ std::optional<std::uint32_t> sending_part(const Mesh& mesh, const MeshFacet& fac
     }
     return codes;
   };
-  if (std::ranges::none_of(parts(most), is_hidden)) return facet.code;
+  if (std::ranges::none_of(parts(most), hidden)) return facet.code;
   for (std::uint32_t levels = 0; levels <= most; ++levels) {
     std::vector<std::uint32_t> open = parts(levels);
-    std::erase_if(open, [&](std::uint32_t code) { return mesh.walls.touch(facet.triangle, code) || is_hidden(code); });
+    std::erase_if(open, [&](std::uint32_t code) { return mesh.walls.touch(facet.triangle, code) || hidden(code); });
     // Any of them, so that not all elements along a wall lean one way.
     if (!open.empty()) return open[protocol::hash_combine(facet.triangle, facet.code) % open.size()];
   }

@@ -41,6 +41,10 @@ class Hiding {
 /// Of a triangle of a grid.
 PlanePoint middle_of_grid(std::uint32_t code);
 
+/// Whether a thing hides a triangle of a polygon's grid, on either side. Of one that a wall touches nothing is known:
+/// no.
+bool is_hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code);
+
 /// The part of a facet from which it sends light: all of it where nothing is hidden, else one that is not and that no
 /// wall touches. Absent: there is none. A location code.
 std::optional<std::uint32_t> sending_part(const Mesh& mesh, const MeshFacet& facet);

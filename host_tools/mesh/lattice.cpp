@@ -17,15 +17,18 @@ namespace {
 /// An element's own light against that of its corners is made up for at borders so many times.
 constexpr int kBorderSteps = 1;
 
+/// Where less of an element's area is seen, what shows there is its neighbours' light.
+constexpr double kNarrow = 0.5;
+
 /// Irradiance at all vertices of one side [quanta / user unit^2].
 class SideLight {
  public:
-  /// crossed, covered: by facet, whether a wall crosses it and whether a thing lies on a part of it; outlive this.
-  SideLight(const Mesh& mesh, std::span<const protocol::Flux> flux, const std::vector<bool>& crossed,
+  /// narrow, covered: by facet, whether little of it is seen and whether a thing lies on a part of it; outlive this.
+  SideLight(const Mesh& mesh, std::span<const protocol::Flux> flux, const std::vector<bool>& narrow,
             const std::vector<bool>& covered, std::uint32_t side)
       : mesh_(mesh),
         flux_(flux),
-        crossed_(crossed),
+        narrow_(narrow),
         covered_(covered),
         side_(side),
         vertices_(mesh, side),
@@ -48,7 +51,7 @@ class SideLight {
       const Vec3d normal = mesh_.facet_normal(mesh_.facets[facet]);
       for (std::size_t c = 0; c < 3; ++c) light[c] = clusters_.facing(corners(facet)[c], normal, light[c]);
     }
-    if (crossed_[facet] && is_hidden(facet)) show_lit_side(facet, light);
+    if (narrow_[facet] && is_hidden(facet)) show_lit_side(facet, light);
     return light;
   }
 
@@ -62,22 +65,21 @@ class SideLight {
       }
     }
   }
-  /// Its middle lies under a thing, or so it seems.
+  /// All of it lies under a thing, or so it seems.
   bool is_hidden(std::uint32_t facet) const {
-    const auto no_light = [this](std::uint32_t v) { return is_dark(values_[v]) || !known_[v]; };
-    if (std::ranges::any_of(corners(facet), no_light)) return true;
-    const MeshFacet& at = mesh_.facets[facet];
-    return mesh_.hiding.hides(mesh_, at.triangle, side_, middle_of_grid(at.code));
+    return !mesh_.facets[facet].sends_from ||
+           std::ranges::any_of(corners(facet), [this](std::uint32_t v) { return !known_[v]; });
   }
   static bool is_dark(const Vec3d& light) { return light == Vec3d{0, 0, 0}; }
+  static double sum_of(const Vec3d& light) { return light[0] + light[1] + light[2]; }
   std::uint64_t key(std::uint32_t facet, std::size_t corner) const {
     return vertex_key(mesh_, mesh_.facets[facet].triangle, grid_points(mesh_.facets[facet].code)[corner]);
   }
 
-  /// What crossed elements' corners are on the other side of the wall, where light comes.
+  /// What narrow elements' corners are on the other side of the wall, where light comes.
   void note_lit_sides() {
     for (std::uint32_t f = 0; f < mesh_.facets.size(); ++f) {
-      if (!crossed_[f]) continue;
+      if (!narrow_[f]) continue;
       for (std::size_t c = 0; c < 3; ++c) lit_.emplace(key(f, c), Vec3d{0, 0, 0});
     }
     if (lit_.empty()) return;
@@ -86,7 +88,7 @@ class SideLight {
         const std::uint32_t v = corners(f)[c];
         const Vec3d& light = values_[v];
         const auto found = is_dark(light) || !known_[v] ? lit_.end() : lit_.find(key(f, c));
-        if (found != lit_.end()) found->second = light;
+        if (found != lit_.end() && sum_of(found->second) < sum_of(light)) found->second = light;
       }
     });
   }
@@ -107,22 +109,33 @@ class SideLight {
     for (std::size_t c = 0; c < 3; ++c) light[c] = is_dark(beyond[c]) ? vec::scale(sum, 1 / known) : beyond[c];
   }
 
+  static void add_part(VertexSum& sum, const protocol::Flux& flux, double part, double area) {
+    for (std::size_t c = 0; c < 3; ++c) sum.flux[c] += part * static_cast<double>(flux[c]);
+    sum.area += area;
+  }
+
   void take_means() {
     std::vector<VertexSum> sums(vertices_.count());
-    std::vector<VertexSum> of_crossed(vertices_.count());
+    std::vector<VertexSum> of_narrow(vertices_.count());
+    at_wall_.assign(vertices_.count(), false);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
       if (patch.is_clustered()) {
         clusters_.add(patch, f, corners(f), flux);
         return;
       }
-      // What a wall crosses got the light of both sides, or of a part of its area.
-      auto& into = crossed_[f] ? of_crossed : sums;
-      for (const std::uint32_t corner : corners(f)) into[corner].add(flux, mesh_.facet_area(mesh_.facets[f]));
+      // Of what is narrow neither the area nor, from few records, the light is known well.
+      auto& into = narrow_[f] ? of_narrow : sums;
+      const MeshFacet& facet = mesh_.facets[f];
+      const double area = mesh_.facet_area(facet) * (facet.is_piece ? 1 : facet.seen);
+      for (const std::uint32_t corner : corners(f)) {
+        add_part(into[corner], flux, facet.of_element, area);
+        if (facet.seen < 1) at_wall_[corner] = true;
+      }
     });
     clusters_.smooth(sums);
     for (std::size_t v = 0; v < sums.size(); ++v) {
       measured_.push_back(sums[v].area > 0);
-      values_.push_back((sums[v].area > 0 ? sums[v] : of_crossed[v]).irradiance());
+      values_.push_back((sums[v].area > 0 ? sums[v] : of_narrow[v]).irradiance());
     }
   }
 
@@ -131,21 +144,21 @@ class SideLight {
     anchor();
   }
 
-  /// Vertices among elements that reach under things take their light from vertices on the same side of the foot, from
-  /// one to the next. What cannot be reached so stays unknown. Where a wall only parts two rooms, what crossed elements
-  /// got must do: it lies between the light of both, and so does what is seen of them on either side.
+  /// Vertices among what is narrow take their light from vertices on the same side, from one to the next.
+  /// What cannot be reached so shows what came there, unless a thing lies on a part of it: then it stays unknown.
   void spread() {
     known_ = measured_;
-    for (std::uint32_t f = 0; f < crossed_.size(); ++f) {
-      if (!crossed_[f] || covered_[f]) continue;
-      for (const std::uint32_t v : corners(f)) known_[v] = true;
+    for (const SurfaceVertices::Hanging& hanging : vertices_.hanging()) {
+      if (!known_[hanging.from] || !known_[hanging.to]) continue;
+      values_[hanging.vertex] = between_ends(hanging);
+      known_[hanging.vertex] = true;
     }
     for (bool more = true; more;) {
       more = false;
       std::vector<Vec3d> sums(values_.size(), {0, 0, 0});
       std::vector<double> counts(values_.size(), 0);
-      for (std::uint32_t f = 0; f < crossed_.size(); ++f) {
-        if (!crossed_[f] || !covered_[f]) continue;
+      for (std::uint32_t f = 0; f < narrow_.size(); ++f) {
+        if (!narrow_[f]) continue;
         for (const std::uint32_t from : corners(f)) {
           for (const std::uint32_t to : corners(f)) {
             if (!known_[from] || known_[to]) continue;
@@ -160,13 +173,18 @@ class SideLight {
         known_[v] = more = true;
       }
     }
+    for (std::uint32_t f = 0; f < narrow_.size(); ++f) {
+      if (!narrow_[f] || covered_[f]) continue;
+      for (const std::uint32_t v : corners(f)) known_[v] = true;
+    }
   }
 
   void anchor() {
-    for (const SurfaceVertices::Hanging& hanging : vertices_.hanging()) {
-      values_[hanging.vertex] = vec::add(vec::scale(values_[hanging.from], 1 - hanging.along),
-                                         vec::scale(values_[hanging.to], hanging.along));
-    }
+    for (const SurfaceVertices::Hanging& hanging : vertices_.hanging()) values_[hanging.vertex] = between_ends(hanging);
+  }
+  Vec3d between_ends(const SurfaceVertices::Hanging& hanging) const {
+    return vec::add(vec::scale(values_[hanging.from], 1 - hanging.along),
+                    vec::scale(values_[hanging.to], hanging.along));
   }
 
   /// The mean of the elements around a vertex is their light there only if they lie all around it. At a border it is
@@ -175,7 +193,7 @@ class SideLight {
     std::vector<Vec3d> missing(vertices_.count(), {0, 0, 0});
     std::vector<double> area(vertices_.count(), 0);
     for_each_facet([&](const MeshPatch& patch, std::uint32_t f, const protocol::Flux& flux) {
-      if (patch.is_clustered() || crossed_[f]) return;
+      if (patch.is_clustered() || mesh_.facets[f].seen < 1) return;
       const double facet_area = mesh_.facet_area(mesh_.facets[f]);
       const auto& corner = corners(f);
       for (std::size_t c = 0; c < 3; ++c) {
@@ -185,19 +203,20 @@ class SideLight {
       for (const std::uint32_t v : corner) area[v] += facet_area;
     });
     for (std::uint32_t v = 0; v < values_.size(); ++v) {
-      if (!vertices_.open(v) || !(area[v] > 0)) continue;
+      if (!vertices_.open(v) || !(area[v] > 0) || at_wall_[v]) continue;
       for (std::size_t c = 0; c < 3; ++c) values_[v][c] = std::max(0.0, values_[v][c] + missing[v][c] / area[v]);
     }
   }
 
   const Mesh& mesh_;
   std::span<const protocol::Flux> flux_;
-  const std::vector<bool>& crossed_;
+  const std::vector<bool>& narrow_;
   const std::vector<bool>& covered_;
   std::uint32_t side_;
   SurfaceVertices vertices_;
   ClusterVertices clusters_;
   std::vector<Vec3d> values_;
+  std::vector<bool> at_wall_;                     ///< by vertex: of elements of which a part is seen, or covered
   std::vector<bool> measured_;                    ///< by vertex: of elements that no wall crosses
   std::vector<bool> known_;                       ///< or taken from such a vertex
   std::unordered_map<std::uint64_t, Vec3d> lit_;  ///< by vertex_key
@@ -207,15 +226,14 @@ class SideLight {
 
 Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
                      double unit_radiance) {
-  std::vector<bool> crossed;
+  std::vector<bool> narrow;
   std::vector<bool> covered;
-  crossed.reserve(mesh.facets.size());
   for (const MeshFacet& facet : mesh.facets) {
-    crossed.push_back(mesh.walls.cross(facet.triangle, facet.code));
-    covered.push_back(crossed.back() && facet.sends_from != facet.code);
+    narrow.push_back(facet.seen < kNarrow);
+    covered.push_back(facet.sends_from != facet.code);
   }
-  const std::array<SideLight, 2> light{SideLight(mesh, flux, crossed, covered, 0),
-                                       SideLight(mesh, flux, crossed, covered, 1)};
+  const std::array<SideLight, 2> light{SideLight(mesh, flux, narrow, covered, 0),
+                                       SideLight(mesh, flux, narrow, covered, 1)};
   const double factor = watts_per_quantum / (std::numbers::pi * unit_radiance);
   Lattice lattice;
   lattice.first.assign(mesh.facets.size(), 0);

@@ -11,6 +11,7 @@
 #include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/reflectance.hpp"
 #include "host_tools/mesh/sides.hpp"
+#include "host_tools/mesh/wall_pieces.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -146,14 +147,13 @@ class PatchMaker {
     MeshTriangle& triangle = mesh_.triangles[t];
     triangle.patch_level = static_cast<std::uint8_t>(level);
     triangle.first_part = static_cast<std::uint32_t>(mesh_.parts.size());
-    triangle.facets = static_cast<std::uint32_t>(leaves_[t].size());
     next_leaf_ = 0;
     for (std::uint32_t path = 0; path < protocol::triangles_of_level(level); ++path) {
       begin();
       const auto facet = static_cast<std::uint32_t>(mesh_.facets.size());
       const std::uint32_t tree = grow(t, protocol::location_code(path, level));
       mesh_.parts.push_back({static_cast<std::uint32_t>(mesh_.patches.size() - 1), tree, facet});
-      mesh_.patches.back().elements = static_cast<std::uint32_t>(mesh_.facets.size()) - facet;
+      triangle.facets += static_cast<std::uint32_t>(mesh_.facets.size()) - facet;
       end();
     }
   }
@@ -161,39 +161,70 @@ class PatchMaker {
   void join(const PatchCluster& cluster) {
     begin();
     for (std::uint32_t e = 0; e < cluster.size(); ++e) {
+      double area = 0;
+      for (const std::uint32_t t : cluster[e]) area += mesh_.triangles[t].area;
       for (const std::uint32_t t : cluster[e]) {
         MeshTriangle& triangle = mesh_.triangles[t];
         triangle.patch_level = 0;
         triangle.first_part = static_cast<std::uint32_t>(mesh_.parts.size());
         triangle.facets = 1;
-        mesh_.parts.push_back({static_cast<std::uint32_t>(mesh_.patches.size() - 1), protocol::kLeaf | e,
+        mesh_.parts.push_back({static_cast<std::uint32_t>(mesh_.patches.size() - 1), protocol::kLeaf,
                                static_cast<std::uint32_t>(mesh_.facets.size())});
-        mesh_.facets.push_back({t, 1, e});
+        mesh_.facets.push_back({t, 1, e, triangle.area / area});
       }
     }
-    mesh_.patches.back().elements = static_cast<std::uint32_t>(cluster.size());
+    MeshPatch& patch = mesh_.patches.back();
+    patch.elements = static_cast<std::uint32_t>(cluster.size());
+    patch.triangles = static_cast<std::uint32_t>(mesh_.facets.size()) - patch.first_facet;
     end();
   }
 
  private:
   void begin() { mesh_.patches.emplace_back().first_facet = static_cast<std::uint32_t>(mesh_.facets.size()); }
 
-  /// The tree below one triangle of a grid; its leaves are the next ones of leaves_. Returns its node.
+  /// The tree below one triangle of a grid; its elements are the next ones of leaves_. Returns its node.
   std::uint32_t grow(std::uint32_t t, std::uint32_t code) {
-    const MeshPatch& patch = mesh_.patches.back();
     if (leaves_[t][next_leaf_] == code) {
       ++next_leaf_;
-      const auto element = static_cast<std::uint32_t>(mesh_.facets.size()) - patch.first_facet;
-      mesh_.facets.push_back({t, code, element});
-      return protocol::kLeaf | element;
+      return add_element(t, code);
     }
+    return grow_children(code, [&](std::uint32_t child) { return grow(t, child); });
+  }
+
+  template <typename Grow>
+  std::uint32_t grow_children(std::uint32_t code, const Grow& grow_child) {
     const auto first = static_cast<std::uint32_t>(mesh_.nodes.size());
     mesh_.nodes.resize(first + 4);
     for (std::uint32_t child = 0; child < 4; ++child) {
-      const std::uint32_t node = grow(t, code << 2U | child);
+      const std::uint32_t node = grow_child(code << 2U | child);
       mesh_.nodes[first + child] = node;
     }
     return first;
+  }
+
+  /// One element, or one for each part in which walls leave it. Returns its node.
+  std::uint32_t add_element(std::uint32_t t, std::uint32_t code) {
+    MeshPatch& patch = mesh_.patches.back();
+    const auto [pieces, parts] =
+        mesh_.walls.cross(t, code) ? wall_parts(mesh_, t, code) : WallParts{{{code, 0}}, {{1, true}}};
+    const auto first = static_cast<std::uint32_t>(mesh_.facets.size());
+    for (const auto& [piece, number] : pieces) {
+      const WallParts::Part& part = parts[number];
+      MeshFacet& facet = mesh_.facets.emplace_back(MeshFacet{t, piece, patch.elements + number});
+      facet.seen = part.seen ? part.area : 0;
+      if (pieces.size() == 1) continue;
+      facet.is_piece = true;
+      const std::uint32_t deeper = protocol::level_of_code(piece) - protocol::level_of_code(code);
+      facet.of_element = 1 / (part.area * protocol::triangles_of_level(deeper));
+    }
+    patch.elements += static_cast<std::uint32_t>(parts.size());
+    std::uint32_t next = first;
+    return grow_pieces(code, next);
+  }
+
+  std::uint32_t grow_pieces(std::uint32_t code, std::uint32_t& next) {
+    if (mesh_.facets[next].code == code) return protocol::kLeaf | (next++ - mesh_.patches.back().first_facet);
+    return grow_children(code, [&](std::uint32_t child) { return grow_pieces(child, next); });
   }
 
   void end() {
@@ -286,20 +317,16 @@ double Mesh::facet_area(const MeshFacet& facet) const {
 
 double Mesh::element_area(const MeshPatch& patch, std::uint32_t element) const {
   const auto begin = facets.begin() + patch.first_facet;
-  const auto [from, to] =
-      std::equal_range(begin, begin + patch.facets, MeshFacet{0, 0, element},
-                       [](const MeshFacet& a, const MeshFacet& b) { return a.element < b.element; });
-  double area = 0;
-  for (auto facet = from; facet != to; ++facet) area += facet_area(*facet);
-  return area;
+  const auto facet =
+      std::find_if(begin, begin + patch.facets, [&](const MeshFacet& f) { return f.element == element; });
+  return facet_area(*facet) / facet->of_element;
 }
 
 std::uint32_t Mesh::facet_at(std::uint32_t triangle, float b1, float b2) const {
   protocol::Weights at{(1.0F - b1) - b2, b1, b2};
   const MeshTriangle& of = triangles[triangle];
   const MeshPart& part = parts[of.first_part + protocol::enter_level(at, of.patch_level)];
-  const std::uint32_t leaf = protocol::find_leaf(nodes.data(), part.tree, at);
-  return (part.tree & protocol::kLeaf) != 0 ? part.facet : part.facet + leaf;
+  return part.facet + protocol::find_leaf(nodes.data(), part.tree, at);
 }
 
 }  // namespace torolux

@@ -62,15 +62,21 @@ struct MeshTriangle {
 /// What of a triangle belongs to one patch: all of it, or one triangle of its grid.
 struct MeshPart {
   std::uint32_t patch = 0;
-  std::uint32_t tree = 0;  ///< node, see triangle_grid.hpp: an index into Mesh::nodes; leaves are elements of the patch
+  std::uint32_t tree =
+      0;  ///< node, see triangle_grid.hpp: an index into Mesh::nodes; leaves are facets from `facet` on
   std::uint32_t facet = 0;  ///< of the tree's first leaf; those of the others follow
 };
 
-/// The flat piece of an element that one leaf of a tree stands for.
+/// The flat piece of an element that one leaf of a tree stands for: all of it, a triangle of a cluster, or where walls
+/// part it, one of the pieces on its side of them.
 struct MeshFacet {
   std::uint32_t triangle = 0;
-  std::uint32_t code = 0;                                  ///< protocol::location_code
-  std::uint32_t element = 0;                               ///< of the patch
+  std::uint32_t code = 0;     ///< protocol::location_code
+  std::uint32_t element = 0;  ///< of the patch
+  double of_element = 1;      ///< its part of the element's area
+  bool is_piece = false;      ///< of an element that walls part from others
+  /// How much of the area between what walls part, or of its own, is seen on its side of them and under no thing.
+  double seen = 1;
   std::optional<std::uint32_t> sends_from = std::nullopt;  ///< sending_part()
 };
 
@@ -79,6 +85,7 @@ struct MeshPatch {
   std::uint32_t first_facet = 0;
   std::uint32_t facets = 0;
   std::uint32_t elements = 0;                  ///< of each side
+  std::uint32_t triangles = 1;                 ///< of the scene, of which it has something
   double area = 0;                             ///< [user units^2]
   Vec3d centre{0, 0, 0};                       ///< normalised
   std::array<std::uint32_t, 3> reflectance{};  ///< diffuse, a texture's mean; in units of 2^-32
@@ -90,7 +97,7 @@ struct MeshPatch {
     return (static_cast<double>(reflectance[0]) + reflectance[1] + reflectance[2]) * 0x1p-32 / 3;
   }
   /// Its elements are of several triangles each.
-  bool is_clustered() const { return facets > elements; }
+  bool is_clustered() const { return triangles > elements; }
 };
 
 /// Global numbers run over patches in the order of their first triangles, then of its paths; front before back.
@@ -105,7 +112,7 @@ struct Mesh {
   Hiding hiding;
   std::vector<MeshPart> parts;
   std::vector<std::uint32_t> nodes;
-  std::vector<MeshFacet> facets;  ///< patch by patch, there by element
+  std::vector<MeshFacet> facets;  ///< patch by patch, there in the order of the trees' leaves
   std::vector<MeshPatch> patches;
   MeshLengths lengths;  ///< as given or chosen
   std::uint32_t patch_sides = 0;

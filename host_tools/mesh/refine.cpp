@@ -56,17 +56,20 @@ class SideDoubts {
     for (std::size_t k = 0; k < 2; ++k) {
       deviations_[k].resize(mesh.facets.size());
       for (const MeshPatch& patch : mesh.patches) {
-        if (!has(patch)) continue;
-        for (std::uint32_t e = 0; e < patch.elements; ++e) {
-          deviations_[k][patch.first_facet + e] =
-              deviation(patch, e, draft[k], lattices[k], scene.materials[patch.material].diffuse);
+        for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+          if (!may_cut(patch, f)) continue;
+          deviations_[k][f] = deviation(patch, f, draft[k], lattices[k], scene.materials[patch.material].diffuse);
         }
       }
     }
     note_noise();
   }
 
-  bool has(const MeshPatch& patch) const { return patch.side[side_] != protocol::kNoSide && !patch.is_clustered(); }
+  /// Neither clusters nor what walls have cut as far as they can.
+  bool may_cut(const MeshPatch& patch, std::uint32_t facet) const {
+    const MeshFacet& at = mesh_.facets[facet];
+    return patch.side[side_] != protocol::kNoSide && !patch.is_clustered() && !at.is_piece && at.seen > 0;
+  }
 
   /// Shadows are sharper than elements show, so some of what corners differ by counts, too.
   Doubt of(std::uint32_t facet) const {
@@ -79,7 +82,7 @@ class SideDoubts {
     for (const std::uint32_t v : vertices_.corners(facet)) around.add(noise_[v]);
     const double own = std::max(here.own, around.own / around.count);
     const double corners = std::max(here.corners, around.corners / around.count);
-    const double area = mesh_.facet_area(mesh_.facets[facet]);
+    const double area = seen_area(facet);
     return {area * (mean(0) + kOfCorners * std::max({mean(1), mean(2), mean(3)})),
             area * (std::sqrt(own) + kOfCorners * std::sqrt(corners))};
   }
@@ -98,11 +101,14 @@ class SideDoubts {
     }
   };
 
-  Deviation deviation(const MeshPatch& patch, std::uint32_t element, const std::vector<protocol::Flux>& flux,
+  double seen_area(std::uint32_t facet) const {
+    return mesh_.facet_area(mesh_.facets[facet]) * mesh_.facets[facet].seen;
+  }
+
+  Deviation deviation(const MeshPatch& patch, std::uint32_t facet, const std::vector<protocol::Flux>& flux,
                       const Lattice& lattice, const Vec3d& reflectance) const {
-    const std::uint32_t facet = patch.first_facet + element;
-    const protocol::Flux& here = flux[patch.first_element[side_] + element];
-    const double to_radiance = 1 / (mesh_.facet_area(mesh_.facets[facet]) * std::numbers::pi);
+    const protocol::Flux& here = flux[patch.first_element[side_] + mesh_.facets[facet].element];
+    const double to_radiance = 1 / (seen_area(facet) * std::numbers::pi);
     protocol::Vec3f own{};
     for (std::size_t c = 0; c < 3; ++c) own[c] = static_cast<float>(static_cast<double>(here[c]) * to_radiance);
     const bool behind = side_ == 1 && patch.side[0] != protocol::kNoSide;
@@ -123,8 +129,8 @@ class SideDoubts {
 
   void note_noise() {
     for (const MeshPatch& patch : mesh_.patches) {
-      if (!has(patch)) continue;
       for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+        if (!may_cut(patch, f)) continue;
         const Noise here = noise_of(f);
         for (const std::uint32_t v : vertices_.corners(f)) noise_[v].add(here);
       }
@@ -159,7 +165,7 @@ std::vector<Wish> wishes_of(const Mesh& mesh, const Scene& scene, const DraftLig
     for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
       Wish wish{0, {mesh.facets[f].triangle, mesh.facets[f].code}, 0, 0, {}};
       for (const SideDoubts& side : sides) {
-        if (!side.has(patch)) continue;
+        if (!side.may_cut(patch, f)) continue;
         const Doubt doubt = side.of(f);
         if (wish.sides == 0 || doubt.beyond_noise() > wish.doubt.beyond_noise()) wish.doubt = doubt;
         ++wish.sides;

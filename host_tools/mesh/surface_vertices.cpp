@@ -18,6 +18,9 @@ PlanePoint on_plane(double i, double j) {
   return {unit * i, unit * j};
 }
 
+/// Points of an edge, from one end to the other, that may be free where a thing lies on its middle.
+constexpr std::array kOtherWays{0.1, 0.25, 0.75, 0.9};
+
 /// An edge of a facet, from corner `corner` to the next one.
 struct FacetEdge {
   std::uint64_t low, high;  ///< keys of its ends, low < high
@@ -111,17 +114,25 @@ class Joiner {
     join({part.facet, part.corner, middle, part.to, half, part.end});
   }
 
-  /// On the way from one facet's centre over the middle of the shared edge to the other's.
+  /// On the way from one facet over the middle of the shared edge to the other; where a thing lies on a part of them,
+  /// on other ways, too.
   bool wall_between(const Part& part, const FacetEdge& edge) const {
     const auto corners = grid_points(mesh_.facets[edge.facet].code);
-    const GridPoint& a = corners[edge.corner];
-    const GridPoint& b = corners[(edge.corner + 1) % 3];
-    return wall_before(part.facet, part.from, part.to) || wall_before(edge.facet, a, b);
+    const bool same_way = keys_[3 * edge.facet + edge.corner] == key(part.facet, part.from);
+    const GridPoint& a = corners[same_way ? edge.corner : (edge.corner + 1) % 3];
+    const GridPoint& b = corners[same_way ? (edge.corner + 1) % 3 : edge.corner];
+    const auto blocked = [&](double along) {
+      return wall_before(part.facet, part.from, part.to, along) || wall_before(edge.facet, a, b, along);
+    };
+    if (!blocked(0.5)) return false;
+    return !(partly_covered(part.facet) || partly_covered(edge.facet)) || std::ranges::all_of(kOtherWays, blocked);
   }
-  bool wall_before(std::uint32_t facet, const GridPoint& a, const GridPoint& b) const {
+  bool partly_covered(std::uint32_t facet) const { return mesh_.facets[facet].sends_from != mesh_.facets[facet].code; }
+  /// Between the middle of what is seen of a facet and a point of its edge.
+  bool wall_before(std::uint32_t facet, const GridPoint& a, const GridPoint& b, double along) const {
     const MeshFacet& from = mesh_.facets[facet];
-    return mesh_.walls.between(from.triangle, side_, middle_of_grid(from.code),
-                               on_plane((a.i + b.i) / 2.0, (a.j + b.j) / 2.0));
+    return mesh_.walls.between(from.triangle, side_, middle_of_grid(from.sends_from.value_or(from.code)),
+                               on_plane(a.i * (1 - along) + b.i * along, a.j * (1 - along) + b.j * along));
   }
 
   void join_ends(const Part& part, std::uint64_t from, const FacetEdge& edge) {

@@ -182,4 +182,11 @@ bool Walls::between(std::uint32_t triangle, std::uint32_t side, const PlanePoint
   return std::any_of(walls.begin(), walls.end(), [&](const WallSegment& wall) { return meet(wall, from, behind); });
 }
 
+bool Walls::part(std::uint32_t triangle, const PlanePoint& a, const PlanePoint& b) const {
+  if (of_side_.empty()) return false;
+  return std::ranges::any_of(of_side_[triangle], [&](const std::vector<WallSegment>& walls) {
+    return std::ranges::any_of(walls, [&](const WallSegment& wall) { return meet(wall, a, b); });
+  });
+}
+
 }  // namespace torolux

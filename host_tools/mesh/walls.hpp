@@ -36,6 +36,8 @@ class Walls {
   bool touch(std::uint32_t triangle, std::uint32_t code) const { return pass_inside(triangle, code, 0.002); }
   /// Whether a wall on one side (0 front, 1 back) lies between two points of a triangle, or at the second one.
   bool between(std::uint32_t triangle, std::uint32_t side, const PlanePoint& from, const PlanePoint& to) const;
+  /// Whether a wall on either side lies between two points of a triangle.
+  bool part(std::uint32_t triangle, const PlanePoint& a, const PlanePoint& b) const;
 
  private:
   bool pass_inside(std::uint32_t triangle, std::uint32_t code, double inside) const;

@@ -36,7 +36,7 @@ double mean_of(const Picture& picture) {
 }
 
 // The floor, the ceiling and two walls run through under the partition, whose foot no edge of an element meets. What
-// shows in the dark room is what crossed elements, cut twice more than others, got from both sides.
+// shows in the dark room is what its steps of pieces let through: each piece lies on one side but for its corners.
 TEST(ThinWall, ElementsThatItCrossesLeakLittle) {
   for (const bool shadow_rays : {false, true}) {
     RenderCase crossed = room("crossed_wall");
@@ -48,8 +48,9 @@ TEST(ThinWall, ElementsThatItCrossesLeakLittle) {
     const double dark = mean_of(run_case(crossed).picture);
     crossed.camera = Camera{{0.1, 0.5, 0.9}, {0.93, 0.4, 0.3}, {0, 1, 0}, 70};
     const RenderResult bright = run_case(crossed);
-    // Seen: 0.66 % and 0.56 %, with more records about the same; 1.1 % and 0.9 % where crossed elements are not cut.
-    EXPECT_LT(dark, 0.008 * mean_of(bright.picture)) << "shadow rays: " << shadow_rays;
+    // Seen with four seeds, either way: 0.015 to 0.043 %, by how records fall on the pieces' steps. 0.4 to 0.7 % where
+    // crossed elements hold the light of both sides.
+    EXPECT_LT(dark, 0.001 * mean_of(bright.picture)) << "shadow rays: " << shadow_rays;
     EXPECT_EQ(escaped_share(bright.figures.energy), 0.0);
   }
 }

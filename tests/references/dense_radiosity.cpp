@@ -121,7 +121,7 @@ std::vector<DenseElement> dense_elements(const Scene& scene, const Mesh& mesh, b
     }
   }
   for (const MeshPatch& patch : mesh.patches) {
-    if (patch.is_clustered()) throw std::invalid_argument("the dense solution knows no clusters");
+    if (patch.facets != patch.elements) throw std::invalid_argument("the dense solution knows no elements of pieces");
     for (std::uint32_t e = 0; e < patch.elements; ++e) {
       const MeshFacet& facet = mesh.facets[patch.first_facet + e];
       for (std::size_t side = 0; side < 2; ++side) {

@@ -181,8 +181,8 @@ TEST(Lattice, NothingPassesUnderAWall) {
     double widest = 0;
     for (const MeshPatch& patch : mesh.patches) {
       if (mesh.facets[patch.first_facet].triangle > 1) continue;
-      for (std::uint32_t e = 0; e < patch.elements; ++e) {
-        const MeshFacet& facet = mesh.facets[patch.first_facet + e];
+      for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+        const MeshFacet& facet = mesh.facets[f];
         const auto corner = grid_corners(mesh.triangles[facet.triangle], facet.code);
         const auto x = [&](std::size_t c) {
           return (corner[c][0] - mesh.triangles[0].corner[0][0]) / mesh.space.scale;
@@ -190,17 +190,19 @@ TEST(Lattice, NothingPassesUnderAWall) {
         const auto [least, most] = std::minmax({x(0), x(1), x(2)});
         if (least < 0.299 && most > 0.301) widest = std::max(widest, most - least);
         const bool lit = (x(0) + x(1) + x(2)) / 3 > 0.3;
-        flux[patch.first_element[0] + e] = {lit ? std::llround(mesh.element_area(patch, e) * 1e9) : 0, 0, 0};
+        const double area = mesh.facet_area(facet) / facet.of_element;
+        flux[patch.first_element[0] + facet.element] = {lit ? std::llround(area * 1e12) : 0, 0, 0};
       }
     }
-    EXPECT_LT(widest, 0.07) << "elements that a wall crosses are cut";
-    const Lattice lattice = make_lattice(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
+    EXPECT_LT(widest, 0.008) << "elements that a wall crosses are cut";
+    const Lattice lattice = make_lattice(mesh, flux, 1e-12 * std::numbers::pi, 1.0);
     for (const float y : {0.2F, 0.5F, 0.9F}) {
       const auto at = [&](float x) {  // triangle 0: below the diagonal, corners (0,0) (1,0) (1,1)
         return x > y ? value_at(mesh, lattice, 0, x - y, y) : value_at(mesh, lattice, 1, x, y - x);
       };
-      EXPECT_NEAR(at(0.30F - 0.07F), 0.0, 1e-6) << "height " << height << " y " << y;
-      EXPECT_NEAR(at(0.30F + 0.07F), 1.0, 1e-6) << "height " << height << " y " << y;
+      // Weights in float, doubled at each of 7 levels.
+      EXPECT_NEAR(at(0.30F - 0.008F), 0.0, 1e-5) << "height " << height << " y " << y;
+      EXPECT_NEAR(at(0.30F + 0.008F), 1.0, 1e-5) << "height " << height << " y " << y;
     }
   }
 }

@@ -33,10 +33,10 @@ double x_of(const Mesh& mesh, const MeshFacet& facet) {
 std::vector<protocol::Flux> step_of_light(const Mesh& mesh) {
   std::vector<protocol::Flux> flux(mesh.elements);
   for (const MeshPatch& patch : mesh.patches) {
-    for (std::uint32_t e = 0; e < patch.elements; ++e) {
-      const MeshFacet& facet = mesh.facets[patch.first_facet + e];
+    for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+      const MeshFacet& facet = mesh.facets[f];
       const bool lit = facet.triangle <= 1 && x_of(mesh, facet) > 0.7;
-      flux[patch.first_element[0] + e] = {lit ? std::llround(mesh.element_area(patch, e) * 1e12) : 0, 0, 0};
+      flux[patch.first_element[0] + facet.element] = {lit ? std::llround(mesh.facet_area(facet) * 1e12) : 0, 0, 0};
     }
   }
   return flux;
