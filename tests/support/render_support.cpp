@@ -27,7 +27,7 @@ RenderCase native_case(const std::filesystem::path& scene) {
   result.quality.hemicube = 8;
   result.quality.shot_points = 2;
   result.quality.unshot = 0.01;
-  result.quality.shadow_rays = false;  // the radiosity stage is what most tests are about
+  result.quality.shadow_rays = false;         // the radiosity stage is what most tests are about
   result.quality.emission_records = 200'000;  // enough for means; tests of what is finer choose their own
   result.machine.engine = "native";
   // One PE and many credits: least time in hand-overs. Tests of the machine itself choose their own.
