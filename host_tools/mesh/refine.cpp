@@ -18,13 +18,17 @@ namespace {
 constexpr std::uint32_t kMostAdded = 3;
 /// Spreads of the noise that light must differ by: one is no rarity among thousands of elements.
 constexpr double kSpreads = 2.5;
+/// Records of both drafts together that each part must expect: some dozens when all is solved again. Where fewer come,
+/// two drafts may well agree by chance that nothing does.
+constexpr double kLeastRecords = 8;
 
 /// How wrong interpolated light may be on an element, times its area.
 struct Doubt {
-  double light = 0;  ///< with noise
-  double noise = 0;  ///< its spread
+  double light = 0;    ///< with noise
+  double noise = 0;    ///< its spread
+  double records = 0;  ///< of both drafts, that came here
 
-  double beyond_noise() const { return light - kSpreads * noise; }
+  double beyond_noise() const { return records < 4 * kLeastRecords ? 0 : light - kSpreads * noise; }
 };
 
 struct Wish {
@@ -52,13 +56,13 @@ class SideDoubts {
  public:
   SideDoubts(const Mesh& mesh, const Scene& scene, const DraftLight& draft, const std::array<Lattice, 2>& lattices,
              std::uint32_t side)
-      : mesh_(mesh), side_(side), vertices_(mesh, side), noise_(vertices_.count()) {
+      : mesh_(mesh), draft_(draft), side_(side), vertices_(mesh, side), noise_(vertices_.count()) {
     for (std::size_t k = 0; k < 2; ++k) {
       deviations_[k].resize(mesh.facets.size());
       for (const MeshPatch& patch : mesh.patches) {
         for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
           if (!may_cut(patch, f)) continue;
-          deviations_[k][f] = deviation(patch, f, draft[k], lattices[k], scene.materials[patch.material].diffuse);
+          deviations_[k][f] = deviation(patch, f, draft.flux[k], lattices[k], scene.materials[patch.material].diffuse);
         }
       }
     }
@@ -72,7 +76,7 @@ class SideDoubts {
   }
 
   /// Shadows are sharper than elements show, so some of what corners differ by counts, too.
-  Doubt of(std::uint32_t facet) const {
+  Doubt of(const MeshPatch& patch, std::uint32_t facet) const {
     const Deviation& a = deviations_[0][facet];
     const Deviation& b = deviations_[1][facet];
     const auto mean = [&](std::size_t i) { return std::abs(a[i] + b[i]) / 2; };
@@ -84,7 +88,7 @@ class SideDoubts {
     const double corners = std::max(here.corners, around.corners / around.count);
     const double area = seen_area(facet);
     return {area * (mean(0) + kOfCorners * std::max({mean(1), mean(2), mean(3)})),
-            area * (std::sqrt(own) + kOfCorners * std::sqrt(corners))};
+            area * (std::sqrt(own) + kOfCorners * std::sqrt(corners)), records_of(patch, facet)};
   }
 
  private:
@@ -103,6 +107,16 @@ class SideDoubts {
 
   double seen_area(std::uint32_t facet) const {
     return mesh_.facet_area(mesh_.facets[facet]) * mesh_.facets[facet].seen;
+  }
+
+  double records_of(const MeshPatch& patch, std::uint32_t facet) const {
+    if (!(draft_.of_record > 0)) return HUGE_VAL;
+    double flux = 0;
+    for (const auto& of_draft : draft_.flux) {
+      const protocol::Flux& here = of_draft[patch.first_element[side_] + mesh_.facets[facet].element];
+      flux += static_cast<double>(here[0] + here[1] + here[2]) / 3;
+    }
+    return flux / draft_.of_record;
   }
 
   Deviation deviation(const MeshPatch& patch, std::uint32_t facet, const std::vector<protocol::Flux>& flux,
@@ -138,6 +152,7 @@ class SideDoubts {
   }
 
   const Mesh& mesh_;
+  const DraftLight& draft_;
   std::uint32_t side_;
   SurfaceVertices vertices_;
   std::array<std::vector<Deviation>, 2> deviations_;  ///< by facet
@@ -157,7 +172,8 @@ void add_ancestors(std::vector<Split>& splits) {
 
 /// The greater of its sides' for each element that may be cut; keys are not set.
 std::vector<Wish> wishes_of(const Mesh& mesh, const Scene& scene, const DraftLight& draft) {
-  const std::array<Lattice, 2> lattices{make_lattice(mesh, draft[0], 1, 1), make_lattice(mesh, draft[1], 1, 1)};
+  const std::array<Lattice, 2> lattices{make_lattice(mesh, draft.flux[0], 1, 1),
+                                        make_lattice(mesh, draft.flux[1], 1, 1)};
   const std::array<SideDoubts, 2> sides{SideDoubts(mesh, scene, draft, lattices, 0),
                                         SideDoubts(mesh, scene, draft, lattices, 1)};
   std::vector<Wish> wishes;
@@ -166,7 +182,7 @@ std::vector<Wish> wishes_of(const Mesh& mesh, const Scene& scene, const DraftLig
       Wish wish{0, {mesh.facets[f].triangle, mesh.facets[f].code}, 0, 0, {}};
       for (const SideDoubts& side : sides) {
         if (!side.may_cut(patch, f)) continue;
-        const Doubt doubt = side.of(f);
+        const Doubt doubt = side.of(patch, f);
         if (wish.sides == 0 || doubt.beyond_noise() > wish.doubt.beyond_noise()) wish.doubt = doubt;
         ++wish.sides;
       }
@@ -179,7 +195,7 @@ std::vector<Wish> wishes_of(const Mesh& mesh, const Scene& scene, const DraftLig
 /// Of a quarter as large an element, across which light changes half as much. Its noise is twice as much; but that of
 /// the whole solution, which has some four times the records of both drafts, is half of the drafts'.
 Doubt of_child(const Wish& wish) {
-  return {wish.doubt.light / 8, wish.doubt.noise / (wish.added == 0 ? 4 : 2)};
+  return {wish.doubt.light / 8, wish.doubt.noise / (wish.added == 0 ? 4 : 2), wish.doubt.records / 4};
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
   for (std::uint32_t round = 0; round < kDraftRounds; ++round) {
     RenderSetup setup = settled_setup(scene, quality, choice, image, splits);
     DraftLight light;
-    for (std::uint32_t half = 0; half < light.size(); ++half) {
+    for (std::uint32_t half = 0; half < light.flux.size(); ++half) {
       setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
       RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
       Machine torolux(machine_setup(setup, quality, choice), image);
@@ -98,7 +98,8 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
       if (!program.finished()) return std::nullopt;
       figures.draft_cycles += program.times().read;
       figures.draft_records += program.solution()->tally.rays;
-      light[half] = incident_flux(*program.solution(), full.shadow_rays);
+      light.flux[half] = incident_flux(*program.solution(), full.shadow_rays);
+      light.of_record = flux_of_record(*program.solution());
     }
     if (round == 0) more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDraftRounds;
     std::vector<Split> chosen = choose_splits(setup.mesh, scene, light, more);

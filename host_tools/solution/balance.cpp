@@ -79,6 +79,15 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   return energy;
 }
 
+double flux_of_record(const Solution& solution) {
+  if (solution.tally.rays == 0) return 0;
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    sum += static_cast<double>(solution.emitted_shot[c] + solution.reflected_shot[c]);
+  }
+  return sum / 3 / static_cast<double>(solution.tally.rays);
+}
+
 std::vector<Flux> incident_flux(const Solution& solution, bool without_direct) {
   std::vector<Flux> flux;
   flux.reserve(solution.elements.size());

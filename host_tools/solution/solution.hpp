@@ -39,6 +39,9 @@ struct Solution {
 /// numbers where it does not hold. Returns the balance in watts.
 EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Solution& solution);
 
+/// What a record carries in the mean, of the channels [quanta]; 0 where there was none.
+double flux_of_record(const Solution& solution);
+
 /// Incident flux by global element; without_direct: but for what came straight from emitters.
 std::vector<protocol::Flux> incident_flux(const Solution& solution, bool without_direct);
 

@@ -46,7 +46,7 @@ TEST(Refine, CutsWhereLightChanges) {
   const Scene scene = floor_scene();
   MeshChoice choice{.patch_length = 0.75, .element_length = 0.19};
   const Mesh coarse = make_mesh(scene, choice);
-  choice.splits = choose_splits(coarse, scene, {step_of_light(coarse), step_of_light(coarse)}, coarse.elements / 2);
+  choice.splits = choose_splits(coarse, scene, {{step_of_light(coarse), step_of_light(coarse)}}, coarse.elements / 2);
   EXPECT_TRUE(std::is_sorted(choice.splits.begin(), choice.splits.end()));
   const Mesh fine = make_mesh(scene, choice);
   EXPECT_GT(fine.elements, coarse.elements + coarse.elements / 3);
@@ -67,7 +67,7 @@ TEST(Refine, EvenLightAsksForNothing) {
   const Scene scene = floor_scene();
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.75, .element_length = 0.19});
   const std::vector<protocol::Flux> dark(mesh.elements);
-  EXPECT_TRUE(choose_splits(mesh, scene, {dark, dark}, 100).empty());
+  EXPECT_TRUE(choose_splits(mesh, scene, {{dark, dark}}, 100).empty());
 }
 
 /// Light per area of 1 everywhere, or as `light` has it, and noise of the given spread, other by each seed.
@@ -95,7 +95,7 @@ TEST(Refine, NoiseIsNoReasonToCut) {
   const Scene scene = floor_scene();
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.75, .element_length = 0.19});
   const auto cut = [&](unsigned other_seed) {
-    const auto splits = choose_splits(mesh, scene, {noisy(mesh, 0.2, 1), noisy(mesh, 0.2, other_seed)}, 100'000);
+    const auto splits = choose_splits(mesh, scene, {{noisy(mesh, 0.2, 1), noisy(mesh, 0.2, other_seed)}}, 100'000);
     return std::ranges::count_if(mesh.facets, [&](const MeshFacet& facet) {
       return std::ranges::binary_search(splits, Split{facet.triangle, facet.code});
     });
@@ -113,7 +113,7 @@ TEST(Refine, PartsMustShowLightMoreThanNoise) {
   const auto deepest = [&](double spread) {
     std::uint32_t level = 0;
     for (const Split& split :
-         choose_splits(mesh, scene, {noisy(mesh, spread, 1, step), noisy(mesh, spread, 2, step)}, 100'000)) {
+         choose_splits(mesh, scene, {{noisy(mesh, spread, 1, step), noisy(mesh, spread, 2, step)}}, 100'000)) {
       level = std::max(level, protocol::level_of_code(split.code));
     }
     return level;
@@ -121,6 +121,23 @@ TEST(Refine, PartsMustShowLightMoreThanNoise) {
   EXPECT_EQ(deepest(0.01), deepest(0));
   EXPECT_EQ(deepest(0.06) + 1, deepest(0));
   EXPECT_EQ(deepest(0.3) + 2, deepest(0));
+}
+
+// A step of light is cut as deep as there are records for the parts, and no deeper.
+TEST(Refine, PartsMustExpectRecords) {
+  const Scene scene = floor_scene();
+  const Mesh mesh = make_mesh(scene, {.patch_length = 0.75, .element_length = 0.19});
+  const auto flux = step_of_light(mesh);
+  const double brightest = static_cast<double>(std::ranges::max(flux)[0]) / 3;
+  const auto deepest = [&](double records) {  // of both drafts, on the brightest element
+    std::uint32_t level = 0;
+    for (const Split& split : choose_splits(mesh, scene, {{flux, flux}, 2 * brightest / records}, 100'000)) {
+      level = std::max(level, protocol::level_of_code(split.code));
+    }
+    return level;
+  };
+  EXPECT_EQ(deepest(20), 0U);
+  EXPECT_EQ(deepest(100) + 1, deepest(300));
 }
 
 // One element is cut three times over: its neighbours follow, so that none lies at the edge of one a quarter its size.
