@@ -205,12 +205,11 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
   add_count(command, "--texels", "Texels of each texture, at most; larger images are averaged", options.texels, 1,
             kMostTexels, built_in.texels)
       ->group(group);
-  add_value(
-      command, "--direct", "HOW",
-      "Light straight from emitters, at diffuse surfaces: radiosity (from the elements), or shadow-rays (one from "
-      "each point that is seen: sharp shadows; with few samples, noise)",
-      [&options](const std::string& text) { options.shadow_rays = parse_direct(text); })
-      ->default_str("radiosity")
+  add_value(command, "--direct", "HOW",
+            "Light straight from emitters, at diffuse surfaces: shadow-rays (one from each point that is seen: sharp "
+            "shadows), or radiosity (from the elements: no noise; chosen where much of the scene emits)",
+            [&options](const std::string& text) { options.shadow_rays = parse_direct(text); })
+      ->default_str("shadow-rays")
       ->group(group);
   command.add_flag("--two-sided-lights", options.two_sided_lights, "Emitters emit from both sides")->group(group);
   add_count(command, "--seed", "Seed of all random numbers", options.seed, 0, ~std::uint64_t{0}, built_in.seed)

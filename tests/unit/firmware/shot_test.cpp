@@ -250,6 +250,30 @@ TEST(Shot, DividesItsFluxExactly) {
   }
 }
 
+// From points close together, a shot is one hemi-cube with as many times the pixels as it has points: what a far
+// polygon gets of it hardly depends on chance.
+TEST(Shot, PointsShareOutThePixels) {
+  TestScene scene = lamp_in_room(16);
+  scene.polygons.back().corner = {{{0.5F, 0.5F, 0.5F}, {0.501F, 0.5F, 0.5F}, {0.5F, 0.501F, 0.5F}}};
+  constexpr std::int64_t kAmount = 1LL << 40;
+  constexpr std::uint32_t kShots = 16;
+  double sum = 0;
+  double squares = 0;
+  for (std::uint32_t number = 0; number < kShots; ++number) {
+    FakeMachine machine(1);
+    begin_with(machine, scene, {0, 0, 0}, {kAmount, 0, 0});
+    const auto patch = static_cast<std::uint32_t>(machine.stores[0].patches.size() - 1);
+    machine.shoot(0, {{kAmount, 0, 0}, patch, 0, ShotKind::emitted, number});
+    const auto sides = machine.store<protocol::PatchSide>(0, machine.stores[0].layout.patch_sides);
+    const double got = static_cast<double>(sides[machine.stores[0].patches[2].side[0]].incident[0]) / kAmount;
+    sum += got / kShots;
+    squares += got * got / kShots;
+  }
+  EXPECT_GT(sum, 0.1);
+  // Seen: 0.0013 of what it gets; where each point draws its place in a pixel for itself, 0.0065.
+  EXPECT_LT(std::sqrt(squares - sum * sum), 0.003 * sum);
+}
+
 // Light reflected by a quarter: as many points as its greatest channel is worth, a whole grid, no more than asked for.
 TEST(Shot, LittleLightLeavesFromFewPoints) {
   struct Case {
