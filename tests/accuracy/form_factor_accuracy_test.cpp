@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tests/accuracy/runs.hpp"
 #include "tests/support/render_support.hpp"
 
 namespace torolux::test {
@@ -65,6 +66,29 @@ TEST(FormFactorAccuracy, FinerSettingsComeCloser) {
   EXPECT_LT(facing, 0.001);
   EXPECT_LT(perpendicular, 0.001);
   EXPECT_LT(furnace, 0.005);
+}
+
+// The bounds at `fine`. Refinement must not follow noise here, whose light is the same everywhere.
+TEST(FurnaceAccuracy, AtFine) {
+  const accuracy::SceneRun run = accuracy::settle_scene(data_dir() / "scenes" / "furnace", {});
+  Quality quality = accuracy::quality_at(preset_named("fine").value(), run.scene);
+  quality.width = quality.height = 128;
+  quality.samples = 16;  // more of them show the same elements
+  const RenderResult result = render(run.scene, run.settled.camera, quality, run.settled.machine, {}, pe_image(), {});
+  double squares = 0;
+  double worst = 0;
+  for (const auto& pixel : result.picture.pixels) {
+    for (const float channel : pixel) {
+      const double error = static_cast<double>(channel) / 2 - 1;
+      squares += error * error;
+      worst = std::fmax(worst, std::fabs(error));
+    }
+  }
+  const double rms = std::sqrt(squares / (3.0 * static_cast<double>(result.picture.pixels.size())));
+  std::printf("furnace at fine: RMS %.3f %%, worst pixel %.3f %%\n", 100 * rms, 100 * worst);
+  EXPECT_LT(rms, 0.001);
+  EXPECT_LT(worst, 0.003);
+  EXPECT_LT(energy_error(result.figures.energy), 1e-6);
 }
 
 }  // namespace
