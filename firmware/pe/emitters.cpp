@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Next-event estimation (Kajiya 1986, The Rendering Equation): an emitter by its power, a point on it by area.
+// Next-event estimation (Kajiya 1986, The Rendering Equation): emitters by their power, a point on each by area; of
+// several such points one by the light that it would bring (Talbot, Cline & Egbert 2005, Importance Resampling for
+// Global Illumination).
 #include "firmware/pe/emitters.hpp"
 
 #include <algorithm>
@@ -17,6 +19,8 @@ using protocol::Emitter;
 /// Light of one sample, in units of the emitter's radiance. Only points nearer to an emitter than some fiftieth of its
 /// size can reach that: a few samples that would outshine all others, and in the end overflow a pixel.
 constexpr float kMostSeen = 1024.0F;
+/// Points among which one is chosen by the light that it would bring were nothing before it.
+constexpr std::uint32_t kMostCandidates = 16;
 
 /// The emitter of one number, and the place of that number among all those that choose it: 0..1, again uniform.
 const Emitter& choose(const Scene& scene, std::uint32_t word, float& place) {
@@ -41,10 +45,9 @@ glm::vec3 point_on(const Emitter& emitter, float a, float b) {
          to_vector(emitter.corner[2]) * b;
 }
 
-}  // namespace
-
-bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
-                    const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample) {
+/// One point by the emitters' power alone. False: no light comes from there.
+bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
+                     const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample) {
   float place = 0.0F;
   const Emitter& emitter = choose(scene, numbers.x, place);
   const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
@@ -59,6 +62,43 @@ bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers,
   if (!(arriving > 0.0F)) return false;
   const float seen = leaving * arriving * emitter.area_over_chance / square;
   sample.irradiance_over_pi = to_vector(emitter.emission) * (seen < kMostSeen ? seen : kMostSeen);
+  return true;
+}
+
+/// A triangle or two, as lamps of one piece have, are alike from nearly everywhere.
+std::uint32_t candidates_of(const Scene& scene) {
+  const auto emitters = static_cast<std::uint32_t>(scene.emitters.size());
+  return emitters <= 2U ? 1U : std::min(emitters - 1U, kMostCandidates);
+}
+
+}  // namespace
+
+bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, std::uint32_t choice,
+                    const glm::vec3& point, const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample) {
+  const std::uint32_t candidates = candidates_of(scene);
+  float u = protocol::uniform_float(choice);
+  float all = 0.0F;
+  float chosen = 0.0F;
+  for (std::uint32_t i = 0; i < candidates; ++i) {
+    // Evenly over all emitters' power, so that none with a candidate's share of it is ever left out.
+    const protocol::StratifiedPair here{numbers.x + i * (0xFFFF'FFFFU / candidates), numbers.y + i * 0x9E37'79B9U};
+    EmitterSample candidate;
+    if (!sample_by_power(scene, here, point, normal, flat, candidate)) continue;
+    const glm::vec3& light = candidate.irradiance_over_pi;
+    const float brings = (light.x + light.y) + light.z;
+    if (!(brings > 0.0F)) continue;
+    all += brings;
+    const float chance = brings / all;
+    if (u < chance) {
+      sample = candidate;
+      chosen = brings;
+      u = u / chance;
+    } else {
+      u = (u - chance) / (1.0F - chance);
+    }
+  }
+  if (!(chosen > 0.0F)) return false;
+  sample.irradiance_over_pi *= all / (chosen * static_cast<float>(candidates));
   return true;
 }
 

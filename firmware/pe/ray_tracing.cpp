@@ -58,7 +58,8 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
   const glm::vec3 to_side = hit.front ? glm::vec3(1.0F) : glm::vec3(-1.0F);
   const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + to_vector(record.direction) * hit.t);
   EmitterSample sample;
-  if (!sample_emitter(pe.scene, numbers_apart(pe, record, Dimension::emitter), origin,
+  if (!sample_emitter(pe.scene, numbers_apart(pe, record, Dimension::emitter),
+                      numbers_apart(pe, record, Dimension::emitter_choice).x, origin,
                       shading_normal(pe.scene, polygon, hit) * to_side, unit_normal(polygon) * to_side, sample)) {
     return false;
   }

@@ -34,6 +34,7 @@ enum class Dimension : std::uint32_t {
   lobe,
   lobe_height,
   lobe_turn,
+  emitter_choice,
 };
 
 constexpr float uniform(std::uint32_t key, Dimension dimension) {
