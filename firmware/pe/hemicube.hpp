@@ -51,27 +51,36 @@ inline float on_slope(float u, float w0, float w1) {
   return root > 0.0F ? u * (w0 + w1) / (w0 + root) : 0.0F;
 }
 
+/// Likewise with a bend halfway, where the density is wm.
+inline float on_two_slopes(float u, float w0, float wm, float w1) {
+  const float before = w0 + wm;
+  const float after = wm + w1;
+  const float at = u * (before + after);
+  if (at < before) return 0.5F * on_slope(at / before, w0, wm);
+  return after > 0.0F ? 0.5F + 0.5F * on_slope((at - before) / after, wm, w1) : 1.0F;
+}
+
 /// A pixel on its face: its lower edges, and its length.
 struct PixelBox {
   float along, across, size;
 };
 
 /// Where light goes through a pixel of the top. Its delta form factor per area is 1 / (pi (1 + x^2 + y^2)^2), taken as
-/// bilinear between the pixel's corners: an error that falls with the square of the pixel's size.
+/// linear between the pixel's edges and its middle: straight from edge to edge, what lies above the middle of a
+/// hemi-cube of 4 pixels would get 0.7 % too little.
 inline PixelPoint through_top(const PixelBox& box, PixelPoint at) {
   const auto weight = [](float x, float y) {
     const float root = 1.0F / (1.0F + (x * x + y * y));
     return root * root;
   };
+  const float xm = box.along + 0.5F * box.size;
   const float x1 = box.along + box.size;
-  const float y1 = box.across + box.size;
-  const float w00 = weight(box.along, box.across);
-  const float w10 = weight(x1, box.across);
-  const float w01 = weight(box.along, y1);
-  const float w11 = weight(x1, y1);
-  const float y = on_slope(at.across, w00 + w10, w01 + w11);
-  const float x = on_slope(at.along, w00 + (w01 - w00) * y, w10 + (w11 - w10) * y);
-  return {box.along + x * box.size, box.across + y * box.size};
+  const auto over_x = [&](float y) { return (weight(box.along, y) + weight(x1, y)) + 2.0F * weight(xm, y); };
+  const float y = box.across + on_two_slopes(at.across, over_x(box.across), over_x(box.across + 0.5F * box.size),
+                                             over_x(box.across + box.size)) *
+                                   box.size;
+  const float x = on_two_slopes(at.along, weight(box.along, y), weight(xm, y), weight(x1, y));
+  return {box.along + x * box.size, y};
 }
 
 /// Likewise of a side: z / (pi (1 + y^2 + z^2)^2), z up from the surface. Its integral over z is known, so that z is
@@ -84,7 +93,9 @@ inline PixelPoint through_side(const PixelBox& box, PixelPoint at) {
     const float from = 1.0F + y * y;
     return 1.0F / (from + low) - 1.0F / (from + high);
   };
-  const float y = box.along + on_slope(at.along, over_z(box.along), over_z(box.along + box.size)) * box.size;
+  const float y = box.along + on_two_slopes(at.along, over_z(box.along), over_z(box.along + 0.5F * box.size),
+                                            over_z(box.along + box.size)) *
+                                  box.size;
   const float from = 1.0F + y * y;
   const float begin = 1.0F / (from + low);
   const float square = 1.0F / (begin + (1.0F / (from + high) - begin) * at.across) - from;
