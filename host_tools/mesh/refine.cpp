@@ -17,7 +17,7 @@ namespace {
 /// Levels that are added to an element at most.
 constexpr std::uint32_t kMostAdded = 3;
 /// Spreads of the noise that light must differ by: one is no rarity among thousands of elements.
-constexpr double kSpreads = 3;
+constexpr double kSpreads = 4;
 /// Records of both drafts together that each part must expect: some dozens when all is solved again. Where fewer come,
 /// two drafts may well agree by chance that nothing does.
 constexpr double kLeastRecords = 8;

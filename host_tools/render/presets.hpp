@@ -24,7 +24,7 @@ struct Preset {
 inline constexpr std::array<Preset, 3> kPresets{{
     {"draft", "a few seconds: to see what is there", 2, 2, 8, 3, 500'000, 0.02, 0, 4},
     {"normal", "the default", 1, 1, 8, 6, 4'000'000, 0.002, 0, 16},
-    {"fine", "minutes: little noise, light followed into corners", 0.5, 2, 4, 24, 24'000'000, 0.0005, 4, 64},
+    {"fine", "minutes: little noise, light followed into corners", 0.5, 2, 8, 16, 24'000'000, 0.0005, 4, 64},
 }};
 
 /// Absent: there is none of this name.

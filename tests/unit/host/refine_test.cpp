@@ -120,7 +120,7 @@ TEST(Refine, PartsMustShowLightMoreThanNoise) {
   };
   EXPECT_EQ(deepest(0.01), deepest(0));
   EXPECT_EQ(deepest(0.06) + 1, deepest(0));
-  EXPECT_EQ(deepest(0.3) + 2, deepest(0));
+  EXPECT_EQ(deepest(0.15) + 2, deepest(0));
 }
 
 // A step of light is cut as deep as there are records for the parts, and no deeper.
