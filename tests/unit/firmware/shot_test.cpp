@@ -91,8 +91,10 @@ TEST(Hemicube, LightFollowsTheBendAcrossALargePixel) {
   double middle = 0;
   int drawn = 0;
   for (int i = 0; i < kSteps * kSteps; ++i) {
-    const double a = (i % kSteps + 0.5) / kSteps;
-    const double b = (i / kSteps + 0.5) / kSteps;
+    const int column = i % kSteps;
+    const int row = i / kSteps;
+    const double a = (column + 0.5) / kSteps;
+    const double b = (row + 0.5) / kSteps;
     const double density = std::pow(1 + (a * a + b * b) / 4, -2);
     all += density;
     if (is_middle(a / 2) && is_middle(b / 2)) middle += density;
