@@ -30,10 +30,11 @@ void ClusterVertices::add(const MeshPatch& patch, std::uint32_t facet, const std
   }
   Cluster& cluster = clusters_.back();
   const double area = mesh_.facet_area(here);
-  const Vec3d normal = vec::scale(mesh_.facet_normal(here), area);
+  const Vec3d unit_normal = mesh_.facet_normal(here);
+  const Vec3d normal = vec::scale(unit_normal, area);
   const auto places = grid_corners(mesh_.triangles[here.triangle], here.code);
-  Facet& added = facets_.emplace_back();
-  added = {static_cast<std::uint32_t>(clusters_.size() - 1), {}, mesh_.facet_normal(here), area};
+  const auto number = static_cast<std::uint32_t>(clusters_.size() - 1);
+  Facet& added = facets_.emplace_back(Facet{number, {}, unit_normal, area});
   for (std::size_t c = 0; c < 3; ++c) {
     if (corners[c] >= vertex_of_.size()) vertex_of_.resize(corners[c] + 1, protocol::kNoSide);
     std::uint32_t& v = vertex_of_[corners[c]];
@@ -42,7 +43,7 @@ void ClusterVertices::add(const MeshPatch& patch, std::uint32_t facet, const std
       vertices_.emplace_back().place = places[c];
     }
     vertices_[v].normal = vec::add(vertices_[v].normal, normal);
-    vertices_[v].touching.push_back(static_cast<std::uint32_t>(clusters_.size() - 1));
+    vertices_[v].touching.push_back(number);
     cluster.centre = vec::add(cluster.centre, vec::scale(places[c], area / 3));
     cluster.vertices.push_back(v);
     added.vertex[c] = v;
