@@ -10,9 +10,9 @@
 
 namespace torolux {
 
-HostActor::HostActor(const MachineDescription::Host& parameters, HostProgram& program,
-                     std::vector<NiuNetworkSide>& nius, EventQueue& events, std::uint32_t source, BlockPool& pool)
-    : cycles_per_message_(parameters.cycles_per_message),
+HostActor::HostActor(const MachineDescription& machine, HostProgram& program, std::vector<NiuNetworkSide>& nius,
+                     EventQueue& events, std::uint32_t source, BlockPool& pool)
+    : clock_(machine),
       program_(program),
       nius_(nius),
       events_(events),
@@ -53,9 +53,10 @@ void HostActor::queue_for(PeNumber pe, BlockIndex index) {
   block.number = (std::uint64_t{protocol::kHost} << 32U) | numbers_++;
   block.source = protocol::kHost;
   block.destination = pe;
-  clock_ += cycles_per_message_;
+  clock_.work(HostWork::message, 1);
+  clock_.work(HostWork::copy, host_lines(block.bytes));
   ++lines_[pe].made;
-  events_.push(clock_, source_, EventKind::host_queue, pe, 0, index);
+  events_.push(clock_.now(), source_, EventKind::host_queue, pe, 0, index);
 }
 
 void HostActor::start() {
@@ -70,24 +71,27 @@ void HostActor::arrive(BlockIndex block, Cycles now) {
 void HostActor::schedule_step(Cycles now) {
   if (stepping_ || inbox_.empty()) return;
   stepping_ = true;
-  events_.push(std::max(now, clock_) + cycles_per_message_, source_, EventKind::host_step, 0, 0, 0);
+  clock_.wait_until(now);
+  clock_.work(HostWork::message, 1);
+  const Block& first = pool_[inbox_.front()];  // diverted records only pass through
+  if (first.records == 0) clock_.work(HostWork::copy, host_lines(first.bytes));
+  events_.push(clock_.now(), source_, EventKind::host_step, 0, 0, 0);
 }
 
-void HostActor::step(Cycles now) {
+void HostActor::step() {
   stepping_ = false;
-  clock_ = now;
   const BlockIndex index = inbox_.front();
   inbox_.pop_front();
   Block& block = pool_[index];
   if (block.records != 0) {  // diverted: back to where it wanted to go
-    clock_ += cycles_per_message_;
+    clock_.work(HostWork::message, 1);
     lines_[block.destination].diverted += block.records;
-    events_.push(clock_, source_, EventKind::host_queue, block.destination, 1, index);
+    events_.push(clock_.now(), source_, EventKind::host_queue, block.destination, 1, index);
   } else {
     program_.on_message(*this, block.source, block.message_kind, block.payload());
     pool_.give_back(index);
   }
-  schedule_step(clock_);
+  schedule_step(clock_.now());
 }
 
 void HostActor::enqueue(unsigned pe, BlockIndex block) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "emulator/host/host_clock.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/machine/description.hpp"
 #include "emulator/niu/network_side.hpp"
@@ -17,15 +18,16 @@
 
 namespace torolux {
 
-/// Every message taken in or made costs cycles_per_message of the host's own clock.
+/// All that the host does it does one after the other, by its own clock; the bus takes what it has made meanwhile.
 class HostActor final : public HostPort {
  public:
-  HostActor(const MachineDescription::Host& parameters, HostProgram& program, std::vector<NiuNetworkSide>& nius,
+  HostActor(const MachineDescription& machine, HostProgram& program, std::vector<NiuNetworkSide>& nius,
             EventQueue& events, std::uint32_t source, BlockPool& pool);
 
   // ---- HostPort ----
-  Cycles now() const override { return clock_; }
+  Cycles now() const override { return clock_.now(); }
   unsigned pes() const override { return static_cast<unsigned>(nius_.size()); }
+  void work(HostWork what, std::uint64_t items) override { clock_.work(what, items); }
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override;
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override;
   std::size_t queued(PeNumber pe) const override { return lines_[pe].made; }
@@ -35,7 +37,7 @@ class HostActor final : public HostPort {
   /// A message or diverted records have come over the bus.
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
-  void step(Cycles now);
+  void step();
   /// Event host_queue: something made earlier is ready for the bus.
   void enqueue(unsigned pe, BlockIndex block);
   /// Slots or control buffers of a PE have become free, or taken.
@@ -48,6 +50,7 @@ class HostActor final : public HostPort {
   bool idle() const { return inbox_.empty() && !stepping_; }
   std::size_t inbox() const { return inbox_.size(); }
   std::size_t waiting(unsigned pe) const { return lines_[pe].program.size() + lines_[pe].resend.size(); }
+  const HostClock& clock() const { return clock_; }
   std::uint64_t records_diverted(unsigned pe) const { return lines_[pe].diverted; }
 
  private:
@@ -62,7 +65,7 @@ class HostActor final : public HostPort {
   bool fits(unsigned pe, const BlockQueue& queue) const;
   void schedule_step(Cycles now);
 
-  std::uint32_t cycles_per_message_;
+  HostClock clock_;
   HostProgram& program_;
   std::vector<NiuNetworkSide>& nius_;
   EventQueue& events_;
@@ -71,7 +74,6 @@ class HostActor final : public HostPort {
   std::vector<Line> lines_;
   ReadySet ready_;  // PEs for which there is something, and room
   std::deque<BlockIndex> inbox_;
-  Cycles clock_ = 0;
   bool stepping_ = false;  // a host_step is scheduled
   std::uint32_t numbers_ = 0;
   unsigned next_pe_ = 0;  // round robin

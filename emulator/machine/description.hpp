@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/host/host_work.hpp"
+
 namespace torolux {
 
 /// Classes of instructions that cost the same; the latency table gives each its cycles.
@@ -73,10 +75,22 @@ struct MachineDescription {
   } frame_buffer;
 
   struct Host {
-    std::uint32_t cycles_per_message = 50;  ///< to take one in or make one, >= 1
+    double clock_hertz = 3e9;       ///< of its one processor
+    std::uint32_t cost_factor = 1;  ///< of all its costs; 0: it takes no time
+    /// By HostWork: its own cycles for an item. docs/costs.md says where they come from.
+    std::array<std::uint32_t, kHostWorks> cycles = {1500, 32, 30, 60, 600, 30, 100, 60, 6000, 1500, 100};
 
     bool operator==(const Host&) const = default;
   } host;
+
+  /// Parts that cost nothing, to show what they cost otherwise.
+  struct Ideal {
+    bool host = false;     ///< all that the host computes and all its messages
+    bool niu = false;      ///< copies between local memory and the NIU; as many receive buffers as it takes
+    bool signals = false;  ///< who may send is known everywhere at once
+
+    bool operator==(const Ideal&) const = default;
+  } ideal;
 
   struct Records {
     std::uint32_t credits_per_pe = 128;    ///< W = this * PEs, >= 1

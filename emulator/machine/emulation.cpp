@@ -36,7 +36,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       bus_(pes_, setup.description.bus, events_, 2 * pes_, pool_, *this),
       controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, setup.frame_layers, events_,
                   2 * pes_ + 2, pool_),
-      host_(setup.description.host, program, nius_, events_, 2 * pes_ + 1, pool_) {}
+      host_(setup.description, program, nius_, events_, 2 * pes_ + 1, pool_) {}
 
 void Emulation::handle(const Event& event) {
   switch (event.kind) {
@@ -59,7 +59,7 @@ void Emulation::handle(const Event& event) {
       update_host();
       break;
     case EventKind::host_step:
-      host_.step(event.time);
+      host_.step();
       break;
     case EventKind::pixels_done:
       pixels_done(event.block);

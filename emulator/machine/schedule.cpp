@@ -92,6 +92,7 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
     handle(event);
     if (--until_attend_ == 0) attend_now_and_then();
   }
+  now_ = std::max(now_, host_.clock().now());  // what it computed last takes time, too
   torus_.check_slots();
   if (!empty() || !program_.finished()) throw MachineFailure(deadlock_report());
 }
