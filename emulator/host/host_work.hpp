@@ -20,15 +20,16 @@ enum class HostWork : std::uint8_t {
   unpack,            ///< 64 bytes read back, put where they belong
   lattice_triangle,  ///< its share of the lattice: vertices around it, borders, its own three values
   irradiance_fit,    ///< at a vertex of a curved surface that is one patch: to all elements near it
-  table,             ///< an entry of a table of pixel filter or hemi-cube
+  filter_entry,      ///< of the pixel filter's table
+  hemicube_entry,    ///< of the table of hemi-cube weights
   count
 };
 inline constexpr std::size_t kHostWorks = static_cast<std::size_t>(HostWork::count);
 
 /// Names of the keys in the machine file's table [host.cycles].
 inline constexpr std::array<std::string_view, kHostWorks> kHostWorkNames = {
-    "message",          "copy",           "entry", "compare", "camera_ray", "subspace", "layout", "unpack",
-    "lattice_triangle", "irradiance_fit", "table"};
+    "message",          "copy",           "entry",        "compare",       "camera_ray", "subspace", "layout", "unpack",
+    "lattice_triangle", "irradiance_fit", "filter_entry", "hemicube_entry"};
 
 /// Bytes that are one item of copy, layout and unpack: a cache line.
 inline constexpr std::uint64_t kHostLineBytes = 64;

@@ -18,7 +18,7 @@ RenderProgram::RenderProgram(RenderJob job) : job_(std::move(job)) {}
 RenderProgram::~RenderProgram() = default;
 
 void RenderProgram::start(HostPort& port) {
-  port.work(HostWork::table, job_.rays.table_entries());
+  port.work(HostWork::filter_entry, job_.rays.table_entries());
   enter(port, job_.solution ? Step::load_ray_tracing : Step::load_radiosity);
 }
 
@@ -42,7 +42,7 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
   const RenderSetup& setup = job_.setup;
   switch (step) {
     case Step::load_radiosity:
-      port.work(HostWork::table, protocol::hemicube_weights(setup.parameters.hemicube));
+      port.work(HostWork::hemicube_entry, protocol::hemicube_weights(setup.parameters.hemicube));
       return loading(Stage::radiosity);
     case Step::radiosity:
       return std::make_unique<RadiosityPhase>(job_.radiosity);

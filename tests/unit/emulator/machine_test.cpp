@@ -72,7 +72,7 @@ TEST(Machine, LatencyFollowsTheDescription) {
 
 TEST(Machine, BusAndHostTimesAreExact) {
   // PE: HINT 1 ends at cycle 1, the bus sees it at 2, transfer 4 + ceil((8 + 4) / 8) = 6 cycles. To the host
-  // a message is 1500 cycles of its own, its one cache line 32: at 30 to one 51.07, so it is seen after 52.
+  // a message is 1500 cycles of its own, its one cache line 15: at 30 to one 50.5, so it is seen after 51.
   ListeningHost host(1);
   NativeOptions options;
   options.cycles_per_hint = 1;
@@ -84,7 +84,7 @@ TEST(Machine, BusAndHostTimesAreExact) {
       },
       options);
   ASSERT_EQ(outcome.heard.size(), 1U);
-  EXPECT_EQ(outcome.heard[0].time, 2U + 6 + 52);
+  EXPECT_EQ(outcome.heard[0].time, 2U + 6 + 51);
   EXPECT_EQ(outcome.heard[0].as<std::uint32_t>(), 42U);
 }
 
