@@ -57,6 +57,9 @@ void add_other_keys(Description& d, std::vector<Key>& keys) {
   keys.push_back({"bus.arbitration_cycles", &d.bus.arbitration_cycles, 1, kMostCycles});
   keys.push_back({"bus.send_queue_messages", &d.bus.send_queue_messages, 1, 256});
   keys.push_back({"bus.control_buffers", &d.bus.control_buffers, 1, 4096});
+  keys.push_back({"bus.signal_cycles", &d.bus.signal_cycles, 1, kMostCycles});
+  keys.push_back({"niu.bytes_per_cycle", &d.niu.bytes_per_cycle, 1, 4096});
+  keys.push_back({"niu.receive_packets", &d.niu.receive_packets, 1, 4096});
   keys.push_back({"frame_buffer.cycles_per_pixel", &d.frame_buffer.cycles_per_pixel, 1, kMostCycles});
   keys.push_back({"frame_buffer.queue_messages", &d.frame_buffer.queue_messages, 1, 65536});
   keys.push_back({"host.clock_hertz", &d.host.clock_hertz, 1, 1e12});

@@ -63,9 +63,17 @@ struct MachineDescription {
     std::uint32_t arbitration_cycles = 4;    ///< >= 1
     std::uint32_t send_queue_messages = 16;  ///< outgoing queue of a NIU, >= 1
     std::uint32_t control_buffers = 2;       ///< messages that wait in a NIU for the processor, >= 1
+    std::uint32_t signal_cycles = 4;         ///< of a request, a grant or a freed place, seen at the other end; >= 1
 
     bool operator==(const Bus&) const = default;
   } bus;
+
+  struct Niu {
+    std::uint32_t bytes_per_cycle = 8;  ///< of each of its two copy engines
+    std::uint32_t receive_packets = 2;  ///< from the torus, that wait to be copied into record slots, >= 1
+
+    bool operator==(const Niu&) const = default;
+  } niu;
 
   struct FrameBuffer {
     std::uint32_t cycles_per_pixel = 2;  ///< one addition
@@ -105,6 +113,8 @@ struct MachineDescription {
   std::uint32_t injected_delay_cycles = 0;
 
   bool operator==(const MachineDescription&) const = default;
+
+  std::uint32_t signal_cycles() const { return ideal.signals ? 0 : bus.signal_cycles; }
 };
 
 /// Reads a machine file. Unknown keys, wrong types and values out of range throw InputError with file and line.

@@ -127,7 +127,7 @@ void Emulation::fill_in(MachineFigures& figures) {
     const NiuChannel& channel = nius_[pe].channel();
     PeFigures& out = figures.pes[pe];
     const Cycles clock = channel.clock.load(std::memory_order_acquire);
-    const Cycles idle = channel.idle.load(std::memory_order_relaxed);
+    const Cycles idle = waited_cycles(channel);
     out.busy_cycles = clock - idle;
     out.idle_cycles = idle + (now_ > clock ? now_ - clock : 0);
     out.halted = nius_[pe].waits_for() == WaitKind::halted;
@@ -142,8 +142,8 @@ void Emulation::fill_in(MachineFigures& figures) {
   }
   figures.hops = torus_.hops();
   figures.link_retries = torus_.link_retries();
-  figures.bus_busy_cycles = bus_.busy_cycles();
-  figures.bus_messages = bus_.transfers();
+  figures.bus_busy_cycles = bus_.figures().busy_cycles();
+  figures.bus_messages = bus_.figures().transfers;
   figures.frame_buffer_busy_cycles = controller_.busy_cycles();
   figures.pixels_added = controller_.pixels_added();
 }

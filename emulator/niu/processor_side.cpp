@@ -45,6 +45,7 @@ class HintRun {
   bool execute(Hint hint);
   std::uint64_t clock() const { return clock_; }
   bool must_stop() const { return stop_; }
+  const std::array<std::uint64_t, kWaitReasons>& waited() const { return waited_; }
 
  private:
   void send_records();
@@ -57,6 +58,8 @@ class HintRun {
   void release_listed();
 
   bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind);
+  std::uint64_t copy_out(std::uint64_t bytes);
+  void wait_until(std::uint64_t time, WaitReason reason);
   bool wait_for_room();
   bool wakes_now(const Arrival& head) const;
   void take_nothing();
@@ -73,7 +76,7 @@ class HintRun {
   }
 
   void push(CommandKind kind, std::uint32_t released = 0, std::span<const std::byte> payload = {}) {
-    push({clock_ + kCommandCycles, kind, 0, 0, 0, released, 0}, payload);
+    push({command_time(state_, clock_), kind, 0, 0, 0, released, 0}, payload);
   }
   void push(const Command& command, std::span<const std::byte> payload) { channel_.commands.push(command, payload); }
   void end_with_fault(NiuFaultCode code, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0) {
@@ -91,6 +94,7 @@ class HintRun {
   std::span<std::byte> memory_;
   NiuWindow& window_;
   std::uint64_t clock_;
+  std::array<std::uint64_t, kWaitReasons> waited_{};
   NiuProcessorSide::Waiting waiting_;
   bool later_ = false;
   bool stop_ = false;
@@ -225,13 +229,30 @@ void HintRun::set_slots() {
 
 // ---- Sending ----
 
+void HintRun::wait_until(std::uint64_t time, WaitReason reason) {
+  if (time <= clock_) return;
+  waited_[static_cast<std::size_t>(reason)] += time - clock_;
+  clock_ = time;
+}
+
+/// The outgoing engine begins to copy as soon as it is free; the processor waits for that, and no longer. When the copy
+/// has ended.
+std::uint64_t HintRun::copy_out(std::uint64_t bytes) {
+  wait_until(state_.copy_free, WaitReason::copy);
+  const std::uint64_t cycles = copy_cycles(bytes, channel_.copy_bytes);
+  channel_.copied.store(channel_.copied.load(std::memory_order_relaxed) + cycles, std::memory_order_relaxed);
+  state_.copy_free = clock_ + cycles;
+  return state_.copy_free;
+}
+
 /// Packet number `sent` needs a place in a queue of so many: the clock moves to when it is free.
 bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind) {
   if (sent < places) return true;
   const std::uint64_t needed = sent - places + 1;
   const auto ready = [&] { return departures.count.load(std::memory_order_seq_cst) >= needed; };
   if (!sleep_until(kind, needed, ready)) return false;
-  clock_ = std::max(clock_, departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed));
+  wait_until(departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed),
+             kind == WaitKind::torus_place ? WaitReason::torus_place : WaitReason::bus_place);
   return true;
 }
 
@@ -261,8 +282,8 @@ void HintRun::send_records() {
     ++released;
   }
   ++state_.packets_sent;
-  push({clock_ + kCommandCycles, CommandKind::send_records, send.destination, 0, static_cast<std::uint16_t>(count),
-        released, 0},
+  push({command_time(state_, copy_out(bytes)), CommandKind::send_records, send.destination, 0,
+        static_cast<std::uint16_t>(count), released, 0},
        std::span(records).first(bytes));
 }
 
@@ -286,7 +307,8 @@ void HintRun::send_message() {
     return;
   }
   ++state_.messages_sent;
-  push({clock_ + kCommandCycles, CommandKind::send_message, send.destination, header.kind, 0, 0, 0},
+  push({command_time(state_, copy_out(sizeof header + header.bytes)), CommandKind::send_message, send.destination,
+        header.kind, 0, 0, 0},
        std::span<const std::byte>(at(send.address) + sizeof header, header.bytes));
 }
 
@@ -303,14 +325,14 @@ void HintRun::receive() {
   if (stop_) return;
   const Arrival* head = channel_.arrivals.front();
   if (head != nullptr && (window_.gather.cycles == 0 || wakes_now(*head))) {
-    clock_ = std::max(clock_, head->time);
+    wait_until(head->time, WaitReason::arrivals);
   } else {
     channel_.gather_cycles.store(window_.gather.cycles, std::memory_order_relaxed);
     channel_.gather_records.store(window_.gather.records, std::memory_order_relaxed);
     const std::uint64_t taken = channel_.taken.load(std::memory_order_relaxed);
     const auto is_due = [&] { return channel_.wakes.load(std::memory_order_seq_cst) > taken; };
     if (!sleep_until(WaitKind::receive, taken, is_due)) return;
-    clock_ = channel_.wake_time.load(std::memory_order_relaxed);
+    wait_until(channel_.wake_time.load(std::memory_order_relaxed), WaitReason::arrivals);
     head = channel_.arrivals.front();
   }
   state_.gather_end = gathering(head->time, window_.gather.cycles).last;
@@ -352,6 +374,8 @@ void HintRun::take(const Arrival& arrival) {
   if (window_.arrival.kind == protocol::ArrivalKind::records) {
     take_records(arrival, payload);
   } else {
+    // From its control buffer into the window, while the processor waits for it.
+    wait_until(clock_ + copy_cycles(sizeof window_.message + payload.size(), channel_.copy_bytes), WaitReason::copy);
     window_.message = {arrival.message_kind, arrival.source, arrival.bytes};
     if (!payload.empty()) std::memcpy(window_.message_bytes.data(), payload.data(), payload.size());
     push(CommandKind::received);
@@ -398,13 +422,15 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     window.retry = 1;
     return {retry, clock};
   }
-  const std::uint64_t waited = run.clock() - clock;
-  channel_.idle.store(channel_.idle.load(std::memory_order_relaxed) + waited, std::memory_order_relaxed);
+  for (std::size_t reason = 0; reason < kWaitReasons; ++reason) {
+    auto& sum = channel_.waited[reason];
+    sum.store(sum.load(std::memory_order_relaxed) + run.waited()[reason], std::memory_order_relaxed);
+  }
   channel_.clock.store(run.clock(), std::memory_order_relaxed);
   channel_.processor.last_hint = run.clock();
   window.retry = 0;
   // The next HINT ends at least one cycle later.
-  publish_bound(channel_, run.clock() + kCommandCycles + 1,
+  publish_bound(channel_, std::max(run.clock() + kCommandCycles + 1, channel_.processor.last_command),
                 pack_wait(happened ? WaitKind::running : WaitKind::halted, 0));
   return {happened ? done : stop, run.clock()};
 }

@@ -16,7 +16,7 @@ constexpr auto kLeave = static_cast<std::int32_t>(Hint::leave_phase);
 
 void charge(NiuChannel& channel, std::uint64_t clock) {
   ProcessorState& state = channel.processor;
-  const std::uint64_t busy = clock - channel.idle.load(std::memory_order_relaxed);
+  const std::uint64_t busy = clock - waited_cycles(channel);
   if (state.phase_depth != 0) {
     auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];
     cycles.store(cycles.load(std::memory_order_relaxed) + busy - state.phase_begin, std::memory_order_relaxed);
@@ -28,7 +28,7 @@ void report_mismatch(NiuChannel& channel, std::uint8_t phase, std::uint64_t cloc
   const ProcessorState& state = channel.processor;
   const std::uint32_t open = state.phase_depth != 0 ? state.phases[state.phase_depth - 1] : protocol::kPhases;
   const NiuFault fault{NiuFaultCode::phase_mismatch, {phase, open, 0}};
-  channel.commands.push({clock + kCommandCycles, CommandKind::fault, 0, 0, 0, 0, 0},
+  channel.commands.push({command_time(channel.processor, clock), CommandKind::fault, 0, 0, 0, 0, 0},
                         std::as_bytes(std::span(&fault, 1)));
 }
 
