@@ -46,6 +46,7 @@ void FrameBufferController::arrive(BlockIndex index, Cycles now) {
   const Cycles duration = block.bytes / sizeof(PixelAdd) * cycles_per_pixel_;
   free_at_ = std::max(free_at_, now) + duration;
   busy_cycles_ += duration;
+  message_cycles_ += free_at_ - now;
   events_.push(free_at_, source_, EventKind::pixels_done, 0, 0, index);
 }
 

@@ -26,7 +26,8 @@ class FrameBufferController {
 
   std::uint32_t waiting() const { return places_used_; }
   const FrameBuffer& frame_buffer() const { return frame_buffer_; }
-  std::uint32_t high_water() const { return high_water_; }  ///< messages that waited or were being added
+  std::uint32_t high_water() const { return high_water_; }   ///< messages that waited or were being added
+  Cycles message_cycles() const { return message_cycles_; }  ///< that messages spent here, in all
   Cycles busy_cycles() const { return busy_cycles_; }
   std::uint64_t pixels_added() const { return pixels_added_; }
 
@@ -40,6 +41,7 @@ class FrameBufferController {
   std::uint32_t high_water_ = 0;
   Cycles free_at_ = 0;
   Cycles busy_cycles_ = 0;
+  Cycles message_cycles_ = 0;
   std::uint64_t pixels_added_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "emulator/niu/byte_ring.hpp"
+#include "emulator/niu/wait_reason.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -117,16 +118,6 @@ enum class WaitKind : std::uint8_t {
   bus_place,    ///< for `count` messages to have left the outgoing queue
   halted,       ///< for ever
 };
-/// Why a processor's clock moved on in a HINT.
-enum class WaitReason : std::uint8_t {
-  arrivals,     ///< it received
-  torus_place,  ///< its outgoing queue was full
-  bus_place,
-  copy,  ///< by a copy engine: the one before the packet or message sent, or the message received
-  count
-};
-inline constexpr std::size_t kWaitReasons = static_cast<std::size_t>(WaitReason::count);
-
 constexpr std::uint64_t pack_wait(WaitKind kind, std::uint64_t count) {
   return (count << 3U) | static_cast<std::uint64_t>(kind);
 }
