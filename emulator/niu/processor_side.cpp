@@ -38,12 +38,14 @@ class HintRun {
         state_(channel.processor),
         memory_(memory),
         window_(*reinterpret_cast<NiuWindow*>(memory.data() + window_offset)),
+        begin_(clock),
         clock_(clock),
         waiting_(waiting) {}
 
   /// False: not yet, or never (`stop`).
   bool execute(Hint hint);
   std::uint64_t clock() const { return clock_; }
+  const WaitCycles& waited() const { return waited_; }  ///< clock() - the clock at the beginning, by reason
   bool must_stop() const { return stop_; }
 
  private:
@@ -56,8 +58,10 @@ class HintRun {
   void take_records(const Arrival& arrival, std::span<const std::byte> records);
   void release_listed();
 
-  bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind);
+  bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind,
+                      WaitReason reason);
   bool wait_for_room();
+  void wait_until(std::uint64_t time, WaitReason reason);
   bool wakes_now(const Arrival& head) const;
   void take_nothing();
   template <class Ready>
@@ -90,7 +94,9 @@ class HintRun {
   ProcessorState& state_;
   std::span<std::byte> memory_;
   NiuWindow& window_;
+  std::uint64_t begin_;
   std::uint64_t clock_;
+  WaitCycles waited_{};
   NiuProcessorSide::Waiting waiting_;
   bool later_ = false;
   bool stop_ = false;
@@ -115,7 +121,7 @@ void publish_bound(NiuChannel& channel, std::uint64_t bound, std::uint64_t wait)
 template <class Ready>
 bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
   if (ready()) return true;
-  channel_.clock.store(clock_, std::memory_order_relaxed);
+  channel_.clock.store(begin_, std::memory_order_relaxed);
   publish_bound(channel_, clock_ + kCommandCycles, pack_wait(kind, count));
   const bool sleeps = waiting_ == NiuProcessorSide::Waiting::sleeps;
   const auto deadline =
@@ -135,6 +141,13 @@ bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
     if (!is_ready) later_ = true;
     return is_ready && !stopping;
   }
+}
+
+/// The clock moves to `time`, unless it is there already; what it waits counts for the reason.
+void HintRun::wait_until(std::uint64_t time, WaitReason reason) {
+  if (time <= clock_) return;
+  waited_[static_cast<std::size_t>(reason)] += time - clock_;
+  clock_ = time;
 }
 
 bool HintRun::wait_for_room() {
@@ -226,12 +239,13 @@ void HintRun::set_slots() {
 // ---- Sending ----
 
 /// Packet number `sent` needs a place in a queue of so many: the clock moves to when it is free.
-bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind) {
+bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind,
+                             WaitReason reason) {
   if (sent < places) return true;
   const std::uint64_t needed = sent - places + 1;
   const auto ready = [&] { return departures.count.load(std::memory_order_seq_cst) >= needed; };
   if (!sleep_until(kind, needed, ready)) return false;
-  clock_ = std::max(clock_, departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed));
+  wait_until(departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed), reason);
   return true;
 }
 
@@ -244,8 +258,8 @@ void HintRun::send_records() {
   }
   if (send.destination >= channel_.pes) return end_with_fault(NiuFaultCode::bad_destination, send.destination);
   release_listed();
-  if (stop_ ||
-      !wait_for_place(channel_.torus_departures, state_.packets_sent, channel_.torus_queue, WaitKind::torus_place)) {
+  if (stop_ || !wait_for_place(channel_.torus_departures, state_.packets_sent, channel_.torus_queue,
+                               WaitKind::torus_place, WaitReason::torus_place)) {
     return;
   }
   std::array<std::byte, kMostPacketBytes> records;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
@@ -281,8 +295,8 @@ void HintRun::send_message() {
     return end_with_fault(NiuFaultCode::bad_address, send.address, header.bytes);
   }
   release_listed();
-  if (stop_ ||
-      !wait_for_place(channel_.bus_departures, state_.messages_sent, channel_.bus_queue, WaitKind::bus_place)) {
+  if (stop_ || !wait_for_place(channel_.bus_departures, state_.messages_sent, channel_.bus_queue, WaitKind::bus_place,
+                               WaitReason::bus_place)) {
     return;
   }
   ++state_.messages_sent;
@@ -303,14 +317,14 @@ void HintRun::receive() {
   if (stop_) return;
   const Arrival* head = channel_.arrivals.front();
   if (head != nullptr && (window_.gather.cycles == 0 || wakes_now(*head))) {
-    clock_ = std::max(clock_, head->time);
+    wait_until(head->time, WaitReason::arrivals);
   } else {
     channel_.gather_cycles.store(window_.gather.cycles, std::memory_order_relaxed);
     channel_.gather_records.store(window_.gather.records, std::memory_order_relaxed);
     const std::uint64_t taken = channel_.taken.load(std::memory_order_relaxed);
     const auto is_due = [&] { return channel_.wakes.load(std::memory_order_seq_cst) > taken; };
     if (!sleep_until(WaitKind::receive, taken, is_due)) return;
-    clock_ = channel_.wake_time.load(std::memory_order_relaxed);
+    wait_until(channel_.wake_time.load(std::memory_order_relaxed), WaitReason::arrivals);
     head = channel_.arrivals.front();
   }
   state_.gather_end = gathering(head->time, window_.gather.cycles).last;
@@ -398,8 +412,11 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     window.retry = 1;
     return {retry, clock};
   }
-  const std::uint64_t waited = run.clock() - clock;
-  channel_.idle.store(channel_.idle.load(std::memory_order_relaxed) + waited, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < kWaitReasons; ++i) {
+    const std::uint64_t cycles = run.waited()[i];
+    if (cycles == 0) continue;
+    channel_.waits[i].store(channel_.waits[i].load(std::memory_order_relaxed) + cycles, std::memory_order_relaxed);
+  }
   channel_.clock.store(run.clock(), std::memory_order_relaxed);
   channel_.processor.last_hint = run.clock();
   window.retry = 0;

@@ -16,7 +16,7 @@ constexpr auto kLeave = static_cast<std::int32_t>(Hint::leave_phase);
 
 void charge(NiuChannel& channel, std::uint64_t clock) {
   ProcessorState& state = channel.processor;
-  const std::uint64_t busy = clock - channel.idle.load(std::memory_order_relaxed);
+  const std::uint64_t busy = clock - waited_cycles(channel);
   if (state.phase_depth != 0) {
     auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];
     cycles.store(cycles.load(std::memory_order_relaxed) + busy - state.phase_begin, std::memory_order_relaxed);
