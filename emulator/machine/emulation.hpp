@@ -46,6 +46,7 @@ class Emulation final : private TorusClient, private BusClient {
   void await(unsigned pe, Cycles wanted);
   void attend_now_and_then();
   bool settled(unsigned pe);
+  void fill_in(PeFigures& figures, unsigned pe);
   bool empty() const;
   std::string deadlock_report() const;
   std::string report_of(unsigned pe) const;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <ctime>
+#include <numeric>
 #include <optional>
 #include <thread>
 
@@ -136,6 +137,14 @@ Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::ma
 }
 
 Machine::~Machine() = default;
+
+Cycles PeFigures::idle_cycles() const {
+  return std::accumulate(waits.begin(), waits.end(), idle_at_end);
+}
+
+Cycles PeFigures::outside_phases() const {
+  return busy_cycles - std::accumulate(phase_cycles.begin(), phase_cycles.end(), Cycles{0});
+}
 
 std::uint64_t MachineFigures::instructions() const {
   std::uint64_t sum = 0;

@@ -2,6 +2,7 @@
 // A whole Torolux: PEs on an engine, torus, system bus, host, frame buffer controller, in virtual time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,7 +15,7 @@
 #include "emulator/engines/image.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/machine/description.hpp"
-#include "emulator/niu/wait_reason.hpp"
+#include "emulator/niu/channel.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux {
@@ -34,18 +35,21 @@ struct MachineSetup {
 
 struct PeFigures {
   Cycles busy_cycles = 0;  ///< executing instructions
-  Cycles idle_cycles = 0;  ///< asleep in receive, or waiting to send, until the end of the run
+  WaitCycles waits{};      ///< waiting in HINTs, by WaitReason
+  Cycles idle_at_end = 0;  ///< from the last thing that it did to the end of the run; busy + waits + this = now
   bool halted = false;     ///< its program has ended
   std::uint64_t instructions = 0;
   std::uint64_t packets_sent = 0;       ///< to the torus
   std::uint64_t packets_delivered = 0;  ///< from the torus, diverted ones too
   std::uint64_t records_diverted = 0;
   std::uint32_t record_slots_high_water = 0;
-  std::array<Cycles, kWaitReasons> wait_cycles{};        ///< of idle_cycles; the rest it slept at the end
   Cycles copy_out_cycles = 0;                            ///< of its NIU's outgoing copy engine
   Cycles copy_in_cycles = 0;                             ///< and of the incoming one
   std::uint32_t receive_buffers_high_water = 0;          ///< packets from the torus
-  std::array<Cycles, protocol::kPhases> phase_cycles{};  ///< innermost phase
+  std::array<Cycles, protocol::kPhases> phase_cycles{};  ///< busy, by innermost phase
+
+  Cycles idle_cycles() const;     ///< all that it is not busy
+  Cycles outside_phases() const;  ///< busy, but in no phase
 };
 
 struct HostFigures {
@@ -55,7 +59,7 @@ struct HostFigures {
 };
 
 struct MachineFigures {
-  Cycles now = 0;                ///< virtual time of the last event
+  Cycles now = 0;                ///< virtual time at which nothing happens any more: event, PE or host
   std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
   std::vector<PeFigures> pes;
   std::uint64_t hops = 0;  ///< links crossed by all delivered packets

@@ -5,11 +5,11 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "emulator/niu/byte_ring.hpp"
-#include "emulator/niu/wait_reason.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -34,6 +34,17 @@ constexpr Gathering gathering(std::uint64_t time, std::uint32_t cycles) {
   const std::uint64_t wake = ((time + lead - 1) / cycles + 1) * cycles;
   return {wake, wake - lead};
 }
+
+/// What a processor that waits in a HINT waits for. A HINT may wait for one thing after another.
+enum class WaitReason : std::uint8_t {
+  arrivals,     ///< to be woken from `receive`
+  torus_place,  ///< in the outgoing queue to the torus
+  bus_place,    ///< in the outgoing queue to the bus
+  copy,         ///< for a copy engine: to be free for what is sent, or to have copied the message received
+  count
+};
+inline constexpr std::size_t kWaitReasons = static_cast<std::size_t>(WaitReason::count);
+using WaitCycles = std::array<std::uint64_t, kWaitReasons>;  ///< by WaitReason
 
 /// Size of the rings between the two sides. The more there is room, the further a processor runs ahead of the network.
 inline constexpr std::uint32_t kMostRingBytes = 128U << 10U;
@@ -171,9 +182,9 @@ struct NiuChannel {
   // Written by the processor's side.
   alignas(64) std::atomic<std::uint64_t> bound;  ///< no command with an earlier time will come
   std::atomic<std::uint64_t> wait;               ///< pack_wait
-  std::atomic<std::uint64_t> clock;              ///< at the end of the last HINT, or where the present one waits
-  std::array<std::atomic<std::uint64_t>, kWaitReasons> waited;  ///< [cycles] of `clock`, by WaitReason
-  std::atomic<std::uint64_t> copied;                            ///< [cycles] of the outgoing copy engine
+  std::atomic<std::uint64_t> clock;              ///< at the end of the last HINT, or at the beginning of one that waits
+  std::array<std::atomic<std::uint64_t>, kWaitReasons> waits;  ///< [cycles] of `clock` spent waiting, by WaitReason
+  std::atomic<std::uint64_t> copied;                           ///< [cycles] of the outgoing copy engine
   std::atomic<std::uint64_t> instructions;
   std::atomic<std::uint64_t> taken;  ///< arrivals, so far
   std::array<std::atomic<std::uint64_t>, protocol::kPhases> phase_cycles;
@@ -198,18 +209,18 @@ struct NiuChannel {
   ByteRing<Command, kMostRingBytes> commands;
   ByteRing<Arrival, kMostRingBytes> arrivals;
 };
-/// [cycles] of `clock` spent waiting.
-inline std::uint64_t waited_cycles(const NiuChannel& channel) {
-  std::uint64_t sum = 0;
-  for (const auto& waited : channel.waited) sum += waited.load(std::memory_order_relaxed);
-  return sum;
-}
 /// When the next command takes effect, if it is ready at this clock: commands stay in their order.
 inline std::uint64_t command_time(ProcessorState& state, std::uint64_t clock) {
   state.last_command = state.last_command > clock + kCommandCycles ? state.last_command : clock + kCommandCycles;
   return state.last_command;
 }
 
+/// Cycles of the processor's clock that it has waited in HINTs.
+inline std::uint64_t waited_cycles(const NiuChannel& channel) {
+  std::uint64_t sum = 0;
+  for (const auto& cycles : channel.waits) sum += cycles.load(std::memory_order_relaxed);
+  return sum;
+}
 static_assert(sizeof(NiuChannel) - 2 * (kMostRingBytes - kLeastRingBytes) <= 62U * 1024U);
 
 }  // namespace torolux

@@ -38,14 +38,15 @@ class HintRun {
         state_(channel.processor),
         memory_(memory),
         window_(*reinterpret_cast<NiuWindow*>(memory.data() + window_offset)),
+        begin_(clock),
         clock_(clock),
         waiting_(waiting) {}
 
   /// False: not yet, or never (`stop`).
   bool execute(Hint hint);
   std::uint64_t clock() const { return clock_; }
+  const WaitCycles& waited() const { return waited_; }  ///< clock() - the clock at the beginning, by reason
   bool must_stop() const { return stop_; }
-  const std::array<std::uint64_t, kWaitReasons>& waited() const { return waited_; }
 
  private:
   void send_records();
@@ -57,10 +58,11 @@ class HintRun {
   void take_records(const Arrival& arrival, std::span<const std::byte> records);
   void release_listed();
 
-  bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind);
+  bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind,
+                      WaitReason reason);
   std::uint64_t copy_out(std::uint64_t bytes);
-  void wait_until(std::uint64_t time, WaitReason reason);
   bool wait_for_room();
+  void wait_until(std::uint64_t time, WaitReason reason);
   bool wakes_now(const Arrival& head) const;
   void take_nothing();
   template <class Ready>
@@ -93,8 +95,9 @@ class HintRun {
   ProcessorState& state_;
   std::span<std::byte> memory_;
   NiuWindow& window_;
+  std::uint64_t begin_;
   std::uint64_t clock_;
-  std::array<std::uint64_t, kWaitReasons> waited_{};
+  WaitCycles waited_{};
   NiuProcessorSide::Waiting waiting_;
   bool later_ = false;
   bool stop_ = false;
@@ -119,7 +122,7 @@ void publish_bound(NiuChannel& channel, std::uint64_t bound, std::uint64_t wait)
 template <class Ready>
 bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
   if (ready()) return true;
-  channel_.clock.store(clock_, std::memory_order_relaxed);
+  channel_.clock.store(begin_, std::memory_order_relaxed);
   publish_bound(channel_, clock_ + kCommandCycles, pack_wait(kind, count));
   const bool sleeps = waiting_ == NiuProcessorSide::Waiting::sleeps;
   const auto deadline =
@@ -139,6 +142,13 @@ bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
     if (!is_ready) later_ = true;
     return is_ready && !stopping;
   }
+}
+
+/// The clock moves to `time`, unless it is there already; what it waits counts for the reason.
+void HintRun::wait_until(std::uint64_t time, WaitReason reason) {
+  if (time <= clock_) return;
+  waited_[static_cast<std::size_t>(reason)] += time - clock_;
+  clock_ = time;
 }
 
 bool HintRun::wait_for_room() {
@@ -229,12 +239,6 @@ void HintRun::set_slots() {
 
 // ---- Sending ----
 
-void HintRun::wait_until(std::uint64_t time, WaitReason reason) {
-  if (time <= clock_) return;
-  waited_[static_cast<std::size_t>(reason)] += time - clock_;
-  clock_ = time;
-}
-
 /// The outgoing engine begins to copy as soon as it is free; the processor waits for that, and no longer. When the copy
 /// has ended.
 std::uint64_t HintRun::copy_out(std::uint64_t bytes) {
@@ -246,13 +250,13 @@ std::uint64_t HintRun::copy_out(std::uint64_t bytes) {
 }
 
 /// Packet number `sent` needs a place in a queue of so many: the clock moves to when it is free.
-bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind) {
+bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind,
+                             WaitReason reason) {
   if (sent < places) return true;
   const std::uint64_t needed = sent - places + 1;
   const auto ready = [&] { return departures.count.load(std::memory_order_seq_cst) >= needed; };
   if (!sleep_until(kind, needed, ready)) return false;
-  wait_until(departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed),
-             kind == WaitKind::torus_place ? WaitReason::torus_place : WaitReason::bus_place);
+  wait_until(departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed), reason);
   return true;
 }
 
@@ -265,8 +269,8 @@ void HintRun::send_records() {
   }
   if (send.destination >= channel_.pes) return end_with_fault(NiuFaultCode::bad_destination, send.destination);
   release_listed();
-  if (stop_ ||
-      !wait_for_place(channel_.torus_departures, state_.packets_sent, channel_.torus_queue, WaitKind::torus_place)) {
+  if (stop_ || !wait_for_place(channel_.torus_departures, state_.packets_sent, channel_.torus_queue,
+                               WaitKind::torus_place, WaitReason::torus_place)) {
     return;
   }
   std::array<std::byte, kMostPacketBytes> records;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
@@ -302,8 +306,8 @@ void HintRun::send_message() {
     return end_with_fault(NiuFaultCode::bad_address, send.address, header.bytes);
   }
   release_listed();
-  if (stop_ ||
-      !wait_for_place(channel_.bus_departures, state_.messages_sent, channel_.bus_queue, WaitKind::bus_place)) {
+  if (stop_ || !wait_for_place(channel_.bus_departures, state_.messages_sent, channel_.bus_queue, WaitKind::bus_place,
+                               WaitReason::bus_place)) {
     return;
   }
   ++state_.messages_sent;
@@ -422,9 +426,10 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     window.retry = 1;
     return {retry, clock};
   }
-  for (std::size_t reason = 0; reason < kWaitReasons; ++reason) {
-    auto& sum = channel_.waited[reason];
-    sum.store(sum.load(std::memory_order_relaxed) + run.waited()[reason], std::memory_order_relaxed);
+  for (std::size_t i = 0; i < kWaitReasons; ++i) {
+    const std::uint64_t cycles = run.waited()[i];
+    if (cycles == 0) continue;
+    channel_.waits[i].store(channel_.waits[i].load(std::memory_order_relaxed) + cycles, std::memory_order_relaxed);
   }
   channel_.clock.store(run.clock(), std::memory_order_relaxed);
   channel_.processor.last_hint = run.clock();

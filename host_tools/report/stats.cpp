@@ -23,7 +23,7 @@ Json phases_of(const std::array<Cycles, protocol::kPhases>& cycles) {
 }
 
 Json pe_json(const PeFigures& pe) {
-  return {{"busy_cycles", pe.busy_cycles},           {"idle_cycles", pe.idle_cycles},
+  return {{"busy_cycles", pe.busy_cycles},           {"idle_cycles", pe.idle_cycles()},
           {"instructions", pe.instructions},         {"record_slots_high_water", pe.record_slots_high_water},
           {"packets_sent", pe.packets_sent},         {"packets_delivered", pe.packets_delivered},
           {"records_diverted", pe.records_diverted}, {"phase_cycles", phases_of(pe.phase_cycles)}};

@@ -114,7 +114,7 @@ double closing_error(const EnergyBalance& energy) {
 }
 
 double busy_share(const PeFigures& pe) {
-  const Cycles all = pe.busy_cycles + pe.idle_cycles;
+  const Cycles all = pe.busy_cycles + pe.idle_cycles();
   return all > 0 ? static_cast<double>(pe.busy_cycles) / static_cast<double>(all) : 0;
 }
 

@@ -88,7 +88,7 @@ std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figu
     delivered += pe.packets_delivered;
     diverted += pe.records_diverted;
     pes.push_back({{"busy_cycles", pe.busy_cycles},
-                   {"idle_cycles", pe.idle_cycles},
+                   {"idle_cycles", pe.idle_cycles()},
                    {"instructions", pe.instructions},
                    {"record_slots_high_water", pe.record_slots_high_water},
                    {"packets_sent", pe.packets_sent},

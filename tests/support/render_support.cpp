@@ -57,7 +57,7 @@ std::string exact_figures(const RenderFigures& figures) {
        << figures.machine.frame_buffer_busy_cycles << ' ' << figures.machine.pixels_added << " trace "
        << figures.machine.trace_hash << '\n';
   for (const PeFigures& pe : figures.machine.pes) {
-    text << pe.busy_cycles << ' ' << pe.idle_cycles << ' ' << pe.instructions << ' ' << pe.packets_sent << ' '
+    text << pe.busy_cycles << ' ' << pe.idle_cycles() << ' ' << pe.instructions << ' ' << pe.packets_sent << ' '
          << pe.packets_delivered << ' ' << pe.records_diverted << ' ' << pe.record_slots_high_water;
     for (const Cycles cycles : pe.phase_cycles) text << ' ' << cycles;
     text << '\n';

@@ -47,7 +47,8 @@ inline RenderFigures made_up_figures() {
   machine.pes.resize(2);
   PeFigures& first = machine.pes[0];
   first.busy_cycles = 750;
-  first.idle_cycles = 250;
+  first.waits = {100, 20, 10, 5};
+  first.idle_at_end = 115;
   first.instructions = 1000;
   first.packets_sent = 600;
   first.packets_delivered = 400;
@@ -56,7 +57,8 @@ inline RenderFigures made_up_figures() {
   first.phase_cycles = {10, 20, 30};
   PeFigures& second = machine.pes[1];
   second.busy_cycles = 500;
-  second.idle_cycles = 500;
+  second.waits = {200, 0, 0, 0};
+  second.idle_at_end = 300;
   second.instructions = 2000;
   second.packets_sent = 400;
   second.packets_delivered = 600;

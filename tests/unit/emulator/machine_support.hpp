@@ -71,7 +71,7 @@ inline std::string exact(const MachineFigures& figures) {
                      " trace " + std::to_string(figures.trace_hash) + "\n";
   for (const PeFigures& pe : figures.pes) {
     for (const std::uint64_t value :
-         {pe.busy_cycles, pe.idle_cycles, pe.instructions, pe.packets_sent, pe.packets_delivered, pe.records_diverted,
+         {pe.busy_cycles, pe.idle_cycles(), pe.instructions, pe.packets_sent, pe.packets_delivered, pe.records_diverted,
           std::uint64_t{pe.record_slots_high_water}}) {
       text += std::to_string(value) + " ";
     }
