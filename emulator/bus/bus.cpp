@@ -6,10 +6,11 @@
 
 namespace torolux {
 
-Bus::Bus(unsigned pes, const MachineDescription::Bus& parameters, EventQueue& events, std::uint32_t source,
-         BlockPool& pool, BusClient& client)
+Bus::Bus(unsigned pes, const MachineDescription::Bus& parameters, const Jitter& jitter, EventQueue& events,
+         std::uint32_t source, BlockPool& pool, BusClient& client)
     : bytes_per_cycle_(parameters.bytes_per_cycle),
       arbitration_cycles_(parameters.arbitration_cycles),
+      jitter_(jitter),
       events_(events),
       source_(source),
       pool_(pool),
@@ -30,7 +31,8 @@ void Bus::try_grant(Cycles now) {
   busy_ = true;
   const BlockIndex block = client_.take(BusRequester(number), now);
   const std::uint32_t bytes = pool_[block].bytes + static_cast<std::uint32_t>(sizeof(protocol::MessageHeader));
-  const Cycles duration = arbitration_cycles_ + (bytes + bytes_per_cycle_ - 1) / bytes_per_cycle_;
+  const Cycles duration = arbitration_cycles_ + (bytes + bytes_per_cycle_ - 1) / bytes_per_cycle_ +
+                          jitter_.delay(Jitter::What::bus, transfers_);
   busy_cycles_ += duration;
   ++transfers_;
   events_.push(now + duration, source_, EventKind::bus_done, 0, 0, block);

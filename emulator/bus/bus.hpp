@@ -6,6 +6,7 @@
 
 #include "emulator/machine/description.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/jitter.hpp"
 #include "emulator/time/ready_set.hpp"
 #include "emulator/torus/block.hpp"
 
@@ -38,8 +39,8 @@ class BusClient {
 /// A transfer of n bytes, header included, takes arbitration_cycles + ceil(n / bytes_per_cycle).
 class Bus {
  public:
-  Bus(unsigned pes, const MachineDescription::Bus& parameters, EventQueue& events, std::uint32_t source,
-      BlockPool& pool, BusClient& client);
+  Bus(unsigned pes, const MachineDescription::Bus& parameters, const Jitter& jitter, EventQueue& events,
+      std::uint32_t source, BlockPool& pool, BusClient& client);
 
   /// ready: it has something to send, and room for it where it goes. `try_grant` is to follow.
   void set_ready(BusRequester requester, bool ready);
@@ -54,6 +55,7 @@ class Bus {
 
  private:
   std::uint32_t bytes_per_cycle_, arbitration_cycles_;
+  Jitter jitter_;
   EventQueue& events_;
   std::uint32_t source_;
   BlockPool& pool_;

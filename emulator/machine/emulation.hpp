@@ -54,6 +54,7 @@ class Emulation final : private TorusClient, private BusClient {
   void handle(const Event& event);
   void command(unsigned pe);
   void deliver(unsigned pe, BlockIndex block);
+  void drop(unsigned pe, BlockIndex block);
   void bus_done(BlockIndex block);
   void pixels_done(BlockIndex block);
   void slots_changed(unsigned pe);
@@ -63,7 +64,7 @@ class Emulation final : private TorusClient, private BusClient {
   [[noreturn]] void fail_niu(unsigned pe, BlockIndex block);
 
   // ---- TorusClient, BusClient ----
-  void injected(unsigned pe, Cycles now) override;
+  void injected(unsigned pe, Cycles tail) override;
   bool accept(unsigned pe, BlockIndex block) override;
   BlockIndex take(BusRequester requester, Cycles now) override;
 
@@ -77,7 +78,8 @@ class Emulation final : private TorusClient, private BusClient {
     std::uint64_t packets_delivered = 0;
   };
 
-  // Sources of events, in the order in which ties are broken: PEs, routers, bus, host, FBC.
+  // Sources of events, in the order in which ties are broken: PEs, routers, bus, host, FBC; and after all others, so
+  // that they see all requests of a cycle, arbiters: the routers', the bus's.
   std::uint32_t pes_;
   const Image& image_;
   Engine& engine_;
@@ -87,6 +89,7 @@ class Emulation final : private TorusClient, private BusClient {
   PeTimes times_;
   std::vector<NiuNetworkSide> nius_;
   std::vector<PePart> parts_;
+  Jitter jitter_;
   Torus torus_;
   Bus bus_;
   FrameBufferController controller_;

@@ -13,6 +13,7 @@
 #include "emulator/engines/image.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/machine/description.hpp"
+#include "emulator/torus/figures.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux {
@@ -46,7 +47,9 @@ struct MachineFigures {
   Cycles now = 0;                ///< virtual time of the last event
   std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
   std::vector<PeFigures> pes;
-  std::uint64_t hops = 0;  ///< links crossed by all delivered packets
+  std::vector<RouterFigures> routers;  ///< of each PE
+  PacketFigures packets;               ///< that have left the torus
+  std::uint64_t hops = 0;              ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;
   Cycles bus_busy_cycles = 0;
   std::uint64_t bus_messages = 0;

@@ -139,7 +139,9 @@ void Emulation::fill_in(MachineFigures& figures) {
       out.phase_cycles[i] = channel.phase_cycles[i].load(std::memory_order_relaxed);
     }
   }
-  figures.hops = torus_.hops();
+  figures.routers = torus_.router_figures(now_);
+  figures.packets = torus_.packet_figures();
+  figures.hops = torus_.packet_figures().hops;
   figures.link_retries = torus_.link_retries();
   figures.bus_busy_cycles = bus_.busy_cycles();
   figures.bus_messages = bus_.transfers();
