@@ -115,7 +115,7 @@ void Torus::grant(unsigned router, std::size_t input, std::size_t output, Cycles
   if (input == index_of(Port::local)) {
     client_.injected(router, tail);
   } else if (!in_slot_of_good_copy) {
-    free_slot(router, input, tail);
+    free_slot(router, input, tail, now);
   }
 }
 

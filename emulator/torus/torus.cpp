@@ -87,7 +87,7 @@ void Torus::tail(const Event& event) {
   if (input.queue.back() != event.block) return;  // nothing comes behind it before its tail
   if (input.queue.size() == 1) withdraw(event.actor, event.port, input.output, event.time);
   input.queue.remove_back(pool_);
-  if (pool_[event.block].copy == Copy::poisoned) free_slot(event.actor, event.port, event.time);
+  if (pool_[event.block].copy == Copy::poisoned) free_slot(event.actor, event.port, event.time, event.time);
   pool_.give_back(event.block);
 }
 
@@ -152,7 +152,7 @@ void Torus::collect_returns(unsigned router, std::size_t output, Cycles now) {
 }
 
 /// The slot of a packet that has left is known to be free upstream a little later.
-void Torus::free_slot(unsigned router, std::size_t input, Cycles when) {
+void Torus::free_slot(unsigned router, std::size_t input, Cycles when, Cycles now) {
   --routers_[router].inputs[input].held;
   const unsigned upstream = neighbours_[router][input];
   const std::size_t output = index_of(opposite(static_cast<Port>(input)));
@@ -160,7 +160,7 @@ void Torus::free_slot(unsigned router, std::size_t input, Cycles when) {
   return_time(upstream, output, out.first_return + out.returns) = when + slot_return_cycles_;
   ++out.returns;
   if (out.waiting != 0) {
-    schedule(upstream, output, std::max(out.free_at, return_time(upstream, output, out.first_return)));
+    schedule(upstream, output, std::max({now, out.free_at, return_time(upstream, output, out.first_return)}));
   }
 }
 

@@ -116,7 +116,7 @@ class Torus {
   Cycles send(unsigned router, std::size_t output, BlockIndex index, Cycles start);
   void send_copy(unsigned router, std::size_t output, BlockIndex index, Cycles start);
   void eject(unsigned router, BlockIndex index, Cycles tail);
-  void free_slot(unsigned router, std::size_t input, Cycles when);
+  void free_slot(unsigned router, std::size_t input, Cycles when, Cycles now);
   void collect_returns(unsigned router, std::size_t output, Cycles now);
 
   static bool goes_on(std::size_t input, std::size_t output) {

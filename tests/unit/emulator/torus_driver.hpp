@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <unordered_map>
 #include <vector>
 
@@ -48,6 +49,7 @@ class TorusDriver final : private TorusClient {
     std::uint64_t handled = 0;
     while (!events_.empty() && events_.top().time < until) {
       const Event event = events_.pop();
+      if (event.time < now_) throw std::logic_error("time runs backwards");
       now_ = event.time;
       ++handled;
       if (event.kind == EventKind::command) {
