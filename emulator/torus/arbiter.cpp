@@ -8,6 +8,7 @@ namespace torolux {
 
 void Torus::arbitrate(unsigned router, std::size_t output, Cycles now) {
   Output& out = routers_[router].outputs[output];
+  if (out.starving == kAnyone && !anyone_enters(out.waiting, output)) cease_starving(router, output, now);
   if (out.waiting == 0) return;
   if (out.free_at > now) return schedule(router, output, out.free_at);
   const bool local = output == index_of(Port::local);
@@ -18,7 +19,7 @@ void Torus::arbitrate(unsigned router, std::size_t output, Cycles now) {
   if (input) grant(router, *input, output, now);
   if (!local && out.waiting != 0) look_for_starving(router, output, now);
   if (input) {
-    if (out.waiting != 0) schedule(router, output, out.free_at);
+    if (out.waiting != 0 || out.starving != kNobody) schedule(router, output, out.free_at);
     return;
   }
   if (out.stalled_at == kNotYet) out.stalled_at = now;
@@ -49,7 +50,8 @@ bool Torus::may_go(unsigned router, std::size_t input, std::size_t output) const
   const Output& out = routers_[router].outputs[output];
   if (!bubble_ || goes_on(input, output)) return out.slots >= 1;
   if (out.slots < 2) return false;
-  return out.starving == kNobody ? !lines_.seen(router, static_cast<Port>(output)) : out.starving == input;
+  if (out.starving == kNobody) return !lines_.seen(router, static_cast<Port>(output));
+  return out.starving == input || out.starving == kAnyone;
 }
 
 /// Whoever has waited too long to enter a ring raises its line; of several the one that has waited longest. Not while
@@ -58,15 +60,23 @@ void Torus::look_for_starving(unsigned router, std::size_t output, Cycles now) {
   Router& here = routers_[router];
   Output& out = here.outputs[output];
   if (!bubble_ || out.starving != kNobody || lines_.seen(router, static_cast<Port>(output))) return;
-  Cycles longest = patience_;
+  Cycles oldest = kNotYet;
   for (std::size_t input = 0; input < kPorts; ++input) {
-    if ((out.waiting >> input & 1U) == 0 || goes_on(input, output)) continue;
-    const Cycles waited = now - here.inputs[input].asked_at;
-    if (waited <= longest) continue;
-    longest = waited;
+    const Input& in = here.inputs[input];
+    if ((out.waiting >> input & 1U) == 0 || goes_on(input, output) || now - in.asked_at <= patience_) continue;
+    const Cycles entered = pool_[in.queue.front()].entered;
+    if (entered >= oldest) continue;
+    oldest = entered;
     out.starving = static_cast<std::uint8_t>(input);
   }
-  if (out.starving != kNobody) lines_.begin(router, static_cast<Port>(output), now);
+  if (out.starving == kNobody) return;
+  out.may_enter = buffer_;
+  lines_.begin(router, static_cast<Port>(output), now);
+}
+
+void Torus::cease_starving(unsigned router, std::size_t output, Cycles now) {
+  routers_[router].outputs[output].starving = kNobody;
+  lines_.end(router, static_cast<Port>(output), now);
 }
 
 /// The first packet of an input no longer asks for this output.
@@ -77,9 +87,7 @@ void Torus::withdraw(unsigned router, std::size_t input, std::size_t output, Cyc
     out.figures.stalled += now - out.stalled_at;
     out.stalled_at = kNotYet;
   }
-  if (out.starving != input) return;
-  out.starving = kNobody;
-  lines_.end(router, static_cast<Port>(output), now);
+  if (out.starving == input) cease_starving(router, output, now);
 }
 
 void Torus::grant(unsigned router, std::size_t input, std::size_t output, Cycles now) {
@@ -92,6 +100,10 @@ void Torus::grant(unsigned router, std::size_t input, std::size_t output, Cycles
   const bool local = output == index_of(Port::local);
   const Cycles start = now + (local ? 0 : jitter_.delay(Jitter::What::link, block.number, block.hops));
   const Cycles tail = start + block.flits;
+  if (out.starving != kNobody && !goes_on(input, output)) {
+    out.starving = kAnyone;
+    if (--out.may_enter == 0) cease_starving(router, output, now);
+  }
   withdraw(router, input, output, now);
   if (out.stalled_at != kNotYet) out.figures.stalled += now - out.stalled_at;
   out.stalled_at = kNotYet;

@@ -73,6 +73,7 @@ class Torus {
  private:
   static constexpr Cycles kNotYet = ~Cycles{0};
   static constexpr std::uint8_t kNobody = 0xFF;
+  static constexpr std::uint8_t kAnyone = 0xFE;
 
   struct Input {
     BlockQueue queue;
@@ -90,6 +91,7 @@ class Torus {
     std::uint8_t waiting = 0;         // inputs that ask for it, a bit each
     std::uint8_t next_input = 0;      // round robin, among packets of one age
     std::uint8_t starving = kNobody;  // the input that has waited too long to enter this ring
+    std::uint32_t may_enter = 0;
     std::uint32_t first_return = 0, returns = 0;
     LinkFigures figures;
   };
@@ -111,6 +113,7 @@ class Torus {
   std::optional<std::size_t> choose(unsigned router, std::size_t output) const;
   bool may_go(unsigned router, std::size_t input, std::size_t output) const;
   void look_for_starving(unsigned router, std::size_t output, Cycles now);
+  void cease_starving(unsigned router, std::size_t output, Cycles now);
   void withdraw(unsigned router, std::size_t input, std::size_t output, Cycles now);
   void grant(unsigned router, std::size_t input, std::size_t output, Cycles now);
   Cycles send(unsigned router, std::size_t output, BlockIndex index, Cycles start);
@@ -121,6 +124,10 @@ class Torus {
 
   static bool goes_on(std::size_t input, std::size_t output) {
     return static_cast<Port>(input) == opposite(static_cast<Port>(output));
+  }
+  /// Of inputs that wait for an output, one bit each.
+  static bool anyone_enters(std::uint8_t waiting, std::size_t output) {
+    return (waiting & ~(1U << index_of(opposite(static_cast<Port>(output))))) != 0;
   }
   Cycles router_delay(const Block& block) const {
     return jitter_.delay(Jitter::What::router, block.number, block.hops);
