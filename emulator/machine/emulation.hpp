@@ -55,6 +55,7 @@ class Emulation final : private TorusClient, private BusClient {
   void handle(const Event& event);
   void command(unsigned pe);
   void deliver(unsigned pe, BlockIndex block);
+  void drop(unsigned pe, BlockIndex block);
   void bus_done(BlockIndex block);
   void pixels_done(BlockIndex block);
   void copy_in(unsigned pe, BlockIndex block, bool from_bus);
@@ -70,7 +71,7 @@ class Emulation final : private TorusClient, private BusClient {
   [[noreturn]] void fail_niu(unsigned pe, BlockIndex block);
 
   // ---- TorusClient, BusClient ----
-  void injected(unsigned pe, Cycles now) override;
+  void injected(unsigned pe, Cycles tail) override;
   bool accept(unsigned pe, BlockIndex block) override;
   BusSend take(BusRequester requester) override;
 
@@ -94,6 +95,7 @@ class Emulation final : private TorusClient, private BusClient {
   PeTimes times_;
   std::vector<NiuNetworkSide> nius_;
   std::vector<PePart> parts_;
+  Jitter jitter_;
   Torus torus_;
   Bus bus_;
   FrameBufferController controller_;

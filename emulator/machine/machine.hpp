@@ -16,6 +16,7 @@
 #include "emulator/host/host_program.hpp"
 #include "emulator/machine/description.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/torus/figures.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux {
@@ -62,7 +63,9 @@ struct MachineFigures {
   Cycles now = 0;                ///< virtual time at which nothing happens any more: event, PE or host
   std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
   std::vector<PeFigures> pes;
-  std::uint64_t hops = 0;  ///< links crossed by all delivered packets
+  std::vector<RouterFigures> routers;  ///< of each PE
+  PacketFigures packets;               ///< that have left the torus
+  std::uint64_t hops = 0;              ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;
   BusFigures bus;
   HostFigures host;

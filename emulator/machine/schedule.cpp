@@ -151,7 +151,9 @@ void Emulation::fill_in(MachineFigures& figures) {
   for (unsigned pe = 0; pe < pes_; ++pe) {
     figures.pes[pe].idle_at_end = figures.now - nius_[pe].channel().clock.load(std::memory_order_relaxed);
   }
-  figures.hops = torus_.hops();
+  figures.routers = torus_.router_figures(now_);
+  figures.packets = torus_.packet_figures();
+  figures.hops = torus_.packet_figures().hops;
   figures.link_retries = torus_.link_retries();
   figures.bus = bus_.figures();
   figures.host = {host_.clock().busy(figures.now), host_.clock().items(), host_.clock().own_cycles()};

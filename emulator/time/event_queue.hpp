@@ -14,7 +14,9 @@ enum class EventKind : std::uint8_t {
   command,        ///< actor: PE. Its next command takes effect
   arrive,         ///< actor: router, port: input, block: a packet's head has come
   head,           ///< actor: router, port: input. Its next packet may ask for an output
-  arbitrate,      ///< actor: router, port: output
+  tail,           ///< actor: router, port: input, block: the tail of a packet with a bad CRC has come
+  line,           ///< actor: first router of a ring, port: output, block: 1 raised, 0 not; all of the ring see it
+  arbitrate,      ///< actor: router, port: output. Comes last in its cycle
   deliver,        ///< actor: PE, block: a packet has left the torus
   copied,         ///< actor: PE, port: 1 from the bus, block: a packet lies in its record slots
   bus_request,    ///< block: requester. The arbiter sees its request

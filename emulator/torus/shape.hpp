@@ -29,6 +29,7 @@ class TorusShape {
   unsigned columns() const { return columns_; }
   unsigned rows() const { return rows_; }
   unsigned routers() const { return columns_ * rows_; }
+  unsigned diameter() const { return columns_ / 2 + rows_ / 2; }  ///< most links between two PEs
 
   unsigned neighbour(unsigned router, Port port) const {
     const unsigned x = router % columns_;

@@ -70,6 +70,7 @@ int torolux_main(int argc, const char* const* argv) {
   add_compare_command(app, action);
   add_tonemap_command(app, action);
   add_run_command(app, action);
+  add_network_command(app, action);
   add_lockstep_command(app, action);
   add_bench_command(app, action);
   const int result = guarded([&] { return run(app, action, argc, argv); });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
+#include "host_tools/cli/fault_options.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/render/presets.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
@@ -67,6 +68,7 @@ struct RenderOptions {
   std::optional<SubspacesOption> subspaces;
   std::optional<std::string> allocation, engine;
   Debugging debugging;
+  FaultOptions faults;
   bool enter_empty = false;
   std::optional<std::filesystem::path> machine;
   std::optional<std::uint32_t> threads;
@@ -85,7 +87,7 @@ void add_view_options(CLI::App& command, RenderOptions& options);
 /// --two-sided-lights,
 /// --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
-/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --threads.
+/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --jitter, --fault, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
 /// --engine.
 void add_engine_option(CLI::App& command, RenderOptions& options);

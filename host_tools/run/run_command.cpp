@@ -11,6 +11,7 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
+#include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/text.hpp"
@@ -26,6 +27,7 @@ struct RunOptions {
   std::string engine = kDefaultEngine;
   std::optional<std::string> machine, stats;
   Debugging debugging;
+  FaultOptions faults;
   unsigned threads = 0;
   bool quiet = false;
 };
@@ -56,6 +58,7 @@ MachineSetup setup_from(const RunOptions& options) {
   if (options.machine) {
     setup.description = load_machine_description(*options.machine);
   }
+  options.faults.apply_to(setup.description);
   return setup;
 }
 
@@ -111,6 +114,7 @@ void add_run_command(CLI::App& app, CommandAction& action) {
   command->add_option("--machine", options->machine, "Parameters of the machine [built in]")->type_name("FILE.toml");
   command->add_option("--engine", options->engine, "What runs the PEs")->type_name("NAME")->capture_default_str();
   add_debugging_options(*command, options->debugging, "");
+  add_fault_options(*command, options->faults, "");
   command->add_option("--threads", options->threads, "Threads of this computer that work for the machine [all cores]")
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));

@@ -205,7 +205,7 @@ TEST(Links, LatencyAndDelaysDoNotShow) {
   RenderCase cornell = small_cornell("cornell_spheres");
   cornell.machine.description.torus.link_cycles = 37;
   cornell.machine.description.torus.flit_bytes = 4;
-  cornell.machine.description.injected_delay_cycles = 900;
+  cornell.machine.description.jitter = {.seed = 1, .cycles = 900};
   expect_same_picture(cornell);
 }
 
@@ -258,7 +258,7 @@ TEST(ShadowRays, MakeTheSamePicture) {
   other.machine.rows = 5;
   other.machine.subspaces = {5, 3, 7};
   other.machine.allocation = "balanced";
-  other.machine.description.injected_delay_cycles = 900;
+  other.machine.description.jitter = {.seed = 1, .cycles = 900};
   same(other);
   cornell.machine.engine = "qemu";
   const std::string figures = same(cornell);

@@ -28,6 +28,7 @@ class MachineDice {
     machine.torus.link_cycles = number(1, 40);
     machine.torus.buffer_packets = number(2, 5);
     machine.torus.slot_return_cycles = number(1, 20);
+    machine.torus.patience_cycles = chance(2) ? number(1, 50) : 1024;
     machine.torus.send_queue_packets = number(1, 5);
     machine.torus.retry_cycles = number(1, 30);
     machine.bus.bytes_per_cycle = 1U << number(0, 5);
@@ -42,7 +43,7 @@ class MachineDice {
     machine.records.gather_cycles = chance(3) ? 0 : 1U << number(4, 20);
     machine.records.gather_records = chance(3) ? number(1, 40) : 4096;
     if (chance(2)) machine.torus.link_error_rate = number(1, 200) * 1e-3;
-    if (chance(2)) machine.injected_delay_cycles = number(1, 3000);
+    if (chance(2)) machine.jitter = {.seed = number(1, 1'000'000), .cycles = number(1, 3000)};
     return machine;
   }
 
@@ -62,7 +63,7 @@ inline std::string to_text(const MachineDescription& machine, unsigned columns, 
        << machine.host.cost_factor << ", credits " << machine.records.credits_per_pe << ", slots "
        << machine.records.niu_slots << ", gathering " << machine.records.gather_cycles << "/"
        << machine.records.gather_records << ", errors " << machine.torus.link_error_rate << ", delays "
-       << machine.injected_delay_cycles;
+       << machine.jitter.seed << "/" << machine.jitter.cycles;
   return text.str();
 }
 
