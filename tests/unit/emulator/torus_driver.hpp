@@ -47,7 +47,7 @@ class TorusDriver final : private TorusClient {
   /// Handles all events before `until`, or all there are. Returns their number.
   std::uint64_t run(Cycles until = ~Cycles{0}) {
     std::uint64_t handled = 0;
-    while (!events_.empty() && events_.top().time < until) {
+    while (events_.next_time() < until) {
       const Event event = events_.pop();
       if (event.time < now_) throw std::logic_error("time runs backwards");
       now_ = event.time;
