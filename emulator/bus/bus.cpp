@@ -1,39 +1,128 @@
 // SPDX-License-Identifier: MIT
-// The system bus: arbitration in turn, and the time of a transfer.
+// The system bus: requests as the arbiter sees them, arbitration in turn, the time of a transfer, and the counts.
 #include "emulator/bus/bus.hpp"
 
+#include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
 namespace torolux {
 
-Bus::Bus(unsigned pes, const MachineDescription::Bus& parameters, EventQueue& events, std::uint32_t source,
-         BlockPool& pool, BusClient& client)
-    : bytes_per_cycle_(parameters.bytes_per_cycle),
-      arbitration_cycles_(parameters.arbitration_cycles),
-      events_(events),
-      source_(source),
-      pool_(pool),
-      client_(client),
-      ready_(1 + std::size_t{2} * pes),
-      requesters_(1 + 2 * pes) {}
+namespace {
 
-void Bus::set_ready(BusRequester requester, bool ready) {
-  ready_.set(requester.number(), ready);
+BusUser user_of(BusRequester requester) {
+  if (requester.is_host()) return BusUser::host;
+  return requester.is_divert() ? BusUser::divert : BusUser::queue;
 }
 
-void Bus::try_grant(Cycles now) {
-  if (busy_) return;
-  const std::size_t found = ready_.next(next_);
-  if (found == ReadySet::kNobody) return;
-  const auto number = static_cast<std::uint32_t>(found);
+BusKind kind_of(BusRequester requester, const Block& block) {
+  const auto is = [&block](auto kind) { return block.message_kind == static_cast<std::uint16_t>(kind); };
+  if (requester.is_divert()) return BusKind::diverted;
+  if (block.records != 0) return BusKind::records;
+  if (requester.is_host()) return is(protocol::MessageKind::load) ? BusKind::load : BusKind::control;
+  if (block.destination == protocol::kFrameBuffer) return BusKind::pixels;
+  if (is(protocol::MachineMessage::text)) return BusKind::text;
+  return is(protocol::MessageKind::credits) ? BusKind::credits : BusKind::answers;
+}
+
+}  // namespace
+
+Bus::Bus(unsigned pes, const MachineDescription& machine, EventQueue& events, std::uint32_t source,
+         std::uint32_t arbiter, BlockPool& pool, BusClient& client)
+    : bytes_per_cycle_(machine.bus.bytes_per_cycle),
+      arbitration_cycles_(machine.bus.arbitration_cycles),
+      signal_cycles_(machine.signal_cycles()),
+      events_(events),
+      source_(source),
+      arbiter_(arbiter),
+      pool_(pool),
+      client_(client),
+      requests_(1 + std::size_t{2} * pes, BusRequest::none),
+      room_(1 + std::size_t{2} * pes),
+      frame_buffer_(1 + std::size_t{2} * pes),
+      places_(machine.frame_buffer.queue_messages),
+      requesters_(1 + 2 * pes) {
+  figures_.from_pe.resize(pes);
+  figures_.to_pe.resize(pes);
+}
+
+void Bus::request(BusRequester requester, BusRequest what, Cycles now) {
+  BusRequest& line = requests_[requester.number()];
+  if (line != BusRequest::none) return;
+  line = what;
+  if (signal_cycles_ == 0) return see(requester.number(), now);
+  events_.push(now + signal_cycles_, source_, EventKind::bus_request, 0, 0, requester.number());
+}
+
+void Bus::free_place(Cycles now) {
+  if (signal_cycles_ == 0) return see_place(now);
+  events_.push(now + signal_cycles_, source_, EventKind::bus_place, 0, 0, 0);
+}
+
+void Bus::handle(const Event& event) {
+  if (event.kind == EventKind::bus_request) return see(event.block, event.time);
+  if (event.kind == EventKind::bus_place) return see_place(event.time);
+  scheduled_ = false;
+  const std::size_t next = busy_ ? ReadySet::kNobody : next_in_turn();
+  if (next != ReadySet::kNobody) grant(static_cast<std::uint32_t>(next), event.time);
+}
+
+void Bus::see(std::uint32_t requester, Cycles now) {
+  set_seen(requester, requests_[requester]);
+  schedule(now);
+}
+
+void Bus::see_place(Cycles now) {
+  ++places_;
+  schedule(now);
+}
+
+void Bus::set_seen(std::uint32_t requester, BusRequest what) {
+  room_.set(requester, what == BusRequest::room);
+  frame_buffer_.set(requester, what == BusRequest::frame_buffer);
+}
+
+void Bus::transfer_done(Cycles now) {
+  busy_ = false;
+  schedule(now);
+}
+
+/// All requests that are seen in this cycle count, whatever the order of events.
+void Bus::schedule(Cycles now) {
+  if (busy_ || scheduled_ || next_in_turn() == ReadySet::kNobody) return;
+  scheduled_ = true;
+  events_.push(now, arbiter_, EventKind::bus_arbitrate, 0, 0, 0);
+}
+
+std::size_t Bus::next_in_turn() const {
+  const std::size_t room = room_.next(next_);
+  const std::size_t pixels = places_ != 0 ? frame_buffer_.next(next_) : ReadySet::kNobody;
+  if (room == ReadySet::kNobody || pixels == ReadySet::kNobody) return room != ReadySet::kNobody ? room : pixels;
+  const auto turns = [this](std::size_t requester) { return (requester + requesters_ - next_) % requesters_; };
+  return turns(room) < turns(pixels) ? room : pixels;
+}
+
+void Bus::grant(std::uint32_t number, Cycles now) {
   next_ = (number + 1) % requesters_;
   busy_ = true;
-  const BlockIndex block = client_.take(BusRequester(number), now);
-  const std::uint32_t bytes = pool_[block].bytes + static_cast<std::uint32_t>(sizeof(protocol::MessageHeader));
-  const Cycles duration = arbitration_cycles_ + (bytes + bytes_per_cycle_ - 1) / bytes_per_cycle_;
-  busy_cycles_ += duration;
-  ++transfers_;
-  events_.push(now + duration, source_, EventKind::bus_done, 0, 0, block);
+  if (requests_[number] == BusRequest::frame_buffer) --places_;
+  const BusSend send = client_.take(BusRequester(number));
+  requests_[number] = send.next;
+  set_seen(number, send.next);
+  const std::uint32_t bytes = pool_[send.block].bytes + static_cast<std::uint32_t>(sizeof(protocol::MessageHeader));
+  count(BusRequester(number), pool_[send.block], bytes);
+  events_.push(now + arbitration_cycles_ + (bytes + bytes_per_cycle_ - 1) / bytes_per_cycle_, source_,
+               EventKind::bus_done, 0, 0, send.block);
+}
+
+void Bus::count(BusRequester requester, const Block& block, std::uint32_t bytes) {
+  const Cycles data = (bytes + bytes_per_cycle_ - 1) / bytes_per_cycle_;
+  const Cycles all = arbitration_cycles_ + data;
+  figures_.arbitration_cycles += arbitration_cycles_;
+  figures_.data_cycles += data;
+  ++figures_.transfers;
+  figures_.users[static_cast<std::size_t>(user_of(requester))].add(bytes, all);
+  figures_.kinds[static_cast<std::size_t>(kind_of(requester, block))].add(bytes, all);
+  (requester.is_host() ? figures_.to_pe[block.destination] : figures_.from_pe[requester.pe()]).add(bytes, all);
 }
 
 }  // namespace torolux

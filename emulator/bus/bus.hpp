@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The system bus: one transfer at a time, in turn among those that are ready.
+// The system bus: one transfer at a time, in turn among those whose request the arbiter sees.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "emulator/bus/bus_figures.hpp"
 #include "emulator/machine/description.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/ready_set.hpp"
@@ -28,42 +30,66 @@ class BusRequester {
   std::uint32_t number_;
 };
 
+/// What a requester asks for: a transfer for which there is room, or one to the frame buffer controller, whose places
+/// the arbiter counts.
+enum class BusRequest : std::uint8_t { none, room, frame_buffer };
+
+/// What a requester that has the bus sends; `next`: whether its request stays up.
+struct BusSend {
+  BlockIndex block;
+  BusRequest next;
+};
+
 class BusClient {
  public:
   virtual ~BusClient() = default;
-  /// The requester has been granted the bus: gives what it sends, and has reserved room for it where it goes.
-  virtual BlockIndex take(BusRequester requester, Cycles now) = 0;
+  /// The requester has been granted the bus.
+  virtual BusSend take(BusRequester requester) = 0;
 };
 
-/// A transfer of n bytes, header included, takes arbitration_cycles + ceil(n / bytes_per_cycle).
+/// A transfer of n bytes, header included, takes arbitration_cycles + ceil(n / bytes_per_cycle). The arbiter sees a new
+/// request signal_cycles after it was made, and likewise a place that the frame buffer controller has freed. It decides
+/// at the end of a cycle, among all requests that it sees by then.
 class Bus {
  public:
-  Bus(unsigned pes, const MachineDescription::Bus& parameters, EventQueue& events, std::uint32_t source,
+  /// source, arbiter: of events; the arbiter's sorts after all others.
+  Bus(unsigned pes, const MachineDescription& machine, EventQueue& events, std::uint32_t source, std::uint32_t arbiter,
       BlockPool& pool, BusClient& client);
 
-  /// ready: it has something to send, and room for it where it goes. `try_grant` is to follow.
-  void set_ready(BusRequester requester, bool ready);
-  /// Grants the bus if it is free and someone is ready.
-  void try_grant(Cycles now);
+  /// The requester's request goes up; one that is up stays as it is.
+  void request(BusRequester requester, BusRequest what, Cycles now);
+  /// The frame buffer controller has freed a place.
+  void free_place(Cycles now);
+  /// Kinds bus_request, bus_place, bus_arbitrate.
+  void handle(const Event& event);
   /// The transfer of Event bus_done has ended: the bus is free.
-  void transfer_done() { busy_ = false; }
+  void transfer_done(Cycles now);
 
   bool busy() const { return busy_; }
-  Cycles busy_cycles() const { return busy_cycles_; }
-  std::uint64_t transfers() const { return transfers_; }
+  const BusFigures& figures() const { return figures_; }
 
  private:
-  std::uint32_t bytes_per_cycle_, arbitration_cycles_;
+  void see(std::uint32_t requester, Cycles now);
+  void see_place(Cycles now);
+  void schedule(Cycles now);
+  std::size_t next_in_turn() const;
+  void grant(std::uint32_t requester, Cycles now);
+  void count(BusRequester requester, const Block& block, std::uint32_t bytes);
+  void set_seen(std::uint32_t requester, BusRequest what);
+
+  std::uint32_t bytes_per_cycle_, arbitration_cycles_, signal_cycles_;
   EventQueue& events_;
-  std::uint32_t source_;
+  std::uint32_t source_, arbiter_;
   BlockPool& pool_;
   BusClient& client_;
-  ReadySet ready_;  // requesters
+  std::vector<BusRequest> requests_;  // by requester, as it has them
+  ReadySet room_, frame_buffer_;      // requests that the arbiter sees
+  std::uint32_t places_;              // of the frame buffer controller, free as far as the arbiter knows
   std::uint32_t requesters_;
   std::uint32_t next_ = 0;  // round robin
   bool busy_ = false;
-  Cycles busy_cycles_ = 0;
-  std::uint64_t transfers_ = 0;
+  bool scheduled_ = false;  // a bus_arbitrate of this cycle
+  BusFigures figures_;
 };
 
 }  // namespace torolux

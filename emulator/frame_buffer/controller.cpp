@@ -38,9 +38,15 @@ void FrameBufferController::arrive(BlockIndex index, Cycles now) {
                          ": sent the frame buffer controller a message of kind " + std::to_string(block.message_kind) +
                          " with " + std::to_string(block.bytes) + " bytes; it takes whole pixels only");
   }
+  if (++places_used_ > places_) {
+    throw MachineFailure("the frame buffer controller has " + std::to_string(places_) + " places, and got message " +
+                         std::to_string(places_used_));
+  }
+  high_water_ = std::max(high_water_, places_used_);
   const Cycles duration = block.bytes / sizeof(PixelAdd) * cycles_per_pixel_;
   free_at_ = std::max(free_at_, now) + duration;
   busy_cycles_ += duration;
+  message_cycles_ += free_at_ - now;
   events_.push(free_at_, source_, EventKind::pixels_done, 0, 0, index);
 }
 

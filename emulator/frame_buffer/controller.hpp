@@ -11,23 +11,23 @@
 
 namespace torolux {
 
-/// Takes messages in order; each PixelAdd costs cycles_per_pixel. The bus brings one only once it has a place.
+/// Takes messages in order; each PixelAdd costs cycles_per_pixel. The bus counts its places, and brings no more.
 class FrameBufferController {
  public:
   /// layers: planes besides the colours, as bits (protocol::plane_bit).
   FrameBufferController(const MachineDescription::FrameBuffer& parameters, std::uint32_t width, std::uint32_t height,
                         std::uint32_t layers, EventQueue& events, std::uint32_t source, BlockPool& pool);
 
-  bool has_place() const { return places_used_ < places_; }
-  void reserve_place() { ++places_used_; }
   /// A message has come over the bus. Throws MachineFailure: not of pixels, a pixel or a plane that is not in the
-  /// frame buffer.
+  /// frame buffer; no place for it.
   void arrive(BlockIndex block, Cycles now);
   /// Event pixels_done: adds the message's pixels and frees its place.
   void add_pixels(BlockIndex block);
 
   std::uint32_t waiting() const { return places_used_; }
   const FrameBuffer& frame_buffer() const { return frame_buffer_; }
+  std::uint32_t high_water() const { return high_water_; }   ///< messages that waited or were being added
+  Cycles message_cycles() const { return message_cycles_; }  ///< that messages spent here, in all
   Cycles busy_cycles() const { return busy_cycles_; }
   std::uint64_t pixels_added() const { return pixels_added_; }
 
@@ -38,8 +38,10 @@ class FrameBufferController {
   BlockPool& pool_;
   FrameBuffer frame_buffer_;
   std::uint32_t places_used_ = 0;
+  std::uint32_t high_water_ = 0;
   Cycles free_at_ = 0;
   Cycles busy_cycles_ = 0;
+  Cycles message_cycles_ = 0;
   std::uint64_t pixels_added_ = 0;
 };
 

@@ -10,16 +10,17 @@
 
 namespace torolux {
 
-HostActor::HostActor(const MachineDescription::Host& parameters, HostProgram& program,
-                     std::vector<NiuNetworkSide>& nius, EventQueue& events, std::uint32_t source, BlockPool& pool)
-    : cycles_per_message_(parameters.cycles_per_message),
-      program_(program),
-      nius_(nius),
-      events_(events),
-      source_(source),
-      pool_(pool),
-      lines_(nius.size()),
-      ready_(nius.size()) {}
+namespace {
+constexpr std::size_t index_of(HostQueue queue) {
+  return static_cast<std::size_t>(queue);
+}
+}  // namespace
+
+HostActor::HostActor(const MachineDescription& machine, HostProgram& program, unsigned pes, EventQueue& events,
+                     std::uint32_t source, BlockPool& pool)
+    : clock_(machine), program_(program), events_(events), source_(source), pool_(pool), lines_(pes), ready_(pes) {
+  for (Line& line : lines_) line.control_buffers = machine.bus.control_buffers;
+}
 
 void HostActor::send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) {
   if (pe >= lines_.size() || contents.size() > protocol::kMostMessageBytes) {
@@ -53,9 +54,10 @@ void HostActor::queue_for(PeNumber pe, BlockIndex index) {
   block.number = (std::uint64_t{protocol::kHost} << 32U) | numbers_++;
   block.source = protocol::kHost;
   block.destination = pe;
-  clock_ += cycles_per_message_;
+  clock_.work(HostWork::message, 1);
+  clock_.work(HostWork::copy, host_lines(block.bytes));
   ++lines_[pe].made;
-  events_.push(clock_, source_, EventKind::host_queue, pe, 0, index);
+  events_.push(clock_.now(), source_, EventKind::host_queue, pe, 0, index);
 }
 
 void HostActor::start() {
@@ -70,58 +72,83 @@ void HostActor::arrive(BlockIndex block, Cycles now) {
 void HostActor::schedule_step(Cycles now) {
   if (stepping_ || inbox_.empty()) return;
   stepping_ = true;
-  events_.push(std::max(now, clock_) + cycles_per_message_, source_, EventKind::host_step, 0, 0, 0);
+  clock_.wait_until(now);
+  clock_.work(HostWork::message, 1);
+  const Block& first = pool_[inbox_.front()];  // diverted records only pass through
+  if (first.records == 0) clock_.work(HostWork::copy, host_lines(first.bytes));
+  events_.push(clock_.now(), source_, EventKind::host_step, 0, 0, 0);
 }
 
-void HostActor::step(Cycles now) {
+void HostActor::step() {
   stepping_ = false;
-  clock_ = now;
   const BlockIndex index = inbox_.front();
   inbox_.pop_front();
   Block& block = pool_[index];
   if (block.records != 0) {  // diverted: back to where it wanted to go
-    clock_ += cycles_per_message_;
+    clock_.work(HostWork::message, 1);
     lines_[block.destination].diverted += block.records;
-    events_.push(clock_, source_, EventKind::host_queue, block.destination, 1, index);
+    events_.push(clock_.now(), source_, EventKind::host_queue, block.destination, 1, index);
   } else {
     program_.on_message(*this, block.source, block.message_kind, block.payload());
     pool_.give_back(index);
   }
-  schedule_step(clock_);
+  schedule_step(clock_.now());
 }
 
-void HostActor::enqueue(unsigned pe, BlockIndex block) {
+HostQueue HostActor::enqueue(unsigned pe, BlockIndex block) {
+  const HostQueue queue = pool_[block].source == protocol::kHost ? HostQueue::program : HostQueue::resend;
+  lines_[pe].queues[index_of(queue)].push(pool_, block);
+  update(pe);
+  return queue;
+}
+
+std::uint32_t HostActor::ask_for_slots(unsigned pe, HostQueue queue) {
   Line& line = lines_[pe];
-  (pool_[block].source == protocol::kHost ? line.program : line.resend).push(pool_, block);
-  room_changed(pe);
+  const BlockQueue& blocks = line.queues[index_of(queue)];
+  Slots& slots = line.slots[index_of(queue)];
+  if (blocks.empty() || slots != Slots::none) return 0;
+  const std::uint32_t records = pool_[blocks.front()].records;
+  if (records != 0) slots = Slots::asked;
+  return records;
+}
+
+void HostActor::slots_granted(unsigned pe, HostQueue queue) {
+  lines_[pe].slots[index_of(queue)] = Slots::granted;
+  update(pe);
+}
+
+void HostActor::control_buffer_free(unsigned pe) {
+  ++lines_[pe].control_buffers;
+  update(pe);
 }
 
 /// Whether the first of a queue has room at its PE.
-bool HostActor::fits(unsigned pe, const BlockQueue& queue) const {
-  if (queue.empty()) return false;
-  const std::uint32_t records = pool_[queue.front()].records;
-  return records != 0 ? nius_[pe].has_slots(records) : nius_[pe].has_control_buffer();
-}
-
-void HostActor::room_changed(unsigned pe) {
+bool HostActor::fits(unsigned pe, HostQueue queue) const {
   const Line& line = lines_[pe];
-  ready_.set(pe, fits(pe, line.program) || fits(pe, line.resend));
+  const BlockQueue& blocks = line.queues[index_of(queue)];
+  if (blocks.empty()) return false;
+  if (pool_[blocks.front()].records != 0) return line.slots[index_of(queue)] == Slots::granted;
+  return line.control_buffers != 0;
 }
 
-BlockIndex HostActor::take() {
+void HostActor::update(unsigned pe) {
+  ready_.set(pe, fits(pe, HostQueue::program) || fits(pe, HostQueue::resend));
+}
+
+HostActor::Taken HostActor::take() {
   const auto pe = static_cast<unsigned>(ready_.next(next_pe_));
   next_pe_ = (pe + 1) % static_cast<unsigned>(lines_.size());
   Line& line = lines_[pe];
-  const bool resend = fits(pe, line.resend);
-  const BlockIndex block = (resend ? line.resend : line.program).pop(pool_);
-  if (!resend) --line.made;
-  if (const std::uint32_t records = pool_[block].records; records != 0) {
-    nius_[pe].reserve_slots(records);
+  const HostQueue queue = fits(pe, HostQueue::resend) ? HostQueue::resend : HostQueue::program;
+  const BlockIndex block = line.queues[index_of(queue)].pop(pool_);
+  if (queue == HostQueue::program) --line.made;
+  if (pool_[block].records != 0) {
+    line.slots[index_of(queue)] = Slots::none;
   } else {
-    nius_[pe].reserve_control_buffer();
+    --line.control_buffers;
   }
-  room_changed(pe);
-  return block;
+  update(pe);
+  return {block, pe, queue};
 }
 
 }  // namespace torolux

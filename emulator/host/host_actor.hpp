@@ -3,29 +3,32 @@
 // sends diverted records back to their PEs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <span>
 #include <vector>
 
+#include "emulator/host/host_clock.hpp"
 #include "emulator/host/host_program.hpp"
+#include "emulator/host/host_queue.hpp"
 #include "emulator/machine/description.hpp"
-#include "emulator/niu/network_side.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/ready_set.hpp"
 #include "emulator/torus/block.hpp"
 
 namespace torolux {
 
-/// Every message taken in or made costs cycles_per_message of the host's own clock.
+/// All that the host does it does one after the other, by its own clock; the bus takes what it has made meanwhile.
 class HostActor final : public HostPort {
  public:
-  HostActor(const MachineDescription::Host& parameters, HostProgram& program, std::vector<NiuNetworkSide>& nius,
-            EventQueue& events, std::uint32_t source, BlockPool& pool);
+  HostActor(const MachineDescription& machine, HostProgram& program, unsigned pes, EventQueue& events,
+            std::uint32_t source, BlockPool& pool);
 
   // ---- HostPort ----
-  Cycles now() const override { return clock_; }
-  unsigned pes() const override { return static_cast<unsigned>(nius_.size()); }
+  Cycles now() const override { return clock_.now(); }
+  unsigned pes() const override { return static_cast<unsigned>(lines_.size()); }
+  void work(HostWork what, std::uint64_t items) override { clock_.work(what, items); }
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override;
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override;
   std::size_t queued(PeNumber pe) const override { return lines_[pe].made; }
@@ -35,43 +38,55 @@ class HostActor final : public HostPort {
   /// A message or diverted records have come over the bus.
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
-  void step(Cycles now);
-  /// Event host_queue: something made earlier is ready for the bus.
-  void enqueue(unsigned pe, BlockIndex block);
-  /// Slots or control buffers of a PE have become free, or taken.
-  void room_changed(unsigned pe);
+  void step();
+  /// Event host_queue: something made earlier waits for room. What it is put behind.
+  HostQueue enqueue(unsigned pe, BlockIndex block);
+  /// Records for which slots must be asked for now; 0: none, or it has been done. Then they are asked for.
+  std::uint32_t ask_for_slots(unsigned pe, HostQueue queue);
+  /// The first packet of a queue has its slots.
+  void slots_granted(unsigned pe, HostQueue queue);
+  /// A control buffer that the host had used is free again.
+  void control_buffer_free(unsigned pe);
   /// Whether something is ready for which there is room.
   bool ready() const { return !ready_.empty(); }
-  /// What goes over the bus next, its room reserved.
-  BlockIndex take();
+  /// What goes over the bus next, and the queue that it stood in.
+  struct Taken {
+    BlockIndex block;
+    unsigned pe;
+    HostQueue queue;
+  };
+  Taken take();
 
   bool idle() const { return inbox_.empty() && !stepping_; }
   std::size_t inbox() const { return inbox_.size(); }
-  std::size_t waiting(unsigned pe) const { return lines_[pe].program.size() + lines_[pe].resend.size(); }
+  std::size_t waiting(unsigned pe) const { return lines_[pe].queues[0].size() + lines_[pe].queues[1].size(); }
+  const HostClock& clock() const { return clock_; }
   std::uint64_t records_diverted(unsigned pe) const { return lines_[pe].diverted; }
 
  private:
+  /// Slots for the first packet of a queue.
+  enum class Slots : std::uint8_t { none, asked, granted };
   struct Line {
-    BlockQueue program;    // from the program, in its order
-    BlockQueue resend;     // diverted records on their way back: apart, so that neither waits for the other
-    std::size_t made = 0;  // of the program's: not yet taken by the bus
+    std::array<BlockQueue, kHostQueues> queues;
+    std::array<Slots, kHostQueues> slots{};
+    std::uint32_t control_buffers = 0;  // free ones of the NIU, as far as the host knows
+    std::size_t made = 0;               // of the program's: not yet taken by the bus
     std::uint64_t diverted = 0;
   };
 
   void queue_for(PeNumber pe, BlockIndex block);
-  bool fits(unsigned pe, const BlockQueue& queue) const;
+  bool fits(unsigned pe, HostQueue queue) const;
+  void update(unsigned pe);
   void schedule_step(Cycles now);
 
-  std::uint32_t cycles_per_message_;
+  HostClock clock_;
   HostProgram& program_;
-  std::vector<NiuNetworkSide>& nius_;
   EventQueue& events_;
   std::uint32_t source_;
   BlockPool& pool_;
   std::vector<Line> lines_;
   ReadySet ready_;  // PEs for which there is something, and room
   std::deque<BlockIndex> inbox_;
-  Cycles clock_ = 0;
   bool stepping_ = false;  // a host_step is scheduled
   std::uint32_t numbers_ = 0;
   unsigned next_pe_ = 0;  // round robin

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "emulator/host/host_work.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
@@ -17,12 +18,15 @@ using protocol::PeNumber;
 using Cycles = std::uint64_t;  ///< virtual time
 
 /// What a host program may do. Sends never block: they queue in host memory, in order for each PE, and the bus takes
-/// them as the PE has room (a control buffer, or reserved record slots). Each send costs the host's clock a little.
+/// them as the PE has room (a control buffer, or reserved record slots). A message sent or taken in costs the host's
+/// clock by itself (HostWork::message and copy); all else that a program computes it must say.
 class HostPort {
  public:
   virtual ~HostPort() = default;
   virtual Cycles now() const = 0;
   virtual unsigned pes() const = 0;
+  /// Moves the host's clock: so many items of this have been done.
+  virtual void work(HostWork what, std::uint64_t items) = 0;
   /// kind: MessageKind. contents: up to kMostMessageBytes, copied.
   virtual void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) = 0;
   /// records: count * record_bytes, count 1..kMostRecordsPerPacket. The NIU puts them into its slots.

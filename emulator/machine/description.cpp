@@ -57,13 +57,26 @@ void add_other_keys(Description& d, std::vector<Key>& keys) {
   keys.push_back({"bus.arbitration_cycles", &d.bus.arbitration_cycles, 1, kMostCycles});
   keys.push_back({"bus.send_queue_messages", &d.bus.send_queue_messages, 1, 256});
   keys.push_back({"bus.control_buffers", &d.bus.control_buffers, 1, 4096});
+  keys.push_back({"bus.signal_cycles", &d.bus.signal_cycles, 1, kMostCycles});
+  keys.push_back({"niu.bytes_per_cycle", &d.niu.bytes_per_cycle, 1, 4096});
+  keys.push_back({"niu.receive_packets", &d.niu.receive_packets, 1, 4096});
   keys.push_back({"frame_buffer.cycles_per_pixel", &d.frame_buffer.cycles_per_pixel, 1, kMostCycles});
   keys.push_back({"frame_buffer.queue_messages", &d.frame_buffer.queue_messages, 1, 65536});
-  keys.push_back({"host.cycles_per_message", &d.host.cycles_per_message, 1, kMostCycles});
+  keys.push_back({"host.clock_hertz", &d.host.clock_hertz, 1, 1e12});
+  keys.push_back({"host.cost_factor", &d.host.cost_factor, 0, 1000});
+  for (std::size_t i = 0; i < kHostWorks; ++i) {
+    keys.push_back({"host.cycles." + std::string(kHostWorkNames[i]), &d.host.cycles[i], 0, kMostCycles});
+  }
   keys.push_back({"records.credits_per_pe", &d.records.credits_per_pe, 1, 65536});
   keys.push_back({"records.niu_slots", &d.records.niu_slots, protocol::kMostRecordsPerPacket, 4096});
   keys.push_back({"records.gather_cycles", &d.records.gather_cycles, 0, 1'000'000'000});
   keys.push_back({"records.gather_records", &d.records.gather_records, 1, 4096});
+}
+
+void add_ideal_keys(Description& d, std::vector<Key>& keys) {
+  keys.push_back({"ideal.host", &d.ideal.host});
+  keys.push_back({"ideal.niu", &d.ideal.niu});
+  keys.push_back({"ideal.signals", &d.ideal.signals});
 }
 
 std::vector<Key> keys_of(Description& description) {
@@ -71,6 +84,7 @@ std::vector<Key> keys_of(Description& description) {
   add_processor_keys(description, keys);
   add_network_keys(description, keys);
   add_other_keys(description, keys);
+  add_ideal_keys(description, keys);
   return keys;
 }
 

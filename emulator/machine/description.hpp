@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/host/host_work.hpp"
+
 namespace torolux {
 
 /// Classes of instructions that cost the same; the latency table gives each its cycles.
@@ -61,9 +63,17 @@ struct MachineDescription {
     std::uint32_t arbitration_cycles = 4;    ///< >= 1
     std::uint32_t send_queue_messages = 16;  ///< outgoing queue of a NIU, >= 1
     std::uint32_t control_buffers = 2;       ///< messages that wait in a NIU for the processor, >= 1
+    std::uint32_t signal_cycles = 4;         ///< of a request, a grant or a freed place, seen at the other end; >= 1
 
     bool operator==(const Bus&) const = default;
   } bus;
+
+  struct Niu {
+    std::uint32_t bytes_per_cycle = 8;  ///< of each of its two copy engines
+    std::uint32_t receive_packets = 2;  ///< from the torus, that wait to be copied into record slots, >= 1
+
+    bool operator==(const Niu&) const = default;
+  } niu;
 
   struct FrameBuffer {
     std::uint32_t cycles_per_pixel = 2;  ///< one addition
@@ -73,10 +83,22 @@ struct MachineDescription {
   } frame_buffer;
 
   struct Host {
-    std::uint32_t cycles_per_message = 50;  ///< to take one in or make one, >= 1
+    double clock_hertz = 3e9;       ///< of its one processor
+    std::uint32_t cost_factor = 1;  ///< of all its costs; 0: it takes no time
+    /// By HostWork: its own cycles for an item. docs/costs.md says where they come from.
+    std::array<std::uint32_t, kHostWorks> cycles = {1500, 15, 30, 15, 600, 60, 100, 15, 9000, 4000, 2100, 200};
 
     bool operator==(const Host&) const = default;
   } host;
+
+  /// Parts that cost nothing, to show what they cost otherwise.
+  struct Ideal {
+    bool host = false;     ///< all that the host computes and all its messages
+    bool niu = false;      ///< copies between local memory and the NIU; as many receive buffers as it takes
+    bool signals = false;  ///< who may send is known everywhere at once
+
+    bool operator==(const Ideal&) const = default;
+  } ideal;
 
   struct Records {
     std::uint32_t credits_per_pe = 128;    ///< W = this * PEs, >= 1
@@ -91,6 +113,8 @@ struct MachineDescription {
   std::uint32_t injected_delay_cycles = 0;
 
   bool operator==(const MachineDescription&) const = default;
+
+  std::uint32_t signal_cycles() const { return ideal.signals ? 0 : bus.signal_cycles; }
 };
 
 /// Reads a machine file. Unknown keys, wrong types and values out of range throw InputError with file and line.

@@ -27,16 +27,17 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       image_(image),
       engine_(engine),
       program_(program),
-      events_(2 * std::size_t{pes_} + 3),
+      events_(3 * std::size_t{pes_} + 4),
       times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},
       nius_(make_nius(channels, setup.description, engine)),
       parts_(pes_),
       torus_(TorusShape(setup.columns, setup.rows), setup.description.torus, setup.description.injected_delay_cycles,
              events_, pes_, pool_, *this),
-      bus_(pes_, setup.description.bus, events_, 2 * pes_, pool_, *this),
+      bus_(pes_, setup.description, events_, 2 * pes_, 3 * pes_ + 3, pool_, *this),
       controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, setup.frame_layers, events_,
                   2 * pes_ + 2, pool_),
-      host_(setup.description.host, program, nius_, events_, 2 * pes_ + 1, pool_) {}
+      host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
+      signal_cycles_(setup.description.signal_cycles()) {}
 
 void Emulation::handle(const Event& event) {
   switch (event.kind) {
@@ -51,15 +52,34 @@ void Emulation::handle(const Event& event) {
     case EventKind::deliver:
       deliver(event.actor, event.block);
       break;
+    case EventKind::copied:
+      copied(event.actor, event.block, event.port != 0);
+      break;
+    case EventKind::bus_request:
+    case EventKind::bus_place:
+    case EventKind::bus_arbitrate:
+      bus_.handle(event);
+      break;
     case EventKind::bus_done:
       bus_done(event.block);
       break;
     case EventKind::host_queue:
-      host_.enqueue(event.actor, event.block);
+      ask_for_slots(event.actor, host_.enqueue(event.actor, event.block));
+      update_host();
+      break;
+    case EventKind::slots_asked:
+      slots_asked(event.actor, static_cast<HostQueue>(event.port), event.block);
+      break;
+    case EventKind::slots_granted:
+      host_.slots_granted(event.actor, static_cast<HostQueue>(event.port));
+      update_host();
+      break;
+    case EventKind::control_free:
+      host_.control_buffer_free(event.actor);
       update_host();
       break;
     case EventKind::host_step:
-      host_.step(event.time);
+      host_.step();
       break;
     case EventKind::pixels_done:
       pixels_done(event.block);
@@ -80,15 +100,16 @@ void Emulation::command(unsigned pe) {
     }
     case CommandKind::send_message:
       parts_[pe].outgoing.push(pool_, command.block);
-      update_outgoing(pe);
-      bus_.try_grant(now_);
+      bus_.request(BusRequester::outgoing(pe), first_request(pe), now_);
       break;
     case CommandKind::release:
       break;
     case CommandKind::received:
       niu.release_control_buffer();
-      host_.room_changed(pe);
-      update_host();
+      if (!signal(EventKind::control_free, pe, 0, 0)) {
+        host_.control_buffer_free(pe);
+        update_host();
+      }
       break;
     case CommandKind::set_slots: {
       SlotsCommand slots{};
@@ -127,8 +148,36 @@ void Emulation::fail_niu(unsigned pe, BlockIndex block) {
 /// Slots of a PE's NIU have become free: packets may leave the torus, the host may send records.
 void Emulation::slots_changed(unsigned pe) {
   torus_.try_ejection(pe, now_);
-  host_.room_changed(pe);
-  update_host();
+  grant_slots(pe);
+}
+
+// ---- Slots for the host's packets ----
+
+/// A signal between host and NIU is on its way. False: it is there at once, and no event.
+bool Emulation::signal(EventKind kind, unsigned pe, std::uint8_t port, std::uint32_t value) {
+  if (signal_cycles_ == 0) return false;
+  events_.push(now_ + signal_cycles_, pes_ + pe, kind, static_cast<std::uint16_t>(pe), port, value);
+  return true;
+}
+
+/// The first packet of one of the host's queues, if it has just become that.
+void Emulation::ask_for_slots(unsigned pe, HostQueue queue) {
+  const std::uint32_t records = host_.ask_for_slots(pe, queue);
+  if (records == 0 || signal(EventKind::slots_asked, pe, static_cast<std::uint8_t>(queue), records)) return;
+  slots_asked(pe, queue, records);
+}
+
+void Emulation::slots_asked(unsigned pe, HostQueue queue, std::uint32_t records) {
+  nius_[pe].ask_for_slots(queue, records);
+  grant_slots(pe);
+}
+
+void Emulation::grant_slots(unsigned pe) {
+  while (const auto queue = nius_[pe].grant_slots()) {
+    if (signal(EventKind::slots_granted, pe, static_cast<std::uint8_t>(*queue), 0)) continue;
+    host_.slots_granted(pe, *queue);
+    update_host();
+  }
 }
 
 // ---- Torus ----
@@ -138,13 +187,15 @@ void Emulation::injected(unsigned pe, Cycles now) {
   nius_[pe].left_torus_queue(now, times_);
 }
 
-/// Slots if there are enough; otherwise the divert buffer, once it is free.
+/// Slots if there are enough, and a buffer to wait in until it is copied there; without slots the divert buffer, once
+/// it is free.
 bool Emulation::accept(unsigned pe, BlockIndex block) {
+  NiuNetworkSide& niu = nius_[pe];
   const std::uint32_t records = pool_[block].records;
-  if (nius_[pe].has_slots(records)) {
-    nius_[pe].reserve_slots(records);
-    host_.room_changed(pe);
-    bus_.set_ready(BusRequester::host(), host_.ready());
+  if (niu.has_slots(records)) {
+    if (!niu.has_receive_buffer()) return false;
+    niu.reserve_slots(records);
+    niu.reserve_receive_buffer();
     return true;
   }
   if (parts_[pe].diverting != kNoBlock) return false;
@@ -154,72 +205,80 @@ bool Emulation::accept(unsigned pe, BlockIndex block) {
 
 void Emulation::deliver(unsigned pe, BlockIndex block) {
   ++parts_[pe].packets_delivered;
-  if (parts_[pe].diverting != block) return nius_[pe].deliver(block, now_, pool_, times_);
-  bus_.set_ready(BusRequester::divert(pe), true);
-  bus_.try_grant(now_);
+  if (parts_[pe].diverting != block) return copy_in(pe, block, false);
+  bus_.request(BusRequester::divert(pe), BusRequest::room, now_);
+}
+
+/// A packet lies whole in a buffer of its NIU.
+void Emulation::copy_in(unsigned pe, BlockIndex block, bool from_bus) {
+  const Cycles end = nius_[pe].copy_in(pool_[block].bytes, now_);
+  if (end == now_) return copied(pe, block, from_bus);
+  events_.push(end, pes_ + pe, EventKind::copied, static_cast<std::uint16_t>(pe), from_bus ? 1 : 0, block);
+}
+
+void Emulation::copied(unsigned pe, BlockIndex block, bool from_bus) {
+  nius_[pe].deliver(block, now_, pool_, times_);
+  if (from_bus) {
+    nius_[pe].release_bus_buffer();
+    grant_slots(pe);
+  } else {
+    nius_[pe].release_receive_buffer();
+    torus_.try_ejection(pe, now_);
+  }
 }
 
 // ---- Bus ----
 
-/// A PE may send once its first message has room where it goes: host memory always has.
-void Emulation::update_outgoing(unsigned pe) {
+/// What the first message of a PE's queue needs.
+BusRequest Emulation::first_request(unsigned pe) const {
   const BlockQueue& queue = parts_[pe].outgoing;
-  const bool ready = !queue.empty() && (pool_[queue.front()].destination == protocol::kHost || controller_.has_place());
-  bus_.set_ready(BusRequester::outgoing(pe), ready);
+  if (queue.empty()) return BusRequest::none;
+  return pool_[queue.front()].destination == protocol::kFrameBuffer ? BusRequest::frame_buffer : BusRequest::room;
 }
 
 void Emulation::update_host() {
-  bus_.set_ready(BusRequester::host(), host_.ready());
-  bus_.try_grant(now_);
+  if (host_.ready()) bus_.request(BusRequester::host(), BusRequest::room, now_);
 }
 
-BlockIndex Emulation::take(BusRequester requester, Cycles now) {
+BusSend Emulation::take(BusRequester requester) {
   if (requester.is_host()) {
-    const BlockIndex block = host_.take();
-    bus_.set_ready(requester, host_.ready());
-    return block;
+    const HostActor::Taken taken = host_.take();
+    ask_for_slots(taken.pe, taken.queue);
+    return {taken.block, host_.ready() ? BusRequest::room : BusRequest::none};
   }
   const unsigned pe = requester.pe();
-  if (requester.is_divert()) {
-    bus_.set_ready(requester, false);
-    return parts_[pe].diverting;
-  }
+  if (requester.is_divert()) return {parts_[pe].diverting, BusRequest::none};
   const BlockIndex block = parts_[pe].outgoing.pop(pool_);
-  if (pool_[block].destination == protocol::kFrameBuffer) {
-    controller_.reserve_place();
-    if (!controller_.has_place()) {
-      for (unsigned other = 0; other < pes_; ++other) update_outgoing(other);
-    }
-  }
-  update_outgoing(pe);
-  nius_[pe].left_bus_queue(now, times_);
-  return block;
+  return {block, first_request(pe)};
 }
 
 void Emulation::bus_done(BlockIndex index) {
-  bus_.transfer_done();
   const Block& block = pool_[index];
-  const bool from_host_queue = block.source == protocol::kHost;
-  if (block.records != 0 && !from_host_queue && parts_[block.destination].diverting == index) {
-    parts_[block.destination].diverting = kNoBlock;
+  const unsigned from = block.source;
+  const unsigned to = block.destination;
+  const bool from_host_queue = from == protocol::kHost;
+  if (block.records != 0 && !from_host_queue && parts_[to].diverting == index) {
+    parts_[to].diverting = kNoBlock;
     host_.arrive(index, now_);
-    torus_.try_ejection(block.destination, now_);
-  } else if (block.records != 0 || from_host_queue) {
-    nius_[block.destination].deliver(index, now_, pool_, times_);
-  } else if (block.destination == protocol::kFrameBuffer) {
-    controller_.arrive(index, now_);
+    torus_.try_ejection(to, now_);
+  } else if (block.records != 0) {
+    copy_in(to, index, true);
+  } else if (from_host_queue) {
+    nius_[to].deliver(index, now_, pool_, times_);
   } else {
-    host_.arrive(index, now_);
+    nius_[from].left_bus_queue(now_, times_);
+    if (to == protocol::kFrameBuffer) {
+      controller_.arrive(index, now_);
+    } else {
+      host_.arrive(index, now_);
+    }
   }
-  bus_.try_grant(now_);
+  bus_.transfer_done(now_);
 }
 
 void Emulation::pixels_done(BlockIndex block) {
-  const bool was_full = !controller_.has_place();
   controller_.add_pixels(block);
-  if (!was_full) return;
-  for (unsigned pe = 0; pe < pes_; ++pe) update_outgoing(pe);
-  bus_.try_grant(now_);
+  bus_.free_place(now_);
 }
 
 }  // namespace torolux

@@ -57,8 +57,14 @@ class Emulation final : private TorusClient, private BusClient {
   void deliver(unsigned pe, BlockIndex block);
   void bus_done(BlockIndex block);
   void pixels_done(BlockIndex block);
+  void copy_in(unsigned pe, BlockIndex block, bool from_bus);
+  void copied(unsigned pe, BlockIndex block, bool from_bus);
   void slots_changed(unsigned pe);
-  void update_outgoing(unsigned pe);
+  bool signal(EventKind kind, unsigned pe, std::uint8_t port, std::uint32_t value);
+  void ask_for_slots(unsigned pe, HostQueue queue);
+  void slots_asked(unsigned pe, HostQueue queue, std::uint32_t records);
+  void grant_slots(unsigned pe);
+  BusRequest first_request(unsigned pe) const;
   void update_host();
   [[noreturn]] void fail_program(unsigned pe, BlockIndex block);
   [[noreturn]] void fail_niu(unsigned pe, BlockIndex block);
@@ -66,19 +72,19 @@ class Emulation final : private TorusClient, private BusClient {
   // ---- TorusClient, BusClient ----
   void injected(unsigned pe, Cycles now) override;
   bool accept(unsigned pe, BlockIndex block) override;
-  BlockIndex take(BusRequester requester, Cycles now) override;
+  BusSend take(BusRequester requester) override;
 
   /// What belongs to a PE beside its NIU's account.
   struct PePart {
     BlockQueue outgoing;              // to the bus
     BlockIndex diverting = kNoBlock;  // in the divert buffer, or on its way there
-    bool divert_ready = false;        // it has come whole
     bool halted = false;
     std::uint64_t packets_sent = 0;
     std::uint64_t packets_delivered = 0;
   };
 
-  // Sources of events, in the order in which ties are broken: PEs, routers, bus, host, FBC.
+  // Sources of events, in the order in which ties are broken: PEs, routers (and what their NIUs do on the network's
+  // side), bus, host, FBC, the routers' arbiters, the bus's arbiter: those decide at the end of a cycle.
   std::uint32_t pes_;
   const Image& image_;
   Engine& engine_;
@@ -92,13 +98,13 @@ class Emulation final : private TorusClient, private BusClient {
   Bus bus_;
   FrameBufferController controller_;
   HostActor host_;
+  std::uint32_t signal_cycles_;
   std::function<void(Cycles)> attend_;
   std::uint32_t until_attend_ = 0;
   double last_attended_ = 0;
   double slept_ = 0;
   Cycles now_ = 0;
   std::uint64_t trace_hash_ = 0;
-  std::vector<std::uint32_t> waiting_for_controller_;  // PEs whose next message is for the FBC
 };
 
 }  // namespace torolux

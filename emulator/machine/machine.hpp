@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/bus/bus_figures.hpp"
 #include "emulator/engines/debugging.hpp"
 #include "emulator/engines/engine.hpp"
 #include "emulator/engines/image.hpp"
@@ -42,10 +43,19 @@ struct PeFigures {
   std::uint64_t packets_delivered = 0;  ///< from the torus, diverted ones too
   std::uint64_t records_diverted = 0;
   std::uint32_t record_slots_high_water = 0;
+  Cycles copy_out_cycles = 0;                            ///< of its NIU's outgoing copy engine
+  Cycles copy_in_cycles = 0;                             ///< and of the incoming one
+  std::uint32_t receive_buffers_high_water = 0;          ///< packets from the torus
   std::array<Cycles, protocol::kPhases> phase_cycles{};  ///< busy, by innermost phase
 
   Cycles idle_cycles() const;     ///< all that it is not busy
   Cycles outside_phases() const;  ///< busy, but in no phase
+};
+
+struct HostFigures {
+  Cycles busy_cycles = 0;                              ///< of `now`, in cycles of the PEs
+  std::array<std::uint64_t, kHostWorks> items{};       ///< by HostWork
+  std::array<std::uint64_t, kHostWorks> own_cycles{};  ///< likewise, of the host's processor
 };
 
 struct MachineFigures {
@@ -54,9 +64,11 @@ struct MachineFigures {
   std::vector<PeFigures> pes;
   std::uint64_t hops = 0;  ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;
-  Cycles bus_busy_cycles = 0;
-  std::uint64_t bus_messages = 0;
+  BusFigures bus;
+  HostFigures host;
   Cycles frame_buffer_busy_cycles = 0;
+  std::uint32_t frame_buffer_high_water = 0;  ///< messages in its queue
+  Cycles frame_buffer_message_cycles = 0;     ///< summed over messages: in the queue or being added
   std::uint64_t pixels_added = 0;
   double scheduler_seconds = 0;  ///< host CPU time that the emulator itself used
   double engine_seconds = 0;     ///< host CPU time of the engine (all its processes or threads)

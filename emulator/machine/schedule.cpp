@@ -128,6 +128,9 @@ void Emulation::fill_in(PeFigures& out, unsigned pe) {
   out.packets_delivered = parts_[pe].packets_delivered;
   out.records_diverted = host_.records_diverted(pe);
   out.record_slots_high_water = nius_[pe].slots_high_water();
+  out.copy_out_cycles = channel.copied.load(std::memory_order_relaxed);
+  out.copy_in_cycles = nius_[pe].copy_in_cycles();
+  out.receive_buffers_high_water = nius_[pe].receive_buffers_high_water();
   for (std::size_t i = 0; i < out.phase_cycles.size(); ++i) {
     out.phase_cycles[i] = channel.phase_cycles[i].load(std::memory_order_relaxed);
   }
@@ -150,9 +153,11 @@ void Emulation::fill_in(MachineFigures& figures) {
   }
   figures.hops = torus_.hops();
   figures.link_retries = torus_.link_retries();
-  figures.bus_busy_cycles = bus_.busy_cycles();
-  figures.bus_messages = bus_.transfers();
+  figures.bus = bus_.figures();
+  figures.host = {host_.clock().busy(figures.now), host_.clock().items(), host_.clock().own_cycles()};
   figures.frame_buffer_busy_cycles = controller_.busy_cycles();
+  figures.frame_buffer_high_water = controller_.high_water();
+  figures.frame_buffer_message_cycles = controller_.message_cycles();
   figures.pixels_added = controller_.pixels_added();
 }
 

@@ -40,7 +40,7 @@ enum class WaitReason : std::uint8_t {
   arrivals,     ///< to be woken from `receive`
   torus_place,  ///< in the outgoing queue to the torus
   bus_place,    ///< in the outgoing queue to the bus
-  copy,         ///< for its NIU to have copied
+  copy,         ///< for a copy engine: to be free for what is sent, or to have copied the message received
   count
 };
 inline constexpr std::size_t kWaitReasons = static_cast<std::size_t>(WaitReason::count);
@@ -53,6 +53,11 @@ inline constexpr std::uint32_t kLeastRingBytes = 16U << 10U;
 inline constexpr unsigned kManyPes = 64;
 /// From the end of a HINT to the moment when the network side sees what it did [cycles]: the lookahead of this edge.
 inline constexpr std::uint64_t kCommandCycles = 1;
+
+/// Of a copy engine that moves so many bytes in a cycle; 0: it takes no time.
+constexpr std::uint64_t copy_cycles(std::uint64_t bytes, std::uint32_t bytes_per_cycle) {
+  return bytes_per_cycle == 0 ? 0 : (bytes + bytes_per_cycle - 1) / bytes_per_cycle;
+}
 
 enum class CommandKind : std::uint16_t {
   send_records,  ///< payload: the records
@@ -67,7 +72,7 @@ enum class CommandKind : std::uint16_t {
 
 /// Processor -> network. `time` of successive commands never falls.
 struct Command {
-  std::uint64_t time;  ///< [cycles] clock at the end of the HINT, plus kCommandCycles
+  std::uint64_t time;  ///< [cycles] when what is sent has been copied or the HINT has ended, plus kCommandCycles
   CommandKind kind;
   std::uint16_t destination;   ///< send_*
   std::uint16_t message_kind;  ///< send_message
@@ -148,6 +153,8 @@ struct Departures {
 
 /// What only the processor's side uses; here so that its owner may be any engine.
 struct ProcessorState {
+  std::uint64_t last_command;   ///< time of the last command
+  std::uint64_t copy_free;      ///< clock from which the outgoing copy engine is free
   std::uint64_t packets_sent;   ///< into the torus queue
   std::uint64_t messages_sent;  ///< into the bus queue
   std::uint64_t gather_end;     ///< arrivals up to here belong to the last wake-up
@@ -169,7 +176,7 @@ struct NiuChannel {
   std::uint32_t torus_queue;  ///< places in the outgoing queue to the torus, 1..kMostSendQueue
   std::uint32_t bus_queue;
   std::uint32_t pes;
-  std::uint32_t unused;
+  std::uint32_t copy_bytes;  ///< in a cycle of a copy engine; 0: copies take no time
   std::uint64_t most_cycles_between_hints;
 
   // Written by the processor's side.
@@ -177,6 +184,7 @@ struct NiuChannel {
   std::atomic<std::uint64_t> wait;               ///< pack_wait
   std::atomic<std::uint64_t> clock;              ///< at the end of the last HINT, or at the beginning of one that waits
   std::array<std::atomic<std::uint64_t>, kWaitReasons> waits;  ///< [cycles] of `clock` spent waiting, by WaitReason
+  std::atomic<std::uint64_t> copied;                           ///< [cycles] of the outgoing copy engine
   std::atomic<std::uint64_t> instructions;
   std::atomic<std::uint64_t> taken;  ///< arrivals, so far
   std::array<std::atomic<std::uint64_t>, protocol::kPhases> phase_cycles;
@@ -201,6 +209,12 @@ struct NiuChannel {
   ByteRing<Command, kMostRingBytes> commands;
   ByteRing<Arrival, kMostRingBytes> arrivals;
 };
+/// When the next command takes effect, if it is ready at this clock: commands stay in their order.
+inline std::uint64_t command_time(ProcessorState& state, std::uint64_t clock) {
+  state.last_command = state.last_command > clock + kCommandCycles ? state.last_command : clock + kCommandCycles;
+  return state.last_command;
+}
+
 /// Cycles of the processor's clock that it has waited in HINTs.
 inline std::uint64_t waited_cycles(const NiuChannel& channel) {
   std::uint64_t sum = 0;

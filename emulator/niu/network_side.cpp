@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <string>
 
 #include "emulator/errors.hpp"
@@ -18,10 +19,16 @@ constexpr std::chrono::microseconds kLongestSleep{20'000};
 
 NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine,
                                ProcessorWaker* waker)
-    : channel_(&channel), waker_(waker), pe_(pe), control_buffers_(machine.bus.control_buffers) {
+    : channel_(&channel),
+      waker_(waker),
+      pe_(pe),
+      control_buffers_(machine.bus.control_buffers),
+      receive_buffers_(machine.ideal.niu ? std::numeric_limits<std::uint32_t>::max() : machine.niu.receive_packets),
+      copy_bytes_(machine.ideal.niu ? 0 : machine.niu.bytes_per_cycle) {
   channel.torus_queue = machine.torus.send_queue_packets;
   channel.bus_queue = machine.bus.send_queue_messages;
   channel.pes = pes;
+  channel.copy_bytes = copy_bytes_;
   channel.most_cycles_between_hints = machine.processor.most_cycles_between_hints;
   const std::uint32_t ring_bytes = waker != nullptr || pes > kManyPes ? kLeastRingBytes : kMostRingBytes;
   channel.commands.set_bytes(ring_bytes);
@@ -212,10 +219,41 @@ void NiuNetworkSide::release_slots(std::uint32_t records) {
   used_ -= records;
 }
 
+// ---- Receive buffers ----
+
+void NiuNetworkSide::reserve_receive_buffer() {
+  ++receiving_;
+  receiving_high_water_ = std::max(receiving_high_water_, receiving_);
+}
+
+Cycles NiuNetworkSide::copy_in(std::uint32_t bytes, Cycles now) {
+  const Cycles cycles = copy_cycles(bytes, copy_bytes_);
+  copy_free_ = std::max(copy_free_, now) + cycles;
+  copy_in_cycles_ += cycles;
+  return copy_free_;
+}
+
+std::optional<HostQueue> NiuNetworkSide::grant_slots() {
+  if (bus_buffer_used_) return std::nullopt;
+  for (const HostQueue queue : {HostQueue::resend, HostQueue::program}) {
+    std::uint32_t& records = asked_[static_cast<std::size_t>(queue)];
+    if (records == 0 || !has_slots(records)) continue;
+    reserve_slots(records);
+    records = 0;
+    bus_buffer_used_ = copy_bytes_ != 0;
+    return queue;
+  }
+  return std::nullopt;
+}
+
 // ---- Towards the processor ----
 
 void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, PeTimes& times) {
   const Block& block = pool[index];
+  if (block.records == 0 && ++control_used_ > control_buffers_) {
+    throw MachineFailure("PE " + std::to_string(pe_) + ": its NIU has " + std::to_string(control_buffers_) +
+                         " control buffers, and got message " + std::to_string(control_used_));
+  }
   gathered_.push_back({now, block.records});
   if (overflow_.empty() && channel_->arrivals.has_room(block.bytes)) {
     push_arrival(block, now);

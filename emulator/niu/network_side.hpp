@@ -3,10 +3,12 @@
 // and hands arrivals over. Knows how long the processor will certainly do nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
 
+#include "emulator/host/host_queue.hpp"
 #include "emulator/machine/description.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/waker.hpp"
@@ -62,9 +64,25 @@ class NiuNetworkSide {
   bool has_slots(std::uint32_t records) const { return used_ + records <= slots_; }
   void reserve_slots(std::uint32_t records);  ///< only after has_slots
   void release_slots(std::uint32_t records);
-  bool has_control_buffer() const { return control_used_ < control_buffers_; }
-  void reserve_control_buffer() { ++control_used_; }
   void release_control_buffer() { --control_used_; }
+
+  // ---- Receive buffers, and the engine that copies from them into slots ----
+
+  bool has_receive_buffer() const { return receiving_ < receive_buffers_; }
+  void reserve_receive_buffer();
+  void release_receive_buffer() { --receiving_; }
+  std::uint32_t receive_buffers_high_water() const { return receiving_high_water_; }
+  /// A packet with so many bytes of records lies in a buffer at `now`: when it has been copied.
+  Cycles copy_in(std::uint32_t bytes, Cycles now);
+  Cycles copy_in_cycles() const { return copy_in_cycles_; }
+
+  // ---- Slots for the host's packets; one packet at a time, as the buffer that the bus fills holds one ----
+
+  /// The host wants slots for the first packet of a queue.
+  void ask_for_slots(HostQueue queue, std::uint32_t records) { asked_[static_cast<std::size_t>(queue)] = records; }
+  /// Reserves slots and buffer for one of the host's queues, diverted records first; nothing where there is no room.
+  std::optional<HostQueue> grant_slots();
+  void release_bus_buffer() { bus_buffer_used_ = false; }
 
   // ---- Towards the processor ----
 
@@ -111,6 +129,11 @@ class NiuNetworkSide {
   std::uint32_t sends_ = 0;
   std::uint32_t slots_ = 0, used_ = 0, high_water_ = 0;
   std::uint32_t control_buffers_, control_used_ = 0;
+  std::uint32_t receive_buffers_, receiving_ = 0, receiving_high_water_ = 0;
+  std::uint32_t copy_bytes_;  // in a cycle; 0: copies take no time
+  Cycles copy_free_ = 0, copy_in_cycles_ = 0;
+  std::array<std::uint32_t, kHostQueues> asked_{};  // slots, by HostQueue
+  bool bus_buffer_used_ = false;
   std::deque<PendingCommand> commands_;
   std::deque<Overflow> overflow_;  // delivered, but the ring was full
 };

@@ -60,6 +60,7 @@ class HintRun {
 
   bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind,
                       WaitReason reason);
+  std::uint64_t copy_out(std::uint64_t bytes);
   bool wait_for_room();
   void wait_until(std::uint64_t time, WaitReason reason);
   bool wakes_now(const Arrival& head) const;
@@ -77,7 +78,7 @@ class HintRun {
   }
 
   void push(CommandKind kind, std::uint32_t released = 0, std::span<const std::byte> payload = {}) {
-    push({clock_ + kCommandCycles, kind, 0, 0, 0, released, 0}, payload);
+    push({command_time(state_, clock_), kind, 0, 0, 0, released, 0}, payload);
   }
   void push(const Command& command, std::span<const std::byte> payload) { channel_.commands.push(command, payload); }
   void end_with_fault(NiuFaultCode code, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0) {
@@ -238,6 +239,16 @@ void HintRun::set_slots() {
 
 // ---- Sending ----
 
+/// The outgoing engine begins to copy as soon as it is free; the processor waits for that, and no longer. When the copy
+/// has ended.
+std::uint64_t HintRun::copy_out(std::uint64_t bytes) {
+  wait_until(state_.copy_free, WaitReason::copy);
+  const std::uint64_t cycles = copy_cycles(bytes, channel_.copy_bytes);
+  channel_.copied.store(channel_.copied.load(std::memory_order_relaxed) + cycles, std::memory_order_relaxed);
+  state_.copy_free = clock_ + cycles;
+  return state_.copy_free;
+}
+
 /// Packet number `sent` needs a place in a queue of so many: the clock moves to when it is free.
 bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind,
                              WaitReason reason) {
@@ -275,8 +286,8 @@ void HintRun::send_records() {
     ++released;
   }
   ++state_.packets_sent;
-  push({clock_ + kCommandCycles, CommandKind::send_records, send.destination, 0, static_cast<std::uint16_t>(count),
-        released, 0},
+  push({command_time(state_, copy_out(bytes)), CommandKind::send_records, send.destination, 0,
+        static_cast<std::uint16_t>(count), released, 0},
        std::span(records).first(bytes));
 }
 
@@ -300,7 +311,8 @@ void HintRun::send_message() {
     return;
   }
   ++state_.messages_sent;
-  push({clock_ + kCommandCycles, CommandKind::send_message, send.destination, header.kind, 0, 0, 0},
+  push({command_time(state_, copy_out(sizeof header + header.bytes)), CommandKind::send_message, send.destination,
+        header.kind, 0, 0, 0},
        std::span<const std::byte>(at(send.address) + sizeof header, header.bytes));
 }
 
@@ -366,6 +378,8 @@ void HintRun::take(const Arrival& arrival) {
   if (window_.arrival.kind == protocol::ArrivalKind::records) {
     take_records(arrival, payload);
   } else {
+    // From its control buffer into the window, while the processor waits for it.
+    wait_until(clock_ + copy_cycles(sizeof window_.message + payload.size(), channel_.copy_bytes), WaitReason::copy);
     window_.message = {arrival.message_kind, arrival.source, arrival.bytes};
     if (!payload.empty()) std::memcpy(window_.message_bytes.data(), payload.data(), payload.size());
     push(CommandKind::received);
@@ -421,7 +435,7 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
   channel_.processor.last_hint = run.clock();
   window.retry = 0;
   // The next HINT ends at least one cycle later.
-  publish_bound(channel_, run.clock() + kCommandCycles + 1,
+  publish_bound(channel_, std::max(run.clock() + kCommandCycles + 1, channel_.processor.last_command),
                 pack_wait(happened ? WaitKind::running : WaitKind::halted, 0));
   return {happened ? done : stop, run.clock()};
 }

@@ -38,6 +38,8 @@ class ClusterVertices {
            const protocol::Flux& flux);
   /// Adds to the sums of all vertices that facets of clusters have, once all have been added.
   void smooth(std::vector<VertexSum>& sums);
+  /// Fits of irradiance in `smooth`.
+  std::uint64_t fits() const { return vertices_.size(); }
   /// Irradiance at a vertex of a cluster's facet with this normal, where the vertex itself has so much.
   Vec3d facing(std::uint32_t vertex, const Vec3d& unit_normal, const Vec3d& irradiance) const;
 

@@ -42,6 +42,7 @@ class SideLight {
     note_lit_sides();
   }
 
+  std::uint64_t fits() const { return clusters_.fits(); }
   const std::array<std::uint32_t, 3>& corners(std::uint32_t facet) const { return vertices_.corners(facet); }
   /// Irradiance at a facet's corners.
   std::array<Vec3d, 3> at_corners(const MeshPatch& patch, std::uint32_t facet) const {
@@ -236,6 +237,7 @@ Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, dou
                                        SideLight(mesh, flux, narrow, covered, 1)};
   const double factor = watts_per_quantum / (std::numbers::pi * unit_radiance);
   Lattice lattice;
+  lattice.fits = light[0].fits() + light[1].fits();
   lattice.first.assign(mesh.facets.size(), 0);
   for (const MeshPatch& patch : mesh.patches) {
     for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {

@@ -14,6 +14,7 @@ namespace torolux {
 struct Lattice {
   std::vector<protocol::LatticeTriangle> triangles;  ///< by facet; of each the front, then the back, as present
   std::vector<std::uint32_t> first;                  ///< by facet: into `triangles`
+  std::uint64_t fits = 0;                            ///< fits of irradiance that were made for it
 };
 
 /// flux: incident, by global element (Mesh::elements of them), in quanta. watts_per_quantum: of the flux.

@@ -120,7 +120,7 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["energy"] = energy_json(figures.energy);
   json["shots"] = figures.shots;
   json["rays"] = figures.rays;
-  json["bus"] = {{"busy_cycles", machine.bus_busy_cycles}, {"messages", machine.bus_messages}};
+  json["bus"] = {{"busy_cycles", machine.bus.busy_cycles()}, {"messages", machine.bus.transfers}};
   json["frame_buffer"] = {{"busy_cycles", machine.frame_buffer_busy_cycles}, {"pixels_added", machine.pixels_added}};
   json["trace_hash"] = hexadecimal(machine.trace_hash);
   json["phases"] = phases_of(sums.phases);

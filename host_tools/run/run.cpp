@@ -99,7 +99,7 @@ std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figu
   json["records"] = {{"diverted", diverted}};
   json["hops"] = {{"mean", delivered > 0 ? static_cast<double>(figures.hops) / static_cast<double>(delivered) : 0},
                   {"total", figures.hops}};
-  json["bus"] = {{"busy_cycles", figures.bus_busy_cycles}, {"messages", figures.bus_messages}};
+  json["bus"] = {{"busy_cycles", figures.bus.busy_cycles()}, {"messages", figures.bus.transfers}};
   json["trace_hash"] = hexadecimal(figures.trace_hash);
   json["settings"] = {{"pes", {setup.columns, setup.rows}}, {"pe_memory", setup.local_memory_bytes}};
   json["pes"] = std::move(pes);

@@ -126,7 +126,8 @@ std::optional<Start> enter(const Grid& grid, const Planes& planes, const protoco
 }  // namespace
 
 std::optional<FirstSubspace> first_subspace(const Grid& grid, const protocol::Vec3f& origin,
-                                            const protocol::Vec3f& direction, const std::vector<bool>* filled) {
+                                            const protocol::Vec3f& direction, const std::vector<bool>* filled,
+                                            std::uint64_t* entered) {
   const Planes planes(grid, origin, direction);
   bool inside = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -134,16 +135,23 @@ std::optional<FirstSubspace> first_subspace(const Grid& grid, const protocol::Ve
   }
   std::optional<Start> start = inside ? Start{grid.cell_of(origin), protocol::kFirst} : enter(grid, planes, origin);
   if (!start) return std::nullopt;
+  std::uint64_t cells = 1;
   while (filled != nullptr && !(*filled)[grid.index(start->cell)]) {
     std::size_t axis = 0;
     for (std::size_t other = 1; other < 3; ++other) {
       if (planes.exit(other, start->cell[other]) < planes.exit(axis, start->cell[axis])) axis = other;
     }
     std::uint32_t& cell = start->cell[axis];
-    if (cell == (planes.upward(axis) ? grid.cells[axis] - 1 : 0)) return std::nullopt;
+    if (cell == (planes.upward(axis) ? grid.cells[axis] - 1 : 0)) {
+      start.reset();
+      break;
+    }
     cell += planes.upward(axis) ? 1U : ~0U;
     start->flags = entry_flags(axis);
+    ++cells;
   }
+  if (entered != nullptr) *entered += cells;
+  if (!start) return std::nullopt;
   return FirstSubspace{grid.index(start->cell), start->flags};
 }
 

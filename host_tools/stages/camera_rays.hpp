@@ -27,6 +27,7 @@ class CameraRays {
              PixelSamples samples, std::uint32_t seed);
 
   std::uint64_t count() const { return std::uint64_t{width_} * height_ * samples_.count(); }
+  std::size_t table_entries() const { return samples_.table_entries(); }
   /// pixel: row * width + column, row 0 on top.
   CameraRay ray(std::uint32_t pixel, std::uint32_t sample) const;
 
@@ -44,8 +45,9 @@ struct FirstSubspace {
 
 /// Where a ray's walk begins: the cell of its origin, or the one where it enters the object space; nothing where it
 /// misses that. By the PEs' own formulas, in float. filled: where given, the first cell on the way with anything in it
-/// (by cell); nothing where there is none.
+/// (by cell); nothing where there is none. entered: where given, grows by the subspaces of the walk.
 std::optional<FirstSubspace> first_subspace(const Grid& grid, const protocol::Vec3f& origin,
-                                            const protocol::Vec3f& direction, const std::vector<bool>* filled);
+                                            const protocol::Vec3f& direction, const std::vector<bool>* filled,
+                                            std::uint64_t* entered = nullptr);
 
 }  // namespace torolux

@@ -28,6 +28,7 @@ void LoadPhase::on_message(HostPort& port, PeNumber source, protocol::MessageKin
 
 void LoadPhase::load(HostPort& port, PeNumber pe) const {
   const PeLoad load = load_of_(pe);
+  port.work(HostWork::layout, host_lines(sizeof load.layout + load.image.size()));
   send(port, pe, protocol::MessageKind::configure, load.layout);
   std::array<std::byte, protocol::kMostMessageBytes> message{};
   for (std::size_t at = 0; at < load.image.size(); at += protocol::kMostLoadBytes) {

@@ -79,6 +79,7 @@ PixelSamples::PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint3
   for (std::uint32_t sample = 0; sample < samples; ++sample) {
     uniform_.push_back(pixel_place(sample, samples, protocol::hash_combine(seed, sample)));
   }
+  if (samples == 1) return;  // all in their pixels' middles
   for (std::uint32_t i = 0; i <= kSteps; ++i) {
     distances_.push_back(filter_distance(filter, static_cast<double>(i) / kSteps));
   }

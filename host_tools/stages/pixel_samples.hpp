@@ -49,6 +49,7 @@ class PixelSamples {
  public:
   PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint32_t seed);
 
+  std::size_t table_entries() const { return distances_.size(); }
   std::uint32_t count() const { return static_cast<std::uint32_t>(uniform_.size()); }
   /// Some lie outside the pixel's square.
   PixelPlace place(std::uint32_t column, std::uint32_t row, std::uint32_t sample) const;

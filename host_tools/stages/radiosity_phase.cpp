@@ -3,6 +3,7 @@
 #include "host_tools/stages/radiosity_phase.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 #include <utility>
 
@@ -20,6 +21,11 @@ using protocol::ShotKind;
 constexpr std::uint64_t kGrant = 32;
 /// Grants on their way to one PE: more would only wait there while another shooter could use them.
 constexpr std::size_t kGrantsUnderWay = 2;
+
+/// Compares of a sort [n log2 n, rounded up].
+std::uint64_t compares_to_sort(std::uint64_t n) {
+  return n < 2 ? 0 : n * static_cast<std::uint64_t>(std::bit_width(n - 1));
+}
 
 /// The order of candidates: more unshot, then lower patch, front before back, emitted before reflected.
 bool before(const Candidate& a, const Candidate& b) {
@@ -54,11 +60,13 @@ void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kin
   if (state_ == State::selecting && kind == MessageKind::candidates) {
     take_candidates(port, source, contents);
   } else if (state_ == State::shooting && kind == MessageKind::credits) {
+    port.work(HostWork::entry, 1);
     pool_ += contents_as<protocol::Credits>(contents).count;
     if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
     grant(port);
     end_round_if_over(port);
   } else if (state_ == State::shooting && kind == MessageKind::shot_done) {
+    port.work(HostWork::entry, shooting_.size());
     std::erase(shooting_, source);
     if (!waiting_[source].empty()) begin_shot(port, source);
     grant(port);
@@ -74,6 +82,7 @@ void RadiosityPhase::take_candidates(HostPort& port, PeNumber source, std::span<
       contents.size() < offsetof(protocol::Candidates, candidate) + message.count * sizeof(Candidate)) {
     throw MachineFailure("PE " + std::to_string(source) + " sent candidates that are cut short");
   }
+  port.work(HostWork::entry, message.count);
   for (std::uint32_t i = 0; i < message.count; ++i) {
     if (message.candidate[i].number >= settings_.reflectance.size()) {
       throw MachineFailure("PE " + std::to_string(source) + " offers a patch that does not exist");
@@ -86,6 +95,7 @@ void RadiosityPhase::take_candidates(HostPort& port, PeNumber source, std::span<
 }
 
 void RadiosityPhase::begin_round(HostPort& port) {
+  port.work(HostWork::compare, compares_to_sort(candidates_.size()));
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Chosen& a, const Chosen& b) { return before(a.candidate, b.candidate); });
   std::uint64_t most = settings_.shooters;
@@ -112,6 +122,7 @@ void RadiosityPhase::begin_shot(HostPort& port, PeNumber pe) {
     return !before(other.candidate, candidate) && !before(candidate, other.candidate);
   });
   const auto place = static_cast<std::uint64_t>(chosen - candidates_.begin());
+  port.work(HostWork::compare, place + 1);
   const protocol::Shoot message{candidate.amount, candidate.patch, candidate.side, candidate.kind,
                                 static_cast<std::uint32_t>(shots_ + place)};
   torolux::send(port, pe, MessageKind::shoot, message);
@@ -129,6 +140,7 @@ void RadiosityPhase::grant(HostPort& port) {
   // In turn to all shooters; one that has grants waiting is passed over, and asked again when more credits come home.
   std::size_t passed_over = 0;
   while (pool_ > 0 && !shooting_.empty() && passed_over < shooting_.size()) {
+    port.work(HostWork::entry, 1);
     turn_ = turn_ < shooting_.size() ? turn_ : 0;
     const PeNumber pe = shooting_[turn_++];
     if (port.queued(pe) >= kGrantsUnderWay) {

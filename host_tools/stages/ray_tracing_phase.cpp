@@ -42,6 +42,7 @@ void RayTracingPhase::start(HostPort& port) {
 void RayTracingPhase::on_message(HostPort& port, PeNumber source, MessageKind kind,
                                  std::span<const std::byte> contents) {
   if (kind != MessageKind::credits) unexpected(source, kind, "tracing rays");
+  port.work(HostWork::entry, 1);
   pool_ += contents_as<protocol::Credits>(contents).count;
   if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
   make_rays(port);
@@ -58,8 +59,11 @@ void RayTracingPhase::make_ray(HostPort& port) {
   const auto pixel = static_cast<std::uint32_t>(next_ % pixels * stride_ % pixels);
   ++next_;
   const CameraRay ray = rays_.ray(pixel, sample);
-  const auto start =
-      first_subspace(placement_.grid, ray.origin, ray.direction, settings_.skip_empty_subspaces ? &filled_ : nullptr);
+  std::uint64_t entered = 0;
+  const auto start = first_subspace(placement_.grid, ray.origin, ray.direction,
+                                    settings_.skip_empty_subspaces ? &filled_ : nullptr, &entered);
+  port.work(HostWork::camera_ray, 1);
+  port.work(HostWork::subspace, entered);
   if (!start) return;
   RayRecord record{};
   record.target = protocol::kNoPolygon;

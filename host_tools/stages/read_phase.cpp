@@ -59,6 +59,7 @@ void ReadPhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
       sum.back_side[c] += tally.back_side[c];
     }
     sum.rays += tally.rays;
+    port.work(HostWork::unpack, host_lines(bytes_[source].size()));
     store(source);
     ++done_;
   } else {

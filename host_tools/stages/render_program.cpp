@@ -18,6 +18,7 @@ RenderProgram::RenderProgram(RenderJob job) : job_(std::move(job)) {}
 RenderProgram::~RenderProgram() = default;
 
 void RenderProgram::start(HostPort& port) {
+  port.work(HostWork::filter_entry, job_.rays.table_entries());
   enter(port, job_.solution ? Step::load_ray_tracing : Step::load_radiosity);
 }
 
@@ -31,16 +32,17 @@ void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t ki
 
 void RenderProgram::enter(HostPort& port, Step step) {
   step_ = step;
-  phase_ = phase_for(step);
+  phase_ = phase_for(port, step);
   if (!phase_) return;
   phase_->start(port);
   if (phase_->done()) leave(port);
 }
 
-std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
+std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
   const RenderSetup& setup = job_.setup;
   switch (step) {
     case Step::load_radiosity:
+      port.work(HostWork::hemicube_entry, protocol::hemicube_weights(setup.parameters.hemicube));
       return loading(Stage::radiosity);
     case Step::radiosity:
       return std::make_unique<RadiosityPhase>(job_.radiosity);
@@ -56,6 +58,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
     case Step::load_ray_tracing:
       lattice_ = make_lattice(setup.mesh, incident_flux(*job_.solution, setup.parameters.emitters > 0),
                               setup.units.watts_per_quantum, setup.units.unit_radiance);
+      port.work(HostWork::lattice_triangle, lattice_.triangles.size());
+      port.work(HostWork::irradiance_fit, lattice_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
       return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);

@@ -53,7 +53,7 @@ class RenderProgram : public HostProgram {
 
   void enter(HostPort& port, Step step);
   void leave(HostPort& port);
-  std::unique_ptr<Phase> phase_for(Step step);
+  std::unique_ptr<Phase> phase_for(HostPort& port, Step step);
   std::unique_ptr<Phase> loading(protocol::Stage stage);
 
   RenderJob job_;

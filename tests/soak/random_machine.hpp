@@ -36,7 +36,7 @@ class MachineDice {
     machine.bus.control_buffers = number(1, 4);
     machine.frame_buffer.cycles_per_pixel = number(1, 30);
     machine.frame_buffer.queue_messages = number(1, 16);
-    machine.host.cycles_per_message = number(1, 400);
+    machine.host.cost_factor = chance(3) ? 0 : number(1, 20);
     machine.records.credits_per_pe = chance(3) ? number(1, 8) : number(9, 600);
     machine.records.niu_slots = chance(3) ? number(16, 24) : number(25, 600);
     machine.records.gather_cycles = chance(3) ? 0 : 1U << number(4, 20);
@@ -59,7 +59,7 @@ inline std::string to_text(const MachineDescription& machine, unsigned columns, 
        << machine.torus.send_queue_packets << "/" << machine.bus.send_queue_messages << ", bus "
        << machine.bus.bytes_per_cycle << ", control buffers " << machine.bus.control_buffers << ", FBC "
        << machine.frame_buffer.cycles_per_pixel << "/" << machine.frame_buffer.queue_messages << ", host "
-       << machine.host.cycles_per_message << ", credits " << machine.records.credits_per_pe << ", slots "
+       << machine.host.cost_factor << ", credits " << machine.records.credits_per_pe << ", slots "
        << machine.records.niu_slots << ", gathering " << machine.records.gather_cycles << "/"
        << machine.records.gather_records << ", errors " << machine.torus.link_error_rate << ", delays "
        << machine.injected_delay_cycles;

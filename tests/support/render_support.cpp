@@ -53,7 +53,7 @@ std::string exact_figures(const RenderFigures& figures) {
   text << "cycles " << figures.load_cycles << ' ' << figures.radiosity_cycles << ' ' << figures.ray_tracing_cycles
        << "\nshots " << figures.shots << " records " << figures.radiosity_records << " rays " << figures.rays
        << "\ncredits " << figures.credits_home << '/' << figures.credits_total << " hops " << figures.machine.hops
-       << " bus " << figures.machine.bus_busy_cycles << ' ' << figures.machine.bus_messages << " fbc "
+       << " bus " << figures.machine.bus.busy_cycles() << ' ' << figures.machine.bus.transfers << " fbc "
        << figures.machine.frame_buffer_busy_cycles << ' ' << figures.machine.pixels_added << " trace "
        << figures.machine.trace_hash << '\n';
   for (const PeFigures& pe : figures.machine.pes) {

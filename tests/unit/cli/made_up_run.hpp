@@ -38,8 +38,8 @@ inline RenderFigures made_up_figures() {
   machine.trace_hash = 0xABCD;
   machine.hops = 2500;
   machine.link_retries = 3;
-  machine.bus_busy_cycles = 77;
-  machine.bus_messages = 78;
+  machine.bus.data_cycles = 77;
+  machine.bus.transfers = 78;
   machine.frame_buffer_busy_cycles = 79;
   machine.pixels_added = 80;
   machine.scheduler_seconds = 1.5;

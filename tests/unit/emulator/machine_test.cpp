@@ -56,12 +56,16 @@ Cycles latency_to(const MachineSetup& setup, unsigned to) {
 TEST(Machine, ZeroLoadLatencyIsExact) {
   // By hand: 1 cycle into the queue, (hops + 1) * (router 3 + link 1), and the packet's other flits:
   // (16 + 64) / 16 = 5 flits, so 4. Hops on a 4x4 torus: PE 1: 1, PE 2: 2, PE 3: 1 (around), PE 5: 2, PE 10: 4.
-  const MachineSetup setup = small_machine(4, 4);
-  EXPECT_EQ(latency_to(setup, 1), 1U + 2 * 4 + 4);
-  EXPECT_EQ(latency_to(setup, 2), 1U + 3 * 4 + 4);
-  EXPECT_EQ(latency_to(setup, 3), 1U + 2 * 4 + 4);
-  EXPECT_EQ(latency_to(setup, 5), 1U + 3 * 4 + 4);
-  EXPECT_EQ(latency_to(setup, 10), 1U + 5 * 4 + 4);
+  // The record is copied into the NIU and out of the other one: 64 bytes, 8 in a cycle, so 8 cycles each.
+  MachineSetup setup = small_machine(4, 4);
+  for (const Cycles copies : {16U, 0U}) {
+    EXPECT_EQ(latency_to(setup, 1), 1U + 2 * 4 + 4 + copies);
+    EXPECT_EQ(latency_to(setup, 2), 1U + 3 * 4 + 4 + copies);
+    EXPECT_EQ(latency_to(setup, 3), 1U + 2 * 4 + 4 + copies);
+    EXPECT_EQ(latency_to(setup, 5), 1U + 3 * 4 + 4 + copies);
+    EXPECT_EQ(latency_to(setup, 10), 1U + 5 * 4 + 4 + copies);
+    setup.description.ideal.niu = true;
+  }
 }
 
 TEST(Machine, LatencyFollowsTheDescription) {
@@ -69,11 +73,14 @@ TEST(Machine, LatencyFollowsTheDescription) {
   setup.description.torus.router_cycles = 7;
   setup.description.torus.link_cycles = 5;
   setup.description.torus.flit_bytes = 8;
-  EXPECT_EQ(latency_to(setup, 10), 1U + 5 * 12 + 9);
+  setup.description.niu.bytes_per_cycle = 3;
+  EXPECT_EQ(latency_to(setup, 10), 1U + 5 * 12 + 9 + 2 * 22);
 }
 
 TEST(Machine, BusAndHostTimesAreExact) {
-  // PE: HINT 1 ends at cycle 1, the bus sees it at 2, transfer 4 + ceil((8 + 4) / 8) = 6 cycles, the host takes 50.
+  // PE: HINT 1 ends at cycle 1, copy ceil((8 + 4) / 8) = 2 cycles, in the queue 1 later at 4, the arbiter sees that 4
+  // cycles later, transfer 4 + ceil((8 + 4) / 8) = 6 cycles. To the host a message is 1500 cycles of its own, its one
+  // cache line 15: at 30 to one 50.5, so it is seen after 51.
   ListeningHost host(1);
   NativeOptions options;
   options.cycles_per_hint = 1;
@@ -85,7 +92,7 @@ TEST(Machine, BusAndHostTimesAreExact) {
       },
       options);
   ASSERT_EQ(outcome.heard.size(), 1U);
-  EXPECT_EQ(outcome.heard[0].time, 2U + 6 + 50);
+  EXPECT_EQ(outcome.heard[0].time, 4U + 4 + 6 + 51);
   EXPECT_EQ(outcome.heard[0].as<std::uint32_t>(), 42U);
 }
 

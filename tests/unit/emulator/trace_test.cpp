@@ -25,7 +25,7 @@ TEST(TraceHash, TellsRunsApart) {
   ++slower.description.torus.link_cycles;
   EXPECT_NE(trace_of(slower), first);
   MachineSetup bus = small_machine(3, 3);
-  ++bus.description.host.cycles_per_message;
+  ++bus.description.host.cycles[0];
   EXPECT_NE(trace_of(bus), first);
   MachineSetup faults = small_machine(3, 3);
   faults.description.torus.link_error_rate = 0.01;

@@ -59,8 +59,10 @@ TEST(MachineFile, DefaultFileNamesEveryKey) {
 
 TEST(MachineFile, EveryKeyChangesTheDescription) {
   for (const std::string& key : machine_description_keys()) {
-    const bool flag = key == "torus.bubble";
-    const std::string value = flag ? "false" : key == "torus.link_error_rate" ? "0.25" : "";
+    const std::string value = key == "torus.bubble"            ? "false"
+                              : key.starts_with("ideal.")      ? "true"
+                              : key == "torus.link_error_rate" ? "0.25"
+                                                               : "";
     // 17 is no default, and allowed for every other key but the loop limit.
     const std::string text = key + " = " + (!value.empty() ? value : key.ends_with("between_hints") ? "1700" : "17");
     EXPECT_EQ(refusal(text), "") << text;

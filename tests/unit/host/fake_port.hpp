@@ -34,6 +34,9 @@ class FakePort final : public HostPort {
 
   Cycles now() const override { return 0; }
   unsigned pes() const override { return pes_; }
+  void work(HostWork what, std::uint64_t items) override { done_[static_cast<std::size_t>(what)] += items; }
+  /// Items of work so far.
+  std::uint64_t done(HostWork what) const { return done_[static_cast<std::size_t>(what)]; }
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override {
     waiting_.push_back({pe, kind, 0, {contents.begin(), contents.end()}});
   }
@@ -51,6 +54,7 @@ class FakePort final : public HostPort {
  private:
   unsigned pes_;
   std::vector<Sent> waiting_;
+  std::array<std::uint64_t, kHostWorks> done_{};
 };
 
 /// A message from a PE.
