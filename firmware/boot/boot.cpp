@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
 
 extern "C" {
@@ -16,6 +17,9 @@ void boot();
 
 namespace torolux::pe {
 namespace {
+
+static_assert(static_cast<int>(protocol::Hint::enter_phase) + static_cast<int>(protocol::Phase::program) == 72,
+              "start.S has the marker as a number");
 
 // Fields of a pmpcfg byte (RISC-V privileged manual, "Physical Memory Protection").
 constexpr std::uint32_t kRead = 1;

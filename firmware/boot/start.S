@@ -5,6 +5,7 @@
   .section .text.start, "ax"
   .globl _start
 _start:
+  slti zero, zero, 72  // enter_phase + Phase::program, never left: every cycle belongs to a phase (boot.cpp checks)
   .option push
   .option norelax
   la gp, image_global_pointer

@@ -29,6 +29,7 @@ void handle_records(Pe& pe, Niu& niu, const NiuWindow::Arrival& arrival) {
 }  // namespace
 
 void run_pe(Pe& pe, Niu& niu) {
+  const PhaseMark<Phase::dispatch> mark(niu);
   for (;;) {
     const NiuWindow::Arrival* arrival = &niu.receive();
     for (; arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {

@@ -2,6 +2,8 @@
 // The one instruction by which processor and NIU meet: `slti x0, x0, imm`, a HINT that RISC-V leaves to custom use.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace torolux::protocol {
@@ -35,9 +37,23 @@ enum class Hint : std::int32_t {
   leave_phase = 128,
 };
 
-/// Phases of the profile: where a PE's cycles go.
-enum class Phase : std::uint8_t { load, shoot, traverse, shade, deposit, flush, control, count };
+/// Phases of the profile: where a PE's cycles go. Each cycle belongs to the innermost one.
+enum class Phase : std::uint8_t {
+  load,      ///< bytes into the stores
+  shoot,     ///< records of a shot made, and followed as far as this PE goes
+  traverse,  ///< through subspaces, against polygons
+  shade,     ///< mirror, glass, glossy lobes, what a ray sees
+  deposit,   ///< flux into elements
+  flush,     ///< batches, pixels and credits that wait are sent
+  control,   ///< messages of the host
+  dispatch,  ///< the PE's loop: received, what next; records checked, put into batches, ended
+  program,   ///< whatever a program does in no other phase, from its first instruction on (firmware/boot)
+  count
+};
 inline constexpr std::uint32_t kPhases = 16;
+/// Names of the phases, in their order.
+inline constexpr std::array<const char*, static_cast<std::size_t>(Phase::count)> kPhaseNames = {
+    "load", "shoot", "traverse", "shade", "deposit", "flush", "control", "dispatch", "program"};
 static_assert(static_cast<std::uint32_t>(Phase::count) <= kPhases);
 
 /// `slti x0, x0, imm`: opcode 0x13, funct3 2, rd = rs1 = x0. Always a 4-byte instruction.

@@ -11,14 +11,10 @@ namespace torolux {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using protocol::Phase;
-
-constexpr std::array<const char*, static_cast<std::size_t>(Phase::count)> kPhaseNames = {
-    "load", "shoot", "traverse", "shade", "deposit", "flush", "control"};
 
 Json phases_of(const std::array<Cycles, protocol::kPhases>& cycles) {
   Json phases = Json::object();
-  for (std::size_t i = 0; i < kPhaseNames.size(); ++i) phases[kPhaseNames[i]] = cycles[i];
+  for (std::size_t i = 0; i < protocol::kPhaseNames.size(); ++i) phases[protocol::kPhaseNames[i]] = cycles[i];
   return phases;
 }
 
