@@ -99,12 +99,12 @@ TEST(MachineFile, ErrorsNameFileAndLine) {
 TEST(MachineValues, OneKeyIsSetAndReadBackExactly) {
   MachineDescription machine;
   set_machine_value(machine, "torus.flit_bytes=32");
-  set_machine_value(machine, "torus.link_error_rate = 0.1");
+  set_machine_value(machine, "torus.link_error_rate=0.1");
   set_machine_value(machine, "torus.bubble=false");
   EXPECT_EQ(machine, parse_machine_description("torus = {flit_bytes=32, link_error_rate=0.1, bubble=false}", "m"));
   MachineDescription again;
   for (const MachineSetting& setting : machine_description_values(machine))
-    set_machine_value(again, setting.key + "=" + text_of(setting.value));
+    set_machine_value(again, setting.key + "=" + torolux::text_of(setting.value));
   EXPECT_EQ(again, machine);
   EXPECT_EQ(machine_description_values(machine).size(), machine_description_keys().size());
 }
