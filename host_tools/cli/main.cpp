@@ -63,6 +63,7 @@ void add_commands(CLI::App& app, CommandAction& action) {
   add_run_command(app, action);
   add_lockstep_command(app, action);
   add_bench_command(app, action);
+  add_rerun_command(app, action);
   add_study_command(app, action);
 }
 

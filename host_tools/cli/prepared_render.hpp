@@ -24,4 +24,14 @@ RenderOptions parse_render_options(const std::vector<std::string>& words);
 /// Throws InputError: a scene that cannot be loaded or has no light, ...
 PreparedRender prepare_render(const RenderOptions& options);
 
+/// How a run has ended. statistics: empty where it was interrupted.
+struct RunEnd {
+  int exit_code = 0;
+  std::string statistics;
+};
+
+/// Renders; writes and prints what the options ask for. Throws InputError (before the work where it can be known),
+/// MachineFailure.
+RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options);
+
 }  // namespace torolux

@@ -42,32 +42,36 @@ RenderResult run_machine(const Scene& scene, const Settled& settled, bool quiet)
                 });
 }
 
-int run_render(const RenderOptions& options) {
-  PreparedRender prepared = prepare_render(options);
-  const Scene& scene = prepared.scene;
+}  // namespace
+
+RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   Settled& settled = prepared.settled;
   settled.machine.debugging.listens = announce_debugger(firmware_image());
   check_results_writable(settled, options);
-  print_notes(scene.warnings, options.quiet);
-  if (interrupted()) return kInterrupted;
-  const RenderResult result = run_machine(scene, settled, options.quiet);
-  if (interrupted()) return kInterrupted;
+  print_notes(prepared.scene.warnings, options.quiet);
+  if (interrupted()) return {kInterrupted, ""};
+  const RenderResult result = run_machine(prepared.scene, settled, options.quiet);
+  if (interrupted()) return {kInterrupted, ""};
   print_notes(result.notes, options.quiet);
 
   for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
-  if (options.stats) write_file(*options.stats, stats_json(prepared.run, result.figures));
+  std::string statistics = stats_json(prepared.run, result.figures);
+  if (options.stats) write_file(*options.stats, statistics);
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
-  return 0;
+  return {0, std::move(statistics)};
 }
-
-}  // namespace
 
 void add_render_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Render a picture of a scene on the machine");
   add_render_options(*command, *options);
   command->footer("An option given outweighs the scene's own default, which outweighs the one in [brackets].");
-  command->callback([options, &action] { action = [options] { return run_render(*options); }; });
+  command->callback([options, &action] {
+    action = [options] {
+      PreparedRender prepared = prepare_render(*options);
+      return run_prepared(prepared, *options).exit_code;
+    };
+  });
 }
 
 }  // namespace torolux

@@ -23,7 +23,9 @@ void print_summary(const MachineSetup& setup, const MachineFigures& figures, dou
             << " packets; " << duration(wall_seconds) << "\n";
 }
 
-int run_run(const RunOptions& options) {
+}  // namespace
+
+RunEnd run_prepared(const RunOptions& options) {
   const MachineSetup setup = setup_from(options);
   const Image image = load_image(options.image);
   if (options.stats) {
@@ -36,25 +38,24 @@ int run_run(const RunOptions& options) {
   };
   const MachineFigures figures = run_image(setup, image, print, [](Cycles) { return !interrupted(); });
   if (interrupted()) {
-    return kInterrupted;
+    return {kInterrupted, ""};
   }
   const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::string statistics = run_stats_json(setup, image_file, figures, wall_seconds);
   if (options.stats) {
-    write_file(*options.stats, run_stats_json(setup, image_file, figures, wall_seconds));
+    write_file(*options.stats, statistics);
   }
   if (!options.quiet) {
     print_summary(setup, figures, wall_seconds);
   }
-  return 0;
+  return {0, std::move(statistics)};
 }
-
-}  // namespace
 
 void add_run_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run any firmware image and print what its PEs say");
   add_run_options(*command, *options);
-  command->callback([options, &action] { action = [options] { return run_run(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_prepared(*options).exit_code; }; });
 }
 
 }  // namespace torolux

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/cli/prepared_render.hpp"
 
 namespace CLI {
 class App;
@@ -30,6 +31,9 @@ void add_run_options(CLI::App& command, RunOptions& options);
 
 /// words: what stands after `torolux run`. Throws UsageError, InputError.
 RunOptions parse_run_options(const std::vector<std::string>& words);
+
+/// Runs the image; writes and prints what the options ask for. Throws UsageError, InputError, MachineFailure.
+RunEnd run_prepared(const RunOptions& options);
 
 /// Reads the machine file, if one was named. Throws UsageError, InputError.
 MachineSetup setup_from(const RunOptions& options);

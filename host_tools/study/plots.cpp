@@ -37,18 +37,22 @@ struct Series {
   std::vector<Dot> dots;
 };
 
-/// Which curve a row belongs to.
+/// "machine.torus.flit_bytes" -> "flit_bytes".
+std::string last_part(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string::npos || !name.starts_with("machine.") ? name : name.substr(dot + 1);
+}
+
+/// Which curve a row belongs to: one for each value of the report's `by` and of all else that varies besides x.
 std::string series_of(const Plan& plan, const Table& table, const std::vector<Json>& row, const std::string& x) {
-  if (!plan.report.by.empty()) {
-    const std::size_t column = table.column(plan.report.by);
-    return column < row.size() ? cell_text(row[column]) : "";
-  }
+  const std::string& by = plan.report.by;
   std::string name;
+  if (const std::size_t column = table.column(by); column < row.size()) name = cell_text(row[column]);
   for (std::size_t i = 0; i < table.varied; ++i) {
     const std::string& column = table.columns[i];
-    if (column == x || (column == "pes" && x == "pe_count")) continue;
+    if (column == x || column == by || (column == "pes" && x == "pe_count")) continue;
     if (const std::string cell = cell_text(row[i]); !cell.empty())
-      name += (name.empty() ? "" : ", ") + (column == "varied" ? cell : column + " " + cell);
+      name += (name.empty() ? "" : ", ") + (column == "varied" ? last_part(cell) : last_part(column) + " " + cell);
   }
   return name;
 }
@@ -122,7 +126,9 @@ std::string axes_text(const Plan& plan, const Table& table, const std::string& x
   } else if (plan.report.log_x) {
     script += powers_of_two(all) ? "set logscale x 2\n" : "set logscale x\n";
   }
-  return script + (plan.report.log_y ? "set logscale y\n" : "set yrange [0:*]\n");
+  // So the ideal is a straight line.
+  const bool both = plan.report.log_x && y.starts_with("speed_up");
+  return script + (plan.report.log_y || both ? "set logscale y\n" : "set yrange [0:*]\n");
 }
 
 }  // namespace

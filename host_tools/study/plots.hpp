@@ -15,8 +15,9 @@ struct Axes {
 };
 Axes axes_of(const Plan& plan);
 
-/// The program for gnuplot that draws `y` as SVG on standard output: a curve for each value of the report's `by`, or of
-/// all that varies besides x. x is a number, or takes an equal place for each value. Empty where no run has the figure.
+/// The program for gnuplot that draws `y` as SVG on standard output: a curve for each value of the report's `by` and of
+/// all else that varies besides x. x is a number, or takes an equal place for each value. Empty where no run has the
+/// figure.
 std::string plot_script(const Plan& plan, const Table& table, const std::string& x, const std::string& y);
 
 /// Runs gnuplot: the same script gives the same bytes. Throws InputError where it is not there or refuses.

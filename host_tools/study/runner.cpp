@@ -2,6 +2,8 @@
 // A pool of child processes.
 #include "host_tools/study/runner.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -10,6 +12,7 @@
 #include <list>
 #include <thread>
 
+#include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/study/child.hpp"
@@ -74,7 +77,7 @@ class Pool {
       return true;
     }
     std::vector<std::string> words = words_for_result(work.run, folder_, choice_.threads);
-    Child child(choice_.program, words);
+    Child child("/proc/" + std::to_string(::getpid()) + "/exe", words);  // this one, should it have been replaced
     claim->note_child(child.process());
     running_.push_back({std::move(work), std::move(words), std::move(*claim), std::move(child)});
     ++end_.started;
@@ -99,10 +102,18 @@ class Pool {
   void finish(Running& running, const Ended& ended) {
     const KeyedRun& run = running.work.run;
     if (ended.exit_code == 0 && folder_.from_output()) write_file(folder_.file(run.key), ended.output);
-    if (ended.exit_code == 0 && folder_.read(run)) return;
+    std::string errors = ended.errors;
+    if (ended.exit_code == 0) {
+      try {
+        if (folder_.read(run)) return;
+        errors = "it ended well and left no result\n";
+      } catch (const InputError& error) {
+        std::filesystem::remove(folder_.file(run.key));
+        errors = std::string(error.what()) + ": scene, image or firmware have changed since the study began\n";
+      }
+    }
     if (interrupted()) return;
     running.words.insert(running.words.begin(), choice_.program);
-    const std::string errors = ended.exit_code == 0 ? "it ended well and left no result\n" : ended.errors;
     end_.failures.push_back({running.work.label, shell_line(running.words), ended.exit_code, errors});
     const Failure& failure = end_.failures.back();
     std::cerr << "torolux: " << failure.label << ": failed with exit code " << failure.exit_code << "\n  "

@@ -21,7 +21,7 @@ struct Failure {
 };
 
 struct RunnerChoice {
-  std::string program;
+  std::string program;  ///< how a message names it; what runs is the program that runs already
   unsigned jobs = 1, threads = 1;
 };
 
