@@ -11,6 +11,7 @@
 
 #include "emulator/engines/debugging.hpp"
 #include "host_tools/cli/fault_options.hpp"
+#include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/render/presets.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
@@ -69,6 +70,7 @@ struct RenderOptions {
   std::optional<std::string> allocation, engine;
   Debugging debugging;
   FaultOptions faults;
+  MachineDescription::Ideal ideal;
   bool enter_empty = false;
   std::optional<std::filesystem::path> machine;
   std::optional<std::uint32_t> threads;
@@ -87,7 +89,7 @@ void add_view_options(CLI::App& command, RenderOptions& options);
 /// --two-sided-lights,
 /// --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
-/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --jitter, --fault, --threads.
+/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --ideal, --jitter, --fault, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
 /// --engine.
 void add_engine_option(CLI::App& command, RenderOptions& options);

@@ -132,6 +132,7 @@ Quality settle_quality(const RenderOptions& options, const Scene& scene) {
 MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   MachineChoice machine;
   if (options.machine) machine.description = load_machine_description(*options.machine);
+  machine.description.ideal = either(machine.description.ideal, options.ideal);
   options.faults.apply_to(machine.description);
   if (options.pes) {
     machine.columns = (*options.pes)[0];

@@ -12,6 +12,7 @@
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
+#include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/text.hpp"
@@ -28,6 +29,7 @@ struct RunOptions {
   std::optional<std::string> machine, stats;
   Debugging debugging;
   FaultOptions faults;
+  MachineDescription::Ideal ideal;
   unsigned threads = 0;
   bool quiet = false;
 };
@@ -58,6 +60,7 @@ MachineSetup setup_from(const RunOptions& options) {
   if (options.machine) {
     setup.description = load_machine_description(*options.machine);
   }
+  setup.description.ideal = either(setup.description.ideal, options.ideal);
   options.faults.apply_to(setup.description);
   return setup;
 }
@@ -114,6 +117,7 @@ void add_run_command(CLI::App& app, CommandAction& action) {
   command->add_option("--machine", options->machine, "Parameters of the machine [built in]")->type_name("FILE.toml");
   command->add_option("--engine", options->engine, "What runs the PEs")->type_name("NAME")->capture_default_str();
   add_debugging_options(*command, options->debugging, "");
+  add_ideal_option(*command, options->ideal, "");
   add_fault_options(*command, options->faults, "");
   command->add_option("--threads", options->threads, "Threads of this computer that work for the machine [all cores]")
       ->type_name("N")
