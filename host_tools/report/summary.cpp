@@ -131,7 +131,7 @@ std::string summary(const RunDescription& run, const RenderFigures& figures) {
           std::to_string(cells[2]) + " subspaces, " + run.machine.allocation + "\n";
   const NetworkMemory network = network_memory(run.machine.description);
   text += left("network memory", kLabel) + "  NIU " + bytes_text(network.niu()) + ", router " +
-          bytes_text(network.router()) + " of each PE, beside its local memory\n";
+          bytes_text(network.router()) + " of each PE\n";
   text += stages_table(run, figures) + load_table(figures.machine) + traffic(figures) + energy_table(figures.energy);
   return text + left("wall time", kLabel) + "  " + duration(figures.wall_seconds) + "\n";
 }

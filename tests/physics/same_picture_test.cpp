@@ -87,6 +87,21 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Torus,
                            return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
                          });
 
+/// Host, NIUs and signals that cost nothing, as much as they should, a hundred times that.
+TEST(Costs, NeverChangeThePicture) {
+  RenderCase ideal = small_cornell("cornell_spheres");
+  ideal.machine.description.ideal = {.host = true, .niu = true, .signals = true};
+  expect_same_picture(ideal);
+  RenderCase dear = small_cornell("cornell_spheres");
+  MachineDescription& machine = dear.machine.description;
+  machine.host.cost_factor = 100;
+  machine.bus.signal_cycles *= 100;
+  machine.bus.arbitration_cycles *= 100;
+  machine.frame_buffer.cycles_per_pixel *= 100;
+  machine.niu = {.bytes_per_cycle = 1, .receive_packets = 1};
+  expect_same_picture(dear);
+}
+
 RenderResult render_on(const char* engine, unsigned threads) {
   RenderCase cornell = small_cornell("cornell_spheres");
   cornell.machine.engine = engine;
