@@ -52,7 +52,7 @@ struct MachineDescription {
     std::uint32_t slot_return_cycles = 1;   ///< until the router upstream knows of a freed slot, >= 1
     std::uint32_t send_queue_packets = 32;  ///< outgoing queue of a NIU, >= 1
     bool bubble = true;                     ///< off only to see the deadlock that it prevents
-    std::uint32_t patience_cycles = 1024;   ///< that a packet waits to enter a ring before its router says so
+    std::uint32_t patience_cycles = 64;     ///< that a packet waits to enter a ring before its router says so
     double link_error_rate = 0;             ///< chance that a packet's CRC fails on a link, 0..0.5
     std::uint32_t retry_cycles = 8;         ///< from the tail of a packet with a bad CRC to the start of the next try
 

@@ -56,7 +56,7 @@ void Emulation::await(unsigned pe, Cycles wanted) {
 /// The next event that no PE can precede any more. False: nothing will ever happen again.
 bool Emulation::next_event(Event& event) {
   for (;;) {
-    const Cycles time = events_.empty() ? kNever : events_.top().time;
+    const Cycles time = events_.next_time();  // kNever where there is none
     const Cycles least = times_.bounds.least();
     // Everything before this has happened, and no PE adds to it.
     const Cycles known = std::min(time, least);

@@ -233,6 +233,21 @@ TEST(Links, FaultsAreRepairedAndDoNotShow) {
   EXPECT_GT(result.figures.machine.link_retries, 0U);
 }
 
+/// The seeds of `--jitter`; the soak takes a hundred.
+class Jittered : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(Jittered, DelaysOfLinksRoutersAndBusDoNotShow) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  const std::string still = exact_figures(run_case(cornell).figures);
+  cornell.machine.description.jitter.seed = GetParam();
+  cornell.machine.description.torus.link_error_rate = GetParam() % 2 * 0.1;
+  const RenderResult result = run_case(cornell);
+  expect_all_home(result);
+  EXPECT_EQ(bytes_of(result.picture), reference_picture());
+  EXPECT_NE(exact_figures(result.figures), still) << "it is to change the cycles";
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, Jittered, testing::Values(1, 2, 3));
+
 TEST(Credits, FewMakeTheSamePicture) {
   RenderCase cornell = small_cornell("cornell_spheres");
   cornell.machine.description.records.credits_per_pe = 4;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <random>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -35,6 +36,36 @@ TEST(EventQueue, OrderIsTimeThenSourceThenSequence) {
     ASSERT_EQ(event.block, block);
   }
   EXPECT_TRUE(queue.empty());
+}
+
+/// Pushes and pops in turn, near, far and backwards in time, at the time of what was just popped too.
+TEST(EventQueue, KeepsTheOrderWhilePushingAndPopping) {
+  for (const std::uint32_t spread : {1U, 3U, 50U, 2000U, 1'000'000U}) {
+    constexpr std::uint32_t kSources = 7;
+    EventQueue queue(kSources);
+    std::minstd_rand random(spread);
+    std::set<std::tuple<Cycles, std::uint32_t, std::uint32_t>> model;
+    Cycles now = 5000;
+    std::uint32_t number = 0;
+    for (int step = 0; step < 20000; ++step) {
+      const bool grow = step / 500 % 2 == 0;
+      for (auto i = random() % (grow ? 4 : 2); i > 0; --i) {
+        Cycles time = now + random() % spread;
+        if (random() % 50 == 0) time += 5000;
+        if (random() % 50 == 0) time = now - random() % 100;
+        const auto source = static_cast<std::uint32_t>(random() % kSources);
+        queue.push(time, source, EventKind::command, 0, 0, number);
+        model.emplace(time, source, number++);
+      }
+      ASSERT_EQ(queue.empty(), model.empty());
+      ASSERT_EQ(queue.next_time(), model.empty() ? EventQueue::kNone : std::get<0>(*model.begin()));
+      if (model.empty()) continue;
+      const Event event = queue.pop();
+      ASSERT_EQ(std::tuple(event.time, static_cast<std::uint32_t>(event.order >> 32U), event.block), *model.begin());
+      model.erase(model.begin());
+      now = std::max(now, event.time);
+    }
+  }
 }
 
 TEST(BoundTree, GivesTheLeastAndTheLowestOfEquals) {
