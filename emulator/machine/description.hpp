@@ -78,7 +78,7 @@ struct MachineDescription {
   } niu;
 
   struct FrameBuffer {
-    std::uint32_t cycles_per_pixel = 2;  ///< one addition
+    std::uint32_t cycles_per_pixel = 6;  ///< one addition: three sums of 8 bytes read and written
     std::uint32_t queue_messages = 16;
 
     bool operator==(const FrameBuffer&) const = default;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "emulator/machine/network_memory.hpp"
 #include "host_tools/report/figures.hpp"
 #include "host_tools/report/text.hpp"
 
@@ -128,6 +129,9 @@ std::string summary(const RunDescription& run, const RenderFigures& figures) {
           std::to_string(run.machine.rows) + " PEs of " + bytes_text(figures.local_memory_bytes) + " on " +
           run.machine.engine + "; " + std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " +
           std::to_string(cells[2]) + " subspaces, " + run.machine.allocation + "\n";
+  const NetworkMemory network = network_memory(run.machine.description);
+  text += left("network memory", kLabel) + "  NIU " + bytes_text(network.niu()) + ", router " +
+          bytes_text(network.router()) + " of each PE\n";
   text += stages_table(run, figures) + load_table(figures.machine) + traffic(figures) + energy_table(figures.energy);
   return text + left("wall time", kLabel) + "  " + duration(figures.wall_seconds) + "\n";
 }

@@ -25,6 +25,7 @@ struct RunOptions {
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
   Debugging debugging;
   FaultOptions faults;
+  MachineDescription::Ideal ideal;
   unsigned threads = 0;
   bool quiet = false;
 };

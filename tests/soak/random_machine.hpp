@@ -35,6 +35,10 @@ class MachineDice {
     machine.bus.arbitration_cycles = number(1, 9);
     machine.bus.send_queue_messages = number(1, 5);
     machine.bus.control_buffers = number(1, 4);
+    machine.bus.signal_cycles = number(1, 40);
+    machine.niu.bytes_per_cycle = 1U << number(0, 5);
+    machine.niu.receive_packets = number(1, 3);
+    machine.ideal = {chance(4), chance(4), chance(4)};
     machine.frame_buffer.cycles_per_pixel = number(1, 30);
     machine.frame_buffer.queue_messages = number(1, 16);
     machine.host.cost_factor = chance(3) ? 0 : number(1, 20);
@@ -59,7 +63,9 @@ inline std::string to_text(const MachineDescription& machine, unsigned columns, 
        << machine.torus.buffer_packets << ", slot return " << machine.torus.slot_return_cycles << ", queues "
        << machine.torus.send_queue_packets << "/" << machine.bus.send_queue_messages << ", bus "
        << machine.bus.bytes_per_cycle << ", control buffers " << machine.bus.control_buffers << ", FBC "
-       << machine.frame_buffer.cycles_per_pixel << "/" << machine.frame_buffer.queue_messages << ", host "
+       << machine.frame_buffer.cycles_per_pixel << "/" << machine.frame_buffer.queue_messages << ", signals "
+       << machine.bus.signal_cycles << ", NIU " << machine.niu.bytes_per_cycle << "/" << machine.niu.receive_packets
+       << ", ideal " << machine.ideal.host << machine.ideal.niu << machine.ideal.signals << ", host "
        << machine.host.cost_factor << ", credits " << machine.records.credits_per_pe << ", slots "
        << machine.records.niu_slots << ", gathering " << machine.records.gather_cycles << "/"
        << machine.records.gather_records << ", errors " << machine.torus.link_error_rate << ", delays "

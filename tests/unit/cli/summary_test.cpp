@@ -17,6 +17,7 @@ TEST(Summary, OfAKnownRun) {
 picture                 room.png (320 x 240)
 picture                 out/room.exr (320 x 240)
 machine                 2 x 1 PEs of 2 MiB on qemu; 8 x 4 x 8 subspaces, skewed
+network memory          NIU 54.7 KiB, router 20.3 KiB of each PE
 virtual time                     cycles               ms
   load                        1 000 000           10.000
   radiosity                  23 456 789          234.568

@@ -44,6 +44,9 @@ class TorusDriver final : private TorusClient {
     events_.push(when, from, EventKind::command, static_cast<std::uint16_t>(from), 0, index);
   }
 
+  /// The lower half of the number of the next packet from there: chance is a hash of numbers.
+  void set_next_number(unsigned from, std::uint32_t number) { sent_[from] = number; }
+
   /// Handles all events before `until`, or all there are. Returns their number.
   std::uint64_t run(Cycles until = ~Cycles{0}) {
     std::uint64_t handled = 0;
@@ -76,6 +79,7 @@ class TorusDriver final : private TorusClient {
       return pool_.give_back(index);
     }
     const auto found = offered_.find(block.number);
+    if (found == offered_.end()) throw std::logic_error("a packet has arrived twice");
     if (on_delivery) {
       on_delivery({found->second, now_, block.source, block.destination, static_cast<std::uint32_t>(block.number),
                    block.hops, block.flits});
