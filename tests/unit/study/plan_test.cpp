@@ -8,7 +8,9 @@
 #include <filesystem>
 
 #include "emulator/errors.hpp"
+#include "host_tools/files/write_file.hpp"
 #include "host_tools/study/options.hpp"
+#include "host_tools/study/points.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace torolux::study {
@@ -93,6 +95,14 @@ TEST(Plan, OfTheRepositoryAreRight) {
     }
   }
   EXPECT_GE(count, 3U);
+}
+
+TEST(Plan, OfTheDocumentIsOne) {
+  const std::vector<std::byte> bytes = read_file(TOROLUX_SOURCE_DIR "/docs/studies.md", 1U << 20U);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t begin = text.find("```toml\n") + 8;
+  const Plan plan = parse_plan(text.substr(begin, text.find("```", begin) - begin), "docs/studies.md");
+  EXPECT_EQ(points_of(plan).size(), 3U * 2 * 3) << "pes with allocation, size; base and two others";
 }
 
 TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {
