@@ -44,7 +44,9 @@ std::vector<std::string> options_of(const std::string& command, const Place& pla
       if (std::ranges::find(kNotInPlans, name) == kNotInPlans.end()) names.push_back(name);
     }
   }
-  for (const std::string& key : machine_description_keys()) names.push_back(std::string(kMachine) + key);
+  if (found.front()->get_option_no_throw("--set") != nullptr) {
+    for (const std::string& key : machine_description_keys()) names.push_back(std::string(kMachine) + key);
+  }
   return names;
 }
 

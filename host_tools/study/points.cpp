@@ -57,8 +57,6 @@ void add_points(const Plan& plan, const Options& options, const Place& place, st
       Point point{options, axis.name, value.value, value.place};
       set(point.options, value);
       points.push_back(std::move(point));
-      if (points.size() > kMostPoints)
-        refuse(value.place, "the plan asks for more than " + std::to_string(kMostPoints) + " runs");
     }
   }
 }
@@ -90,6 +88,8 @@ std::vector<Point> points_of(const Plan& plan) {
         }
       }
       add_points(plan, options, place, points);
+      if (points.size() > kMostPoints)
+        refuse(place, "the plan asks for more than " + std::to_string(kMostPoints) + " runs");
     } while (next(at, groups));
   }
   return points;

@@ -24,7 +24,7 @@ struct Point {
 /// together; and for each of those the base and then every value of [vary_one] alone. Throws InputError for more than
 /// kMostPoints.
 std::vector<Point> points_of(const Plan& plan);
-inline constexpr std::size_t kMostPoints = 1'000'000;
+inline constexpr std::size_t kMostPoints = 100'000;
 
 /// Names of options that differ between points other than by [vary_one], in the plan's order: the columns of a table.
 std::vector<std::string> varied_names(const Plan& plan);

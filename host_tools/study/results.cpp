@@ -63,7 +63,8 @@ std::optional<Json> row_of_csv(const std::string& text) {
   std::istringstream lines(text);
   std::string header;
   std::string row;
-  if (!std::getline(lines, header) || !std::getline(lines, row)) return std::nullopt;
+  std::string more;
+  if (!std::getline(lines, header) || !std::getline(lines, row) || std::getline(lines, more)) return std::nullopt;
   const std::vector<std::string> names = cells_of(header);
   const std::vector<std::string> values = cells_of(row);
   if (names.empty() || names.size() != values.size()) return std::nullopt;

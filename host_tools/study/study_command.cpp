@@ -12,6 +12,7 @@
 #include "host_tools/cli/command.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"
+#include "host_tools/study/claim.hpp"
 #include "host_tools/study/figures.hpp"
 #include "host_tools/study/options.hpp"
 #include "host_tools/study/plots.hpp"
@@ -157,8 +158,17 @@ std::string counted(std::size_t count, const char* noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+/// Of processes that died; whoever lives keeps its own.
+void remove_stale_locks(const Study& study) {
+  for (const Work& one : study.work) {
+    const std::filesystem::path lock = study.folder.lock(one.run.key);
+    if (study.results.contains(one.run.key) && std::filesystem::exists(lock)) Claim::take(lock);
+  }
+}
+
 int finish(Study& study, const StudyOptions& options, const RunnerEnd& end, std::size_t there) {
   study.read_results();
+  remove_stale_locks(study);
   const std::size_t missing = study.missing().size();
   tell(options, counted(study.points.size(), "point") + ", " + counted(study.work.size(), "different run") + ": " +
                     std::to_string(there) + " were there, " + std::to_string(end.started) + " started, " +
