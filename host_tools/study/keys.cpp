@@ -69,8 +69,8 @@ KeyedRun settle_run(const Plan& plan, const Point& point, const std::string& pro
   run.words = words_of(plan, point.options);
   Json material = {{"program", program}, {"command", plan.command}};
   const bool has_settings = plan.command == "render" || plan.command == "run";
-  if (plan.command == "render") run.settings = determining(render_settings(run.words, run.work));
-  if (plan.command == "run") run.settings = determining(run_settings(run.words, run.work));
+  if (plan.command == "render") run.settings = determining(render_settings(run.words, run.work)).dump();
+  if (plan.command == "run") run.settings = determining(run_settings(run.words, run.work)).dump();
   material["settings"] = run.settings;
   material["options"] = written(plan, point, !has_settings);
   run.key = sha256(material.dump());

@@ -54,7 +54,7 @@ std::optional<Json> ResultFolder::read(const KeyedRun& run) const {
   if (from_output()) return row_of_csv(text);
   Json result = Json::parse(text, nullptr, false);
   if (result.is_discarded() || !result.is_object()) return std::nullopt;
-  if (!result.contains("settings") || determining(result["settings"]) != run.settings)
+  if (!result.contains("settings") || determining(result["settings"]).dump() != run.settings)
     throw InputError(name.string() + ": these are statistics of another run; remove the file");
   return result;
 }
