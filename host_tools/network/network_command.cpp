@@ -13,6 +13,7 @@
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/parse_values.hpp"
+#include "host_tools/cli/render_options.hpp"
 #include "host_tools/report/text.hpp"
 
 namespace torolux {
@@ -29,6 +30,7 @@ struct NetworkOptions {
   std::uint64_t cycles = 20000;
   bool to_itself = false;
   std::optional<std::string> machine;
+  std::vector<std::string> machine_values;  ///< KEY=VALUE, checked
   FaultOptions faults;
 };
 
@@ -75,6 +77,7 @@ int run_network(const NetworkOptions& options) {
   setup.columns = pes[0];
   setup.rows = pes[1];
   if (options.machine) setup.machine = load_machine_description(*options.machine);
+  for (const std::string& value : options.machine_values) set_machine_value(setup.machine, value);
   options.faults.apply_to(setup.machine);
   setup.pattern = options.traffic;
   setup.to_itself = options.to_itself;
@@ -124,6 +127,7 @@ void add_network_command(CLI::App& app, CommandAction& action) {
       ->capture_default_str();
   command->add_flag("--self", options->to_itself, "Nodes send packets to themselves, too, where the pattern says so");
   command->add_option("--machine", options->machine, "Parameters of the machine [built in]")->type_name("FILE.toml");
+  add_machine_values_option(*command, options->machine_values, "");
   add_fault_options(*command, options->faults, "");
   command->add_option("--seed", options->seed, "Of the traffic")->type_name("N")->capture_default_str();
   command->add_option("--warm-up", options->warm_up, "Cycles before anything is measured")
