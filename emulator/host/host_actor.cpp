@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/niu_window.hpp"
@@ -60,7 +61,8 @@ void HostActor::queue_for(PeNumber pe, BlockIndex index) {
   events_.push(clock_.now(), source_, EventKind::host_queue, pe, 0, index);
 }
 
-void HostActor::start() {
+void HostActor::start(std::function<void(std::string_view)> on_stage) {
+  on_stage_ = std::move(on_stage);
   program_.start(*this);
 }
 

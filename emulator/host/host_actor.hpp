@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -31,10 +32,12 @@ class HostActor final : public HostPort {
   void work(HostWork what, std::uint64_t items) override { clock_.work(what, items); }
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override;
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override;
+  void begin_stage(std::string_view name) override { on_stage_(name); }
   std::size_t queued(PeNumber pe) const override { return lines_[pe].made; }
 
   // ---- The machine's side ----
-  void start();
+  /// on_stage: called where the program begins a stage, by the host's clock.
+  void start(std::function<void(std::string_view)> on_stage);
   /// A message or diverted records have come over the bus.
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
@@ -79,6 +82,7 @@ class HostActor final : public HostPort {
   void update(unsigned pe);
   void schedule_step(Cycles now);
 
+  std::function<void(std::string_view)> on_stage_;
   HostClock clock_;
   HostProgram& program_;
   EventQueue& events_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "emulator/host/host_work.hpp"
@@ -25,6 +26,9 @@ class HostPort {
   virtual ~HostPort() = default;
   virtual Cycles now() const = 0;
   virtual unsigned pes() const = 0;
+  /// From now on all counts are this stage's; the first call names the one that has begun with the run. Where nothing
+  /// is in flight. Throws MachineFailure beyond kMostStages.
+  virtual void begin_stage(std::string_view name) = 0;
   /// Moves the host's clock: so many items of this have been done.
   virtual void work(HostWork what, std::uint64_t items) = 0;
   /// kind: MessageKind. contents: up to kMostMessageBytes, copied.

@@ -37,7 +37,9 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, setup.frame_layers, events_,
                   2 * pes_ + 2, pool_),
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
-      signal_cycles_(setup.description.signal_cycles()) {}
+      signal_cycles_(setup.description.signal_cycles()) {
+  stages_.push_back({"run", network_figures(0)});
+}
 
 void Emulation::handle(const Event& event) {
   switch (event.kind) {

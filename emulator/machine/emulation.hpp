@@ -46,7 +46,10 @@ class Emulation final : private TorusClient, private BusClient {
   void await(unsigned pe, Cycles wanted);
   void attend_now_and_then();
   bool settled(unsigned pe);
-  void fill_in(PeFigures& figures, unsigned pe);
+  // Figures (stages.cpp)
+  void begin_stage(std::string_view name);
+  MachineFigures network_figures(Cycles now) const;
+  void fill_in_stages(MachineFigures& all, unsigned pe, const ProcessorMark& end) const;
   bool empty() const;
   std::string deadlock_report() const;
   std::string report_of(unsigned pe) const;
@@ -105,6 +108,13 @@ class Emulation final : private TorusClient, private BusClient {
   double slept_ = 0;
   Cycles now_ = 0;
   std::uint64_t trace_hash_ = 0;
+  /// Stages of the host's program so far; before: what the network's side had counted when it began.
+  struct Stage {
+    std::string name;
+    MachineFigures before;
+  };
+  std::vector<Stage> stages_;
+  bool begun_ = false;  // the program has named the first
 };
 
 }  // namespace torolux

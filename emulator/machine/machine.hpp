@@ -34,9 +34,11 @@ struct MachineSetup {
 };
 
 struct PeFigures {
+  Cycles begin = 0;        ///< 0, or that of the stage
+  Cycles cycles = 0;       ///< its length: busy + waits + idle at the end
   Cycles busy_cycles = 0;  ///< executing instructions
   WaitCycles waits{};      ///< waiting in HINTs, by WaitReason
-  Cycles idle_at_end = 0;  ///< from the last thing that it did to the end of the run; busy + waits + this = now
+  Cycles idle_at_end = 0;  ///< from the last thing that it did to the end of the run
   bool halted = false;     ///< its program has ended
   std::uint64_t instructions = 0;
   std::uint64_t packets_sent = 0;       ///< to the torus
@@ -58,6 +60,9 @@ struct HostFigures {
   std::array<std::uint64_t, kHostWorks> own_cycles{};  ///< likewise, of the host's processor
 };
 
+struct StageFigures;
+
+/// Of a run, or of one stage of it.
 struct MachineFigures {
   Cycles now = 0;                ///< virtual time at which nothing happens any more: event, PE or host
   std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
@@ -70,10 +75,19 @@ struct MachineFigures {
   std::uint32_t frame_buffer_high_water = 0;  ///< messages in its queue
   Cycles frame_buffer_message_cycles = 0;     ///< summed over messages: in the queue or being added
   std::uint64_t pixels_added = 0;
-  double scheduler_seconds = 0;  ///< host CPU time that the emulator itself used
-  double engine_seconds = 0;     ///< host CPU time of the engine (all its processes or threads)
+  double scheduler_seconds = 0;      ///< host CPU time that the emulator itself used
+  double engine_seconds = 0;         ///< host CPU time of the engine (all its processes or threads)
+  std::vector<StageFigures> stages;  ///< of a run: stages of the host's program, one behind the other
 
   std::uint64_t instructions() const;  ///< of all PEs
+};
+
+/// The network's side, the host too, is in a stage from when the host begins it until it begins the next one; a PE,
+/// from its first arrival of the stage on. So lengths, and all counts, add up to those of the run on either side.
+struct StageFigures {
+  std::string name;
+  Cycles begin = 0;        ///< by the host's clock
+  MachineFigures figures;  ///< of the stage alone, `now` its length; high-water marks: of the run up to its end
 };
 
 class Machine {

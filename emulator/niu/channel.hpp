@@ -116,7 +116,7 @@ struct Arrival {
   std::uint16_t count;         ///< records
   std::uint16_t message_kind;  ///< message
   std::uint32_t bytes;         ///< of the payload: records or contents
-  std::uint32_t unused;
+  std::uint32_t stage;         ///< of the host's program, counted from 0, when it came
 };
 static_assert(sizeof(Arrival) == 24);
 
@@ -151,6 +151,18 @@ struct Departures {
   }
 };
 
+/// Most stages of a host's program.
+inline constexpr std::uint32_t kMostStages = 8;
+
+/// What a processor has done up to some moment; the difference of two is what it has done between them.
+struct ProcessorMark {
+  std::uint64_t clock;
+  std::uint64_t instructions;
+  std::uint64_t copied;  ///< as in the channel, like the two that follow
+  WaitCycles waits;
+  std::array<std::uint64_t, protocol::kPhases> phase_cycles;
+};
+
 /// What only the processor's side uses; here so that its owner may be any engine.
 struct ProcessorState {
   std::uint64_t last_command;   ///< time of the last command
@@ -161,8 +173,10 @@ struct ProcessorState {
   std::uint32_t gathered;       ///< records of them so far
   std::uint64_t last_hint;      ///< clock at the end of the last HINT
   std::uint64_t phase_begin;    ///< busy cycles at the last marker
+  std::uint32_t stage;          ///< of the last arrival taken
   std::uint32_t phase_depth;
   std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
+  std::array<ProcessorMark, kMostStages> marks;        ///< when its first arrival of each stage had been taken
   std::uint32_t slots_address, slot_bytes, own_slots, niu_slots;
   std::uint32_t slots_free;
   std::uint16_t first_free;                            ///< index of a NIU slot, counted from own_slots

@@ -14,12 +14,34 @@ namespace torolux {
 
 using protocol::Stage;
 
-RenderProgram::RenderProgram(RenderJob job) : job_(std::move(job)) {}
+RenderProgram::RenderProgram(RenderJob job)
+    : job_(std::move(job)),
+      given_(job_.solution.has_value()),
+      step_(given_ ? Step::load_ray_tracing : Step::load_radiosity) {}
 RenderProgram::~RenderProgram() = default;
 
 void RenderProgram::start(HostPort& port) {
+  port.begin_stage(name_of(step_));
   port.work(HostWork::filter_entry, job_.rays.table_entries());
-  enter(port, job_.solution ? Step::load_ray_tracing : Step::load_radiosity);
+  enter(port, step_);
+}
+
+std::string_view RenderProgram::name_of(Step step) const {
+  switch (step) {
+    case Step::load_radiosity:
+      return "load";
+    case Step::radiosity:
+      return "radiosity";
+    case Step::read:
+      return "read";
+    case Step::load_ray_tracing:
+      return given_ ? "load" : "load_again";
+    case Step::ray_tracing:
+      return "ray_tracing";
+    case Step::finished:
+      break;
+  }
+  return "";
 }
 
 void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t kind,
@@ -31,6 +53,7 @@ void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t ki
 }
 
 void RenderProgram::enter(HostPort& port, Step step) {
+  if (step != step_ && step != Step::finished) port.begin_stage(name_of(step));
   step_ = step;
   phase_ = phase_for(port, step);
   if (!phase_) return;

@@ -51,13 +51,16 @@ class RenderProgram : public HostProgram {
  private:
   enum class Step { load_radiosity, radiosity, read, load_ray_tracing, ray_tracing, finished };
 
+  /// Of the stage of the statistics.
+  std::string_view name_of(Step step) const;
   void enter(HostPort& port, Step step);
   void leave(HostPort& port);
   std::unique_ptr<Phase> phase_for(HostPort& port, Step step);
   std::unique_ptr<Phase> loading(protocol::Stage stage);
 
   RenderJob job_;
-  Step step_ = Step::load_radiosity;
+  bool given_;  ///< the solution
+  Step step_;
   std::unique_ptr<Phase> phase_;
   Lattice lattice_;
   StageTimes times_;
