@@ -3,6 +3,7 @@
 #include "emulator/machine/description.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -96,7 +97,7 @@ std::string plain(double value) {
 }
 
 [[noreturn]] void fail(std::string_view file, const toml::source_position& at, const std::string& what) {
-  throw InputError(std::string(file) + ":" + std::to_string(at.line) + ": " + what);
+  throw InputError(file.empty() ? what : std::string(file) + ":" + std::to_string(at.line) + ": " + what);
 }
 
 class Reader {
@@ -169,18 +170,56 @@ class Reader {
   std::vector<Key> keys_;
 };
 
-}  // namespace
-
-MachineDescription parse_machine_description(std::string_view text, std::string_view source_name) {
+/// An empty source_name is left out of messages.
+void read_keys(MachineDescription& description, std::string_view text, std::string_view source_name) {
   toml::table table;
   try {
     table = toml::parse(text, source_name);
   } catch (const toml::parse_error& error) {
     fail(source_name, error.source().begin, std::string(error.description()));
   }
-  MachineDescription description;
   Reader(source_name, keys_of(description)).read_table(table, "");
+}
+
+MachineValue value_at(std::uint32_t* place) {
+  return std::uint64_t{*place};
+}
+MachineValue value_at(auto* place) {
+  return *place;
+}
+
+}  // namespace
+
+MachineDescription parse_machine_description(std::string_view text, std::string_view source_name) {
+  MachineDescription description;
+  read_keys(description, text, source_name);
   return description;
+}
+
+void set_machine_value(MachineDescription& description, const std::string& assignment) {
+  constexpr const char* kKeyCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.";
+  const std::size_t equals = assignment.find('=');
+  const std::string key = assignment.substr(0, equals);
+  if (equals == std::string::npos || key.empty() || key.find_first_not_of(kKeyCharacters) != std::string::npos ||
+      assignment.find_first_of("\n\r#") != std::string::npos)
+    throw UsageError("\"" + assignment + "\" is not a key and a value like torus.flit_bytes=16");
+  read_keys(description, assignment, "");
+}
+
+std::vector<MachineSetting> machine_description_values(const MachineDescription& description) {
+  MachineDescription copy = description;
+  std::vector<MachineSetting> settings;
+  for (const Key& key : keys_of(copy))
+    settings.push_back({key.name, std::visit([](auto* place) { return value_at(place); }, key.place)});
+  return settings;
+}
+
+std::string text_of(const MachineValue& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* number = std::get_if<std::uint64_t>(&value)) return std::to_string(*number);
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), std::get<double>(value));
+  return {text.data(), end.ptr};
 }
 
 MachineDescription load_machine_description(const std::filesystem::path& file) {

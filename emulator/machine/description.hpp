@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "emulator/host/host_work.hpp"
@@ -125,6 +126,22 @@ MachineDescription parse_machine_description(std::string_view text, std::string_
 
 /// Every key of a machine file, with its table ("torus.flit_bytes"), in the order of machine.toml.
 std::vector<std::string> machine_description_keys();
+
+using MachineValue = std::variant<std::uint64_t, double, bool>;
+struct MachineSetting {
+  std::string key;  ///< with its table
+  MachineValue value;
+};
+
+/// Every key with its value, in the same order.
+std::vector<MachineSetting> machine_description_values(const MachineDescription& description);
+
+/// As it may stand in a machine file; a number reads back as the same bits.
+std::string text_of(const MachineValue& value);
+
+/// assignment: one key and its value, as in a machine file: "torus.flit_bytes=16". Throws UsageError where it has not
+/// that form, InputError for an unknown key or a value that is not allowed.
+void set_machine_value(MachineDescription& description, const std::string& assignment);
 
 /// Name of a class in the machine file's table [processor.latency].
 std::string_view name_of(InstructionClass instruction_class);

@@ -23,6 +23,11 @@ void add_tonemap_command(CLI::App& app, CommandAction& action);
 void add_run_command(CLI::App& app, CommandAction& action);
 void add_lockstep_command(CLI::App& app, CommandAction& action);
 void add_bench_command(CLI::App& app, CommandAction& action);
+void add_rerun_command(CLI::App& app, CommandAction& action);
+void add_study_command(CLI::App& app, CommandAction& action);
+
+/// All of them.
+void add_commands(CLI::App& app, CommandAction& action);
 
 /// True after SIGINT or SIGTERM. Long work asks for it in its progress callback, cleans up and ends; torolux_main then
 /// returns kInterrupted, whatever the action returned or threw.

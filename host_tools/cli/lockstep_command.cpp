@@ -34,7 +34,7 @@ void check_options_of_image(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     const bool common = option->get_positional() || name == "--pes" || name == "--pe-memory" || name == "--machine" ||
-                        name == "--threads" || name == "--quiet";
+                        name == "--set" || name == "--threads" || name == "--quiet";
     if (option->count() != 0 && !common) throw UsageError(name + " is for scenes, and this is a firmware image");
   }
 }
@@ -49,6 +49,7 @@ void run_image_in_lock_step(const RenderOptions& options) {
   setup.engine = kLockstep;
   setup.threads = options.threads.value_or(0);
   if (options.machine) setup.description = load_machine_description(*options.machine);
+  for (const std::string& value : options.machine_values) set_machine_value(setup.description, value);
   const auto print = [&](const PeText& text) {
     if (!options.quiet) std::cout << "PE " << text.pe << " @ " << text.time << ": " << text.text << std::endl;
   };

@@ -55,6 +55,18 @@ int run(CLI::App& app, const CommandAction& action, int argc, const char* const*
 
 }  // namespace
 
+void add_commands(CLI::App& app, CommandAction& action) {
+  add_render_command(app, action);
+  add_info_command(app, action);
+  add_compare_command(app, action);
+  add_tonemap_command(app, action);
+  add_run_command(app, action);
+  add_lockstep_command(app, action);
+  add_bench_command(app, action);
+  add_rerun_command(app, action);
+  add_study_command(app, action);
+}
+
 int torolux_main(int argc, const char* const* argv) {
   const InterruptionGuard guard;
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
@@ -65,13 +77,7 @@ int torolux_main(int argc, const char* const* argv) {
       "Exit codes: 0 done, 1 usage, 2 bad input, 3 machine failure, 130 interrupted.\n"
       "`torolux COMMAND --help` tells the options of a command.");
   CommandAction action;
-  add_render_command(app, action);
-  add_info_command(app, action);
-  add_compare_command(app, action);
-  add_tonemap_command(app, action);
-  add_run_command(app, action);
-  add_lockstep_command(app, action);
-  add_bench_command(app, action);
+  add_commands(app, action);
   const int result = guarded([&] { return run(app, action, argc, argv); });
   if (result == kInterrupted) std::cerr << "torolux: interrupted" << std::endl;
   return result;

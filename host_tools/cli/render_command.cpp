@@ -10,7 +10,7 @@
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/firmware_image.hpp"
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/figures.hpp"
 #include "host_tools/report/progress_line.hpp"
@@ -42,39 +42,36 @@ RenderResult run_machine(const Scene& scene, const Settled& settled, bool quiet)
                 });
 }
 
-int run_render(const RenderOptions& options) {
-  const Scene scene = load_scene(options.scene, scene_options(options));
-  check_renderable(scene);
-  Settled settled = settle(options, scene);
+}  // namespace
+
+RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
+  Settled& settled = prepared.settled;
   settled.machine.debugging.listens = announce_debugger(firmware_image());
   check_results_writable(settled, options);
-  print_notes(scene.warnings, options.quiet);
-  if (interrupted()) return kInterrupted;
-  const RenderResult result = run_machine(scene, settled, options.quiet);
-  if (interrupted()) return kInterrupted;
+  print_notes(prepared.scene.warnings, options.quiet);
+  if (interrupted()) return {kInterrupted, ""};
+  const RenderResult result = run_machine(prepared.scene, settled, options.quiet);
+  if (interrupted()) return {kInterrupted, ""};
   print_notes(result.notes, options.quiet);
 
   for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
-  const RunDescription run{scene.name, settled.quality, settled.machine, settled.outputs};
-  if (options.stats) write_file(*options.stats, stats_json(run, result.figures));
-  if (!options.quiet) std::cout << summary(run, result.figures) << std::flush;
-  return 0;
+  std::string statistics = stats_json(prepared.run, result.figures);
+  if (options.stats) write_file(*options.stats, statistics);
+  if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+  return {0, std::move(statistics)};
 }
-
-}  // namespace
 
 void add_render_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Render a picture of a scene on the machine");
-  add_scene_options(*command, *options);
-  add_output_options(*command, *options);
-  add_view_options(*command, *options);
-  add_light_options(*command, *options);
-  add_machine_options(*command, *options);
-  add_engine_option(*command, *options);
-  add_debugging_options(*command, options->debugging, kMachineGroup);
+  add_render_options(*command, *options);
   command->footer("An option given outweighs the scene's own default, which outweighs the one in [brackets].");
-  command->callback([options, &action] { action = [options] { return run_render(*options); }; });
+  command->callback([options, &action] {
+    action = [options] {
+      PreparedRender prepared = prepare_render(*options);
+      return run_prepared(prepared, *options).exit_code;
+    };
+  });
 }
 
 }  // namespace torolux

@@ -108,6 +108,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->group(group);
+  command.add_flag("--no-picture", options.no_picture, "Write no picture: for the statistics alone")->group(group);
   add_value(
       command, "--layers", "LIST",
       "What else the picture shows, as channels of an .exr and as a .png each beside a .png: elements, irradiance, "
@@ -216,6 +217,26 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
       ->group(group);
 }
 
+void add_machine_values_option(CLI::App& command, std::vector<std::string>& values, const std::string& group) {
+  const auto take = [&values](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      MachineDescription scratch;
+      try {
+        set_machine_value(scratch, text);
+      } catch (const UsageError& error) {
+        throw UsageError(std::string("--set: ") + error.what());
+      } catch (const InputError& error) {
+        throw InputError(std::string("--set: ") + error.what());
+      }
+      values.push_back(text);
+    }
+  };
+  CLI::Option* option = command.add_option_function<std::vector<std::string>>(
+      "--set", take, "One parameter of the machine, like torus.flit_bytes=16; outweighs --machine. May be repeated");
+  option->type_name("KEY=VALUE")->allow_extra_args(false);
+  if (!group.empty()) option->group(group);
+}
+
 void add_machine_options(CLI::App& command, RenderOptions& options) {
   const std::string group = kMachineGroup;
   const MachineChoice built_in;
@@ -246,6 +267,7 @@ void add_machine_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--machine", "FILE.toml", "Parameters of the machine [built in]",
             [&options](const std::string& text) { take_path(options.machine, text); })
       ->group(group);
+  add_machine_values_option(command, options.machine_values, group);
   add_value(
       command, "--threads", "N", "Threads of this computer that work for the machine [all cores]",
       [&options](const std::string& text) { options.threads = static_cast<std::uint32_t>(parse_count(text, 1, 4096)); })

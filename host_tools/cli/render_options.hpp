@@ -40,6 +40,7 @@ struct RenderOptions {
 
   // What comes out.
   std::vector<std::filesystem::path> outputs;
+  bool no_picture = false;
   ToneOptions tone;
   LayerSet layers = 0;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats;
@@ -69,6 +70,7 @@ struct RenderOptions {
   Debugging debugging;
   bool enter_empty = false;
   std::optional<std::filesystem::path> machine;
+  std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
   std::optional<std::uint32_t> threads;
 };
 
@@ -77,7 +79,8 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
                        const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group);
-/// --output, --layers, --exposure, --tone-curve, --stats, --save-radiosity, --save-mesh, --radiosity, --quiet.
+/// --output, --no-picture, --layers, --exposure, --tone-curve, --stats, --save-radiosity, --save-mesh, --radiosity,
+/// --quiet.
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);
@@ -85,7 +88,9 @@ void add_view_options(CLI::App& command, RenderOptions& options);
 /// --two-sided-lights,
 /// --seed.
 void add_light_options(CLI::App& command, RenderOptions& options);
-/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --threads.
+/// --set: KEY=VALUE of the machine's parameters, checked, into `values`.
+void add_machine_values_option(CLI::App& command, std::vector<std::string>& values, const std::string& group);
+/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --set, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
 /// --engine.
 void add_engine_option(CLI::App& command, RenderOptions& options);

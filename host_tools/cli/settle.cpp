@@ -109,10 +109,10 @@ double emitting_share(const Scene& scene) {
   return emitting / all;
 }
 
-Quality settle_quality(const RenderOptions& options, const Scene& scene) {
+void settle_quality(const RenderOptions& options, const Scene& scene, Quality& quality, std::string& preset) {
   const SceneDefaults& defaults = scene.defaults;
-  Quality quality;
   const Preset scenes_preset = take_scenes(defaults, quality);
+  preset = options.preset.value_or(scenes_preset).name;
   if (options.preset) change_preset(scenes_preset, *options.preset, quality);
   if (quality.shadow_rays && !defaults.shadow_rays && emitting_share(scene) > kMostEmittingShare)
     quality.shadow_rays = false;
@@ -126,12 +126,12 @@ Quality settle_quality(const RenderOptions& options, const Scene& scene) {
   quality.element_length = length(options.elements, defaults.element_length, quality.element_factor);
   // What is not refined is as fine as patches are, or as elements that are given.
   quality.cluster_factor = options.elements ? 1 : std::min(1.0, quality.patch_factor / quality.element_factor);
-  return quality;
 }
 
 MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   MachineChoice machine;
   if (options.machine) machine.description = load_machine_description(*options.machine);
+  for (const std::string& value : options.machine_values) set_machine_value(machine.description, value);
   if (options.pes) {
     machine.columns = (*options.pes)[0];
     machine.rows = (*options.pes)[1];
@@ -171,14 +171,36 @@ SceneOptions scene_options(const RenderOptions& options) {
 Settled settle(const RenderOptions& options, const Scene& scene) {
   Settled settled;
   settled.camera = settle_camera(options, scene);
-  settled.quality = settle_quality(options, scene);
+  settle_quality(options, scene, settled.quality, settled.preset);
   settled.machine = settle_machine(options, scene);
   pick(settled.tone.exposure_ev, options.tone.exposure_ev, scene.defaults.exposure_ev);
   settled.tone.curve = options.tone.curve.value_or(ToneCurve::filmic);
   settled.outputs = options.outputs;
-  if (settled.outputs.empty()) settled.outputs.emplace_back(scene.name + ".png");
+  if (options.no_picture && !settled.outputs.empty()) throw UsageError("--no-picture and --output exclude each other");
+  if (settled.outputs.empty() && !options.no_picture) settled.outputs.emplace_back(scene.name + ".png");
   settled.files = {options.save_radiosity, options.save_mesh, options.radiosity};
   return settled;
+}
+
+RunDescription describe(const RenderOptions& options, const Settled& settled, const std::string& scene_name,
+                        std::vector<InputFile> files) {
+  RunDescription run;
+  run.scene = scene_name;
+  run.quality = settled.quality;
+  run.machine = settled.machine;
+  run.pictures = settled.outputs;
+  run.preset = settled.preset;
+  run.camera = settled.camera;
+  run.tone = settled.tone;
+  run.inputs = {options.scene.string(), options.studio, {}, std::move(files)};
+  const auto given = [&](const auto& value, const char* name) {
+    if (value) run.inputs.camera_given.emplace_back(name);
+  };
+  given(options.eye, "eye");
+  given(options.look_at, "look_at");
+  given(options.up, "up");
+  given(options.field_of_view_degrees, "field_of_view");
+  return run;
 }
 
 }  // namespace torolux

@@ -5,6 +5,7 @@
 
 #include "host_tools/cli/render_options.hpp"
 #include "host_tools/render/render.hpp"
+#include "host_tools/report/figures.hpp"
 #include "host_tools/scene/load_scene.hpp"
 
 namespace torolux {
@@ -12,14 +13,19 @@ namespace torolux {
 struct Settled {
   Camera camera;
   Quality quality;
+  std::string preset;  ///< in force, on top of which the rest was given
   MachineChoice machine;
   ToneMapping tone;
-  std::vector<std::filesystem::path> outputs;  ///< never empty
+  std::vector<std::filesystem::path> outputs;  ///< empty with --no-picture alone
   RenderFiles files;
 };
 
 /// How the scene is to be loaded. Throws InputError for a camera of the user's that looks nowhere.
 SceneOptions scene_options(const RenderOptions& options);
+
+/// What to report a run by. files: as in RunInputs.
+RunDescription describe(const RenderOptions& options, const Settled& settled, const std::string& scene_name,
+                        std::vector<InputFile> files);
 
 /// Reads the machine file, if one was named. Throws InputError, UsageError; values from the scene are checked as those
 /// from the command line are, and the message says that they come from the scene.

@@ -3,11 +3,14 @@
 #include "host_tools/render/frame_layers.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/files/digest.hpp"
 
 namespace torolux {
 namespace {
@@ -109,6 +112,15 @@ std::vector<Layer> layers_of(const FrameBuffer& frame_buffer, const RenderSetup&
     layers.push_back(layer_of(layer.plane, frame_buffer.plane(layer.plane), setup));
   }
   return layers;
+}
+
+std::string digest_of(const FrameBuffer& frame_buffer, Plane plane) {
+  static_assert(std::endian::native == std::endian::little);
+  Sha256 digest;
+  const std::array<std::uint64_t, 2> size{frame_buffer.width, frame_buffer.height};
+  digest.add(std::as_bytes(std::span(size)));
+  digest.add(std::as_bytes(std::span(frame_buffer.plane(plane))));
+  return digest.hexadecimal();
 }
 
 }  // namespace torolux

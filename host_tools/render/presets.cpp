@@ -16,6 +16,7 @@ std::uint32_t in_measure(std::uint32_t value, std::uint32_t was, std::uint32_t i
 }
 
 double in_measure(double value, double was, double is) {
+  if (was == is) return value;  // to the last bit
   return value == was ? is : value * is / was;
 }
 

@@ -153,6 +153,10 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
                                          setup.units.watts_per_quantum, setup.units.unit_radiance);
     save_ply(*files.save_mesh, scene, setup.mesh, setup.units, lattice);
   }
+  const FrameBuffer& sums = torolux.frame_buffer();
+  result.figures.picture_sha256 = digest_of(sums, protocol::Plane::colour);
+  for (const LayerName& layer : layers_in(quality.layers))
+    result.figures.layers_sha256.push_back(digest_of(sums, layer.plane));
   result.picture = picture_of(torolux.frame_buffer(), setup);
   result.layers = layers_of(torolux.frame_buffer(), setup);
   return result;

@@ -91,6 +91,8 @@ struct RenderFigures {
   double wall_seconds = 0;
   std::uint32_t local_memory_bytes = 0;  ///< per PE, as chosen
   std::array<std::uint32_t, 3> subspaces{};
+  std::string picture_sha256;              ///< of the colours' sums in the frame buffer, as digest_of makes it
+  std::vector<std::string> layers_sha256;  ///< likewise of the layers, in the order of kLayerNames
 };
 
 struct RenderResult {

@@ -6,16 +6,30 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/files/digest.hpp"
 #include "host_tools/render/render.hpp"
 
 namespace torolux {
 
+/// What a render takes in.
+struct RunInputs {
+  std::string scene_path;  ///< as the user named it
+  bool studio = false;
+  /// Of eye, look_at, up and field_of_view: those that the user gave, which matters to a studio.
+  std::vector<std::string> camera_given;
+  std::vector<InputFile> files;  ///< scene files in the order in which they are read, saved radiosity, firmware
+};
+
 /// What was asked for, as settled from command line, scene and built-in values.
 struct RunDescription {
-  std::string scene;
+  std::string scene;  ///< its name
   Quality quality;
   MachineChoice machine;
   std::vector<std::filesystem::path> pictures;
+  std::string preset;
+  Camera camera;
+  ToneMapping tone;
+  RunInputs inputs;
 };
 
 /// emitted - (absorbed + absorbed_specular + unshot + escaped + cut_off + back_side), relative to emitted: the channel

@@ -4,6 +4,7 @@
 
 #include "firmware/protocol/hints.hpp"
 #include "host_tools/report/figures.hpp"
+#include "host_tools/report/settings_json.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/version.hpp"
 
@@ -36,48 +37,12 @@ Json energy_json(const EnergyBalance& energy) {
           {"closing_error", closing_error(energy)}};
 }
 
-template <class Value>
-Json value_or_auto(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json("auto");
-}
-
-Json layer_names(LayerSet set) {
-  Json names = Json::array();
-  for (const LayerName& layer : layers_in(set)) names.push_back(layer.name);
-  return names;
-}
-
-Json settings_json(const RunDescription& run, const RenderFigures& figures) {
-  const Quality& quality = run.quality;
-  const MachineChoice& machine = run.machine;
-  return {{"scene", run.scene},
-          {"width", quality.width},
-          {"height", quality.height},
-          {"samples", quality.samples},
-          {"filter", name_of(quality.filter)},
-          {"layers", layer_names(quality.layers)},
-          {"patches", value_or_auto(quality.patch_length)},
-          {"elements", value_or_auto(quality.element_length)},
-          {"patch_factor", quality.patch_factor},
-          {"element_factor", quality.element_factor},
-          {"cluster_factor", quality.cluster_factor},
-          {"refine", quality.refine},
-          {"hemicube", quality.hemicube},
-          {"shot_points", quality.shot_points},
-          {"emission_records", quality.emission_records},
-          {"unshot", quality.unshot},
-          {"max_shots", quality.max_shots},
-          {"bounces", quality.bounces},
-          {"direct", quality.shadow_rays ? "shadow-rays" : "radiosity"},
-          {"texels", quality.texels},
-          {"two_sided_lights", quality.two_sided_lights},
-          {"seed", quality.seed},
-          {"pes", {machine.columns, machine.rows}},
-          {"pe_memory", figures.local_memory_bytes},
-          {"subspaces", figures.subspaces},
-          {"allocation", machine.allocation},
-          {"skip_empty_subspaces", machine.skip_empty_subspaces},
-          {"clock_hertz", machine.description.processor.clock_hertz}};
+Json picture_json(const RunDescription& run, const RenderFigures& figures) {
+  Json json = {{"sha256", figures.picture_sha256}};
+  const std::vector<LayerName> layers = layers_in(run.quality.layers);
+  for (std::size_t i = 0; i < layers.size() && i < figures.layers_sha256.size(); ++i)
+    json["layers_sha256"][std::string(layers[i].name)] = figures.layers_sha256[i];
+  return json;
 }
 
 struct Sums {
@@ -122,9 +87,11 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["rays"] = figures.rays;
   json["bus"] = {{"busy_cycles", machine.bus.busy_cycles()}, {"messages", machine.bus.transfers}};
   json["frame_buffer"] = {{"busy_cycles", machine.frame_buffer_busy_cycles}, {"pixels_added", machine.pixels_added}};
+  json["picture"] = picture_json(run, figures);
   json["trace_hash"] = hexadecimal(machine.trace_hash);
   json["phases"] = phases_of(sums.phases);
-  json["settings"] = settings_json(run, figures);
+  json["settings"] = settings_json(run, &figures);
+  json["command_line"] = command_line_of(json["settings"]);
   json["pes"] = Json::array();
   for (const PeFigures& pe : machine.pes) json["pes"].push_back(pe_json(pe));
   json["wall_seconds"] = figures.wall_seconds;

@@ -7,6 +7,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/niu_window.hpp"
+#include "host_tools/report/settings_json.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/version.hpp"
 
@@ -73,7 +74,8 @@ MachineFigures run_image(const MachineSetup& setup, const Image& image,
   return figures;
 }
 
-std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figures, double wall_seconds) {
+std::string run_stats_json(const MachineSetup& setup, const InputFile& image, const MachineFigures& figures,
+                           double wall_seconds) {
   using Json = nlohmann::ordered_json;
   Json json;
   json["version"] = kVersion;
@@ -101,7 +103,8 @@ std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figu
                   {"total", figures.hops}};
   json["bus"] = {{"busy_cycles", figures.bus.busy_cycles()}, {"messages", figures.bus.transfers}};
   json["trace_hash"] = hexadecimal(figures.trace_hash);
-  json["settings"] = {{"pes", {setup.columns, setup.rows}}, {"pe_memory", setup.local_memory_bytes}};
+  json["settings"] = settings_json(setup, image);
+  json["command_line"] = command_line_of(json["settings"]);
   json["pes"] = std::move(pes);
   json["wall_seconds"] = wall_seconds;
   json["host"] = {{"threads", setup.threads},

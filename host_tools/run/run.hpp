@@ -6,6 +6,7 @@
 #include <string>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/files/digest.hpp"
 
 namespace torolux {
 
@@ -23,6 +24,7 @@ MachineFigures run_image(const MachineSetup& setup, const Image& image,
                          const std::function<bool(Cycles)>& progress);
 
 /// The figures as one JSON object, ended by a line end; the keys are those of `torolux render --stats`.
-std::string run_stats_json(const MachineSetup& setup, const MachineFigures& figures, double wall_seconds);
+std::string run_stats_json(const MachineSetup& setup, const InputFile& image, const MachineFigures& figures,
+                           double wall_seconds);
 
 }  // namespace torolux

@@ -40,6 +40,9 @@ class TomlTable {
   const toml::table* table(std::string_view key);
   std::vector<const toml::table*> tables(std::string_view key);
 
+  /// Says that the key may be there; the caller reads it from the table itself.
+  void known(std::string_view key) { find(key); }
+
   /// Refuses with what is missing.
   template <typename T>
   T required(std::optional<T> value, std::string_view key) const {

@@ -143,6 +143,8 @@ std::string contents(const std::filesystem::path& file) {
 nlohmann::json statistics(const std::filesystem::path& file) {
   nlohmann::json json = nlohmann::json::parse(contents(file));
   json.erase("engine");
+  for (const char* key : {"engine", "qemu_pes"}) json["settings"].erase(key);
+  json.erase("command_line");
   json.erase("wall_seconds");
   json.erase("host");
   return json;

@@ -75,6 +75,8 @@ std::string result_of(const std::string& image_name, const std::string& pes, std
   std::ifstream stream(stats.text());
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(stream);
   json.erase("engine");
+  for (const char* key : {"engine", "qemu_pes"}) json["settings"].erase(key);
+  json.erase("command_line");
   json.erase("wall_seconds");
   json.erase("host");
   return run.output + json.dump();

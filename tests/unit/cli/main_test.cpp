@@ -51,7 +51,7 @@ TEST(Main, HelpOfRenderIsComplete) {
                              "--unshot",    "--max-shots",   "--bounces",    "--two-sided-lights", "--save-radiosity",
                              "--radiosity", "--stats",       "--seed",       "--threads",          "--quiet",
                              "--studio",    "--enter-empty", "--direct",     "--filter",           "--tone-curve",
-                             "--layers"})
+                             "--layers",    "--no-picture",  "--set"})
     EXPECT_THAT(help, HasSubstr(option));
   for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[8]", "[0.002]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
@@ -77,6 +77,8 @@ TEST(Main, UsageErrors) {
                                              {"render", "scene", "--filter", "triangle"},
                                              {"render", "scene", "--tone-curve", "aces"},
                                              {"render", "scene", "--layers", "colour"},
+                                             {"render", "scene", "--set", "torus.flit_bytes"},
+                                             {"run", "a.elf", "--set", "=16"},
                                              {"tonemap", "a.exr"},
                                              {"tonemap", "a.exr", "a.jpg"},
                                              {"tonemap", "a.exr", "b.exr"},
@@ -89,12 +91,26 @@ TEST(Main, UsageErrors) {
 }
 
 TEST(Main, ValuesThatAreNotAllowedAreBadInputAndNameTheOption) {
-  const std::vector<std::array<const char*, 2>> cases = {
-      {"--pes", "0x4"},     {"--pes", "256x256"},    {"--size", "0x10"},     {"--samples", "0"},
-      {"--hemicube", "15"}, {"--hemicube", "258"},   {"--shot-points", "0"}, {"--shot-points", "65"},
-      {"--unshot", "0"},    {"--unshot", "1.5"},     {"--bounces", "256"},   {"--fov", "180"},
-      {"--fov", "0"},       {"--pe-memory", "128K"}, {"--patches", "0"},     {"--subspaces", "0x1x1"},
-      {"--threads", "0"},   {"--exposure", "1000"}};
+  const std::vector<std::array<const char*, 2>> cases = {{"--pes", "0x4"},
+                                                         {"--pes", "256x256"},
+                                                         {"--size", "0x10"},
+                                                         {"--samples", "0"},
+                                                         {"--hemicube", "15"},
+                                                         {"--hemicube", "258"},
+                                                         {"--shot-points", "0"},
+                                                         {"--shot-points", "65"},
+                                                         {"--unshot", "0"},
+                                                         {"--unshot", "1.5"},
+                                                         {"--bounces", "256"},
+                                                         {"--fov", "180"},
+                                                         {"--fov", "0"},
+                                                         {"--pe-memory", "128K"},
+                                                         {"--patches", "0"},
+                                                         {"--subspaces", "0x1x1"},
+                                                         {"--threads", "0"},
+                                                         {"--exposure", "1000"},
+                                                         {"--set", "torus.flit_bytes=0"},
+                                                         {"--set", "torus.flit=1"}};
   for (const auto& [option, value] : cases) {
     const Outcome outcome = torolux({"render", "scene", option, value});
     EXPECT_EQ(outcome.code, 2) << option << " " << value;

@@ -98,6 +98,30 @@ TEST(MachineFile, ErrorsNameFileAndLine) {
   EXPECT_THAT(refusal("[records]\nniu_slots = 4294967296\n"), StartsWith("m.toml:2:"));
 }
 
+TEST(MachineValues, OneKeyIsSetAndReadBackExactly) {
+  MachineDescription machine;
+  set_machine_value(machine, "torus.flit_bytes=32");
+  set_machine_value(machine, "torus.link_error_rate=0.1");
+  set_machine_value(machine, "torus.bubble=false");
+  EXPECT_EQ(machine, parse_machine_description("torus = {flit_bytes=32, link_error_rate=0.1, bubble=false}", "m"));
+  MachineDescription again;
+  for (const MachineSetting& setting : machine_description_values(machine))
+    set_machine_value(again, setting.key + "=" + torolux::text_of(setting.value));
+  EXPECT_EQ(again, machine);
+  EXPECT_EQ(machine_description_values(machine).size(), machine_description_keys().size());
+}
+
+TEST(MachineValues, WhatIsNoKeyOrNoValueIsRefused) {
+  MachineDescription machine;
+  for (const char* text : {"", "=", "=1", "torus.flit_bytes", "torus.flit_bytes=1\nbus.arbitration_cycles=2",
+                           "[torus]\nflit_bytes=1", "torus.flit_bytes=1#", "'torus'.flit_bytes=1"})
+    EXPECT_THROW(set_machine_value(machine, text), UsageError) << text;
+  for (const char* text : {"torus.flit_bytes=", "torus.flit_bytes=0", "torus.flit_bytes=1.5", "torus.flits=1",
+                           "torus=1", "torus.flit_bytes=1 2", "torus.bubble=1"})
+    EXPECT_THROW(set_machine_value(machine, text), InputError) << text;
+  EXPECT_EQ(machine, MachineDescription{});
+}
+
 TEST(MachineFile, AFileThatIsNotThereIsBadInput) {
   EXPECT_THROW(load_machine_description("/nowhere/m.toml"), InputError);
   EXPECT_THROW(load_machine_description("/"), InputError);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// A command line that stands in a file, read as if it had been typed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace torolux {
+
+/// Throws UsageError where `command` does not take these words; nothing is printed.
+void parse_words(CLI::App& command, std::vector<std::string> words);
+
+}  // namespace torolux

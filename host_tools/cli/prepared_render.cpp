@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Words or options enter; a scene, settings and their description leave.
+#include "host_tools/cli/prepared_render.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "emulator/errors.hpp"
+#include "host_tools/cli/debugging_options.hpp"
+#include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/parse_words.hpp"
+#include "host_tools/scene/recorded_files.hpp"
+
+namespace torolux {
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+  add_scene_options(command, options);
+  add_output_options(command, options);
+  add_view_options(command, options);
+  add_light_options(command, options);
+  add_machine_options(command, options);
+  add_engine_option(command, options);
+  add_debugging_options(command, options.debugging, kMachineGroup);
+}
+
+RenderOptions parse_render_options(const std::vector<std::string>& words) {
+  RenderOptions options;
+  CLI::App command;
+  add_render_options(command, options);
+  parse_words(command, words);
+  return options;
+}
+
+PreparedRender prepare_render(const RenderOptions& options) {
+  RecordedFiles recorded;
+  PreparedRender prepared;
+  prepared.scene = load_scene_from(recorded, options.scene, scene_options(options));
+  check_renderable(prepared.scene);
+  prepared.settled = settle(options, prepared.scene);
+  std::vector<InputFile> files = recorded.files();
+  if (options.radiosity)
+    files.push_back({"radiosity", options.radiosity->string(), sha256_of_file(*options.radiosity)});
+  files.push_back({"firmware", "pe.elf", sha256_of_file(firmware_image())});
+  prepared.run = describe(options, prepared.settled, prepared.scene.name, std::move(files));
+  return prepared;
+}
+
+}  // namespace torolux

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The options of `torolux run`, and the machine that they ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/machine/machine.hpp"
+#include "host_tools/cli/prepared_render.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace torolux {
+
+struct RunOptions {
+  std::string image;
+  std::string pes = "4x4";
+  std::string pe_memory = "1M";
+  std::string engine = kDefaultEngine;
+  std::optional<std::string> machine, stats;
+  std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
+  Debugging debugging;
+  unsigned threads = 0;
+  bool quiet = false;
+};
+
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// words: what stands after `torolux run`. Throws UsageError, InputError.
+RunOptions parse_run_options(const std::vector<std::string>& words);
+
+/// Runs the image; writes and prints what the options ask for. Throws UsageError, InputError, MachineFailure.
+RunEnd run_prepared(const RunOptions& options);
+
+/// Reads the machine file, if one was named. Throws UsageError, InputError.
+MachineSetup setup_from(const RunOptions& options);
+
+}  // namespace torolux

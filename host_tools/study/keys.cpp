@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// A point enters; it is settled as its run would be, and the digest of that leaves.
+#include "host_tools/study/keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "emulator/errors.hpp"
+#include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/report/settings_json.hpp"
+#include "host_tools/run/run_options.hpp"
+#include "host_tools/study/options.hpp"
+
+namespace torolux::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Options of render and run whose effect stands in the settings. Any other one comes into the key as it is written,
+/// so that an option that is forgotten here makes keys differ, never agree.
+constexpr std::array<std::string_view, 38> kSettled = {
+    "scene",     "image",      "studio",      "layers",           "exposure", "tone-curve",
+    "radiosity", "size",       "samples",     "filter",           "eye",      "look-at",
+    "up",        "fov",        "quality",     "patches",          "elements", "refine",
+    "hemicube",  "unshot",     "shot-points", "max-shots",        "bounces",  "emission-records",
+    "direct",    "texels",     "seed",        "two-sided-lights", "pes",      "pe-memory",
+    "subspaces", "allocation", "enter-empty", "machine",          "engine",   "qemu-pes",
+    "jitter",    "fault"};
+
+bool settled(const std::string& name) {
+  return name.starts_with("machine.") || std::ranges::find(kSettled, name) != kSettled.end();
+}
+
+std::vector<std::string> after_command(const std::vector<std::string>& words) {
+  return {words.begin() + 1, words.end()};
+}
+
+Json render_settings(const std::vector<std::string>& words, double& work) {
+  const PreparedRender prepared = prepare_render(parse_render_options(after_command(words)));
+  const Quality& quality = prepared.run.quality;
+  work = static_cast<double>(quality.emission_records) * (1 + quality.refine) +
+         static_cast<double>(quality.width) * quality.height * quality.samples;
+  return settings_json(prepared.run, nullptr);
+}
+
+Json run_settings(const std::vector<std::string>& words, double& work) {
+  const RunOptions options = parse_run_options(after_command(words));
+  const MachineSetup setup = setup_from(options);
+  work = static_cast<double>(setup.columns) * setup.rows;
+  return settings_json(setup, {"image", options.image, sha256_of_file(options.image)});
+}
+
+/// Options by name, which has an order of its own.
+Json written(const Plan& plan, const Point& point, bool all) {
+  std::vector<PlanOption> options = point.options;
+  std::ranges::sort(options, {}, &PlanOption::name);
+  Json json = Json::object();
+  for (const PlanOption& option : options) {
+    if (!all && settled(option.name)) continue;
+    json[option.name] =
+        option.name == "machine" ? sha256_of_file(plan.file.parent_path() / option.value) : option.value;
+  }
+  return json;
+}
+
+KeyedRun settle_run(const Plan& plan, const Point& point, const std::string& program) {
+  KeyedRun run;
+  run.words = words_of(plan, point.options);
+  Json material = {{"program", program}, {"command", plan.command}};
+  const bool has_settings = plan.command == "render" || plan.command == "run";
+  if (plan.command == "render") run.settings = determining(render_settings(run.words, run.work));
+  if (plan.command == "run") run.settings = determining(run_settings(run.words, run.work));
+  material["settings"] = run.settings;
+  material["options"] = written(plan, point, !has_settings);
+  run.key = sha256(material.dump());
+  return run;
+}
+
+}  // namespace
+
+std::string program_digest() {
+  return sha256_of_file("/proc/self/exe");
+}
+
+KeyedRun keyed_run(const Plan& plan, const Point& point, const std::string& program) {
+  const auto place = [&] { return point.place.text() + ": " + label_of(point, varied_names(plan)) + ": "; };
+  try {
+    return settle_run(plan, point, program);
+  } catch (const UsageError& error) {
+    throw InputError(place() + error.what());
+  } catch (const InputError& error) {
+    throw InputError(place() + error.what());
+  }
+}
+
+}  // namespace torolux::study

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The command line's own parser says which options there are; a plan's options enter, words leave.
+#include "host_tools/study/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+
+#include "emulator/machine/description.hpp"
+#include "host_tools/cli/command.hpp"
+
+namespace torolux::study {
+namespace {
+
+/// These a study decides itself, or they are for looking at one run.
+constexpr std::array<std::string_view, 11> kNotInPlans = {
+    "help", "output", "no-picture", "stats", "quiet", "save-radiosity", "save-mesh", "gdb", "threads", "set", "format"};
+constexpr std::array<std::string_view, 3> kCommands = {"render", "run", "network"};
+constexpr std::string_view kMachine = "machine.";
+
+bool is_path(const std::string& name) {
+  return name == "scene" || name == "image" || name == "radiosity" || name == "machine";
+}
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> options_of(const std::string& command, const Place& place) {
+  CLI::App app;
+  CommandAction unused;
+  add_commands(app, unused);
+  const auto found = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == command; });
+  if (found.empty() || std::ranges::find(kCommands, command) == kCommands.end())
+    refuse(place, "'" + command + "' is no command that is studied; there are: render, run, network");
+  std::vector<std::string> names;
+  for (const CLI::Option* option : found.front()->get_options()) {
+    if (option->get_positional()) names.push_back(lower(option->get_name()));
+    for (const std::string& name : option->get_lnames()) {
+      if (std::ranges::find(kNotInPlans, name) == kNotInPlans.end()) names.push_back(name);
+    }
+  }
+  if (found.front()->get_option_no_throw("--set") != nullptr) {
+    for (const std::string& key : machine_description_keys()) names.push_back(std::string(kMachine) + key);
+  }
+  return names;
+}
+
+std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> options) {
+  std::vector<std::string> words = {plan.command};
+  const auto value_of = [&](const PlanOption& option) {
+    if (!is_path(option.name)) return option.value;
+    return (plan.file.parent_path() / option.value).lexically_normal().string();
+  };
+  for (const PlanOption& option : options) {
+    if (option.name == "scene" || option.name == "image") words.insert(words.begin() + 1, value_of(option));
+  }
+  for (const PlanOption& option : options) {
+    if (option.name == "scene" || option.name == "image") continue;
+    if (option.name.starts_with(kMachine)) {
+      words.insert(words.end(), {"--set", option.name.substr(kMachine.size()) + "=" + option.value});
+    } else if (!option.flag) {
+      words.insert(words.end(), {"--" + option.name, value_of(option)});
+    } else if (option.value == "true") {
+      words.push_back("--" + option.name);
+    }
+  }
+  return words;
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+,=:@%";
+  std::string line;
+  for (const std::string& word : words) {
+    if (!line.empty()) line += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace torolux::study

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Which options a plan may give to a command, and the command line that they make.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host_tools/study/plan.hpp"
+
+namespace torolux::study {
+
+/// Names of a command's options that a plan may set; machine's parameters are named machine.KEY.
+/// Throws InputError for a command that is not there or cannot be studied; place: where it is named.
+std::vector<std::string> options_of(const std::string& command, const Place& place);
+
+/// The words after `torolux`: the command, its scene or image, options. Paths are relative to the plan's folder.
+std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> options);
+
+/// Words for a shell, quoted where it needs that.
+std::string shell_line(const std::vector<std::string>& words);
+
+}  // namespace torolux::study

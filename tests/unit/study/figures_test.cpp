@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Proves: figures follow from statistics as documented; tables are the same for the same results, and say what misses.
+#include "host_tools/study/figures.hpp"
+
+#include <gmock/gmock.h>
+
+#include "host_tools/study/plots.hpp"
+#include "host_tools/study/table.hpp"
+
+namespace torolux::study {
+namespace {
+
+Json statistics(unsigned columns, std::uint64_t radiosity) {
+  return {{"virtual_cycles", {{"load", 100}, {"radiosity", radiosity}, {"ray_tracing", 300}}},
+          {"hops", {{"mean", 1.25}}},
+          {"settings", {{"pes", {columns, 2}}, {"pe_memory", 1048576}}},
+          {"pes", {{{"busy_cycles", 10}, {"idle_cycles", 30}}, {{"busy_cycles", 20}, {"idle_cycles", 20}}}}};
+}
+
+TEST(Figures, FollowFromTheStatistics) {
+  const Json first = statistics(1, 1600);
+  const Json run = statistics(4, 400);
+  const auto of = [&](const char* name) { return figure(run, &first, name); };
+  EXPECT_EQ(of("pe_count"), 8);
+  EXPECT_EQ(of("cycles"), 800);
+  EXPECT_EQ(of("cycles.radiosity"), 400);
+  EXPECT_EQ(of("virtual_cycles.radiosity"), 400);
+  EXPECT_EQ(of("relative"), 0.4);
+  EXPECT_EQ(of("speed_up"), 2.5);
+  EXPECT_EQ(of("speed_up.radiosity"), 4.0);
+  EXPECT_EQ(of("efficiency"), 2.5 / 4);
+  EXPECT_EQ(of("efficiency.radiosity"), 1.0);
+  EXPECT_EQ(of("balance"), 0.75);
+  EXPECT_EQ(of("utilisation"), 30.0 / 80);
+  EXPECT_EQ(of("mean_hops"), 1.25);
+  EXPECT_EQ(of("memory"), 1048576);
+  EXPECT_EQ(of("pes.1.busy_cycles"), 20);
+  for (const char* name : {"nothing", "hops.least", "pes.2.busy_cycles", "pes.x", "cycles.paint"})
+    EXPECT_TRUE(of(name).is_null()) << name;
+  EXPECT_TRUE(figure(run, nullptr, "speed_up").is_null()) << "the baseline has not run";
+}
+
+TEST(Figures, OfACsvAreItsColumns) {
+  const auto row = row_of_csv("offered,accepted,name\n0.1,12,a\n0.2,13,b\n");
+  ASSERT_TRUE(row);
+  EXPECT_EQ(figure(*row, nullptr, "offered"), 0.1);
+  EXPECT_EQ(figure(*row, nullptr, "accepted"), 12);
+  EXPECT_FALSE(row_of_csv("offered\n"));
+  EXPECT_FALSE(row_of_csv("a,b\n1\n"));
+}
+
+TEST(Cells, AreExact) {
+  EXPECT_EQ(cell_text(0.1), "0.1");
+  EXPECT_EQ(cell_text(std::uint64_t{18446744073709551615U}), "18446744073709551615");
+  EXPECT_EQ(cell_text(1.0 / 3), "0.3333333333333333");
+  EXPECT_EQ(cell_text(nullptr), "");
+}
+
+/// Two kinds of allocation on one and two columns of PEs.
+struct SmallStudy {
+  Plan plan = parse_plan(
+      "[base]\ncommand = 'render'\nscene = 'a'\n[vary]\npes = ['1x2', '2x2']\nallocation = ['block', 'skewed:zy']\n"
+      "[report]\nbaseline = {pes = '1x2'}\n",
+      "plan.toml");
+  std::vector<Point> points = points_of(plan);
+  std::vector<std::string> keys{"a", "b", "c", "d"};
+  std::map<std::string, Json> results{
+      {"a", statistics(1, 1600)}, {"b", statistics(1, 800)}, {"c", statistics(2, 400)}, {"d", statistics(2, 600)}};
+
+  Table table() const { return make_table(plan, points, keys, results, {"speed_up"}); }
+};
+
+TEST(Tables, CompareWithTheBaselineThatIsOtherwiseTheSame) {
+  const Table table = SmallStudy().table();
+  const std::size_t column = table.column("speed_up");
+  EXPECT_EQ(table.rows[2][column], 2000.0 / 800) << "2x2, block against 1x2, block";
+  EXPECT_EQ(table.rows[3][column], 1200.0 / 1000) << "2x2, skewed against 1x2, skewed";
+  EXPECT_THAT(csv_of(table), testing::StartsWith("pes,allocation,speed_up,pe_count,cycles,"));
+  EXPECT_THAT(csv_of(table), testing::HasSubstr("\n2x2,skewed:zy,1.2,4,1000,100,600,300,"));
+}
+
+TEST(Tables, SayWhatIsMissing) {
+  SmallStudy study;
+  study.results.erase("c");
+  const Table table = study.table();
+  EXPECT_THAT(csv_of(table), testing::HasSubstr("\n2x2,block,,,"));
+  EXPECT_THAT(markdown_of(table, {"speed_up"}), testing::HasSubstr("| 2x2 | block | missing |"));
+  EXPECT_THAT(plot_script(study.plan, table, "pe_count", "speed_up"), testing::HasSubstr("(1 of 4 runs missing)"));
+}
+
+TEST(Plots, DrawACurveForEachSeriesAndTheSameBytesAlways) {
+  const SmallStudy study;
+  const std::string script = plot_script(study.plan, study.table(), "pe_count", "speed_up");
+  EXPECT_THAT(script, testing::HasSubstr("$series0 << END\n2 1\n4 2.5\nEND\n"));
+  EXPECT_THAT(script, testing::HasSubstr("title 'allocation skewed:zy' noenhanced"));
+  EXPECT_THAT(script, testing::HasSubstr("$ideal << END\n2 1\n4 2\nEND\n"));
+  const std::string svg = draw(script);
+  EXPECT_THAT(svg, testing::HasSubstr("skewed:zy"));
+  EXPECT_EQ(draw(script), svg);
+  EXPECT_EQ(plot_script(study.plan, study.table(), "pe_count", "nothing"), "");
+  EXPECT_EQ(plot_file("torus.hops/mean"), "torus_hops_mean.svg");
+}
+
+}  // namespace
+}  // namespace torolux::study

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Proves: a plan says what it is to say, and what is wrong with one is named with file and line. The plans of the
+// repository are plans.
+#include "host_tools/study/plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "emulator/errors.hpp"
+#include "host_tools/files/write_file.hpp"
+#include "host_tools/study/options.hpp"
+#include "host_tools/study/points.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace torolux::study {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string refusal(const std::string& text) {
+  return testing_support::message_of<InputError>([&] { parse_plan(text, "plan.toml"); });
+}
+
+const std::string kBase = "[base]\ncommand = 'render'\nscene = 'room'\n";
+
+TEST(Plan, SaysWhatRunsAndInTheOrderOfTheFile) {
+  const Plan plan = parse_plan(kBase +
+                                   "pes = '8x8'\nmax-shots = 400\nunshot = 0.1\nstudio = true\nthreads = 2\n"
+                                   "machine.torus.flit_bytes = 16\n"
+                                   "[vary]\nsize = ['8x8', '9x9']\nmachine.torus.bubble = [true, false]\n"
+                                   "'allocation' = ['block', 'skewed']\nzip = [['size', 'allocation']]\n"
+                                   "[report]\nx = 'pe_count'\ny = ['cycles']\nbaseline = {pes = '1x1'}\n",
+                               "folder/plan.toml");
+  EXPECT_EQ(plan.threads, 2U);
+  EXPECT_EQ(shell_line(words_of(plan, plan.base)),
+            "render folder/room --pes 8x8 --max-shots 400 --unshot 0.1 --studio --set torus.flit_bytes=16");
+  ASSERT_EQ(plan.vary.size(), 3U);
+  EXPECT_EQ(plan.vary[0].name, "size");
+  EXPECT_EQ(plan.vary[1].name, "machine.torus.bubble");
+  EXPECT_EQ(plan.vary[1].values[1].value, "false");
+  EXPECT_EQ(plan.vary[2].name, "allocation");
+  EXPECT_THAT(plan.zip, ElementsAre(ElementsAre("size", "allocation")));
+  EXPECT_EQ(plan.report.baseline.at("pes"), "1x1");
+}
+
+TEST(Plan, NumbersAreExact) {
+  const Plan plan = parse_plan(kBase + "unshot = 0.1\nfov = 39.300000000000004\nseed = 9223372036854775807\n", "p");
+  EXPECT_EQ(shell_line(words_of(plan, plan.base)),
+            "render room --unshot 0.1 --fov 39.300000000000004 --seed 9223372036854775807");
+}
+
+TEST(Plan, WrongOnesAreRefusedWithFileAndLine) {
+  EXPECT_THAT(refusal(""), StartsWith("plan.toml:1: a plan has a table [base]"));
+  EXPECT_THAT(refusal("[base\n"), StartsWith("plan.toml:1: not valid TOML"));
+  EXPECT_THAT(refusal("[base]\nscene = 'a'\n"), HasSubstr("[base] lacks 'command'"));
+  EXPECT_THAT(refusal("[base]\ncommand = 'paint'\n"), StartsWith("plan.toml:2: 'paint' is no command"));
+  EXPECT_THAT(refusal("[base]\ncommand = 'bench'\n"), StartsWith("plan.toml:2:"));
+  EXPECT_THAT(refusal(kBase + "max-shoots = 1\n"), HasSubstr("plan.toml:4:"));
+  EXPECT_THAT(refusal(kBase + "max-shoots = 1\n"), HasSubstr("did you mean 'max-shots'?"));
+  EXPECT_THAT(refusal(kBase + "[base.machine.torus]\nflit_bites = 1\n"), HasSubstr("plan.toml:5:"));
+  EXPECT_THAT(refusal(kBase + "[base.machine.torus]\nflit_bites = 1\n"),
+              HasSubstr("did you mean 'machine.torus.flit_bytes'?"));
+  for (const char* option : {"output = 'a.png'", "stats = 'a'", "quiet = true", "gdb = '0:0'", "no-picture = true"})
+    EXPECT_THAT(refusal(kBase + option + "\n"), StartsWith("plan.toml:4:")) << option;
+  EXPECT_THAT(refusal(kBase + "pes = ['1x1']\n"), StartsWith("plan.toml:4: 'pes' must be"));
+  EXPECT_THAT(refusal(kBase + "threads = 0\n"), StartsWith("plan.toml:4:"));
+  EXPECT_THAT(refusal(kBase + "[vary]\npes = '1x1'\n"), StartsWith("plan.toml:5: 'pes' varies: it must be a list"));
+  EXPECT_THAT(refusal(kBase + "[vary]\npes = []\n"), StartsWith("plan.toml:5:"));
+  EXPECT_THAT(refusal(kBase + "[vary]\npes = [['1x1']]\n"), StartsWith("plan.toml:5:"));
+  EXPECT_THAT(refusal(kBase + "[vary]\npes = ['1x1']\n[vary_one]\npes = ['2x2']\n"), HasSubstr("[vary_one]"));
+  EXPECT_THAT(refusal(kBase + "[very]\n"), HasSubstr("did you mean 'vary'?"));
+  EXPECT_THAT(refusal(kBase + "[report]\nz = 'pes'\n"), StartsWith("plan.toml:5: [report] has no key"));
+  EXPECT_THAT(refusal(kBase + "[report]\ny = 3\n"), StartsWith("plan.toml:5:"));
+  EXPECT_THAT(refusal(kBase + "[report]\ny = ['a', 3]\n"), StartsWith("plan.toml:5:"));
+}
+
+TEST(Plan, ZipsListsOfOneLengthThatVary) {
+  const std::string vary = kBase + "[vary]\npes = ['1x1', '2x2']\nsize = ['8x8']\n";
+  EXPECT_THAT(refusal(vary + "zip = [['pes', 'size']]\n"), HasSubstr("plan.toml:7: 'zip' needs lists of one length"));
+  EXPECT_THAT(refusal(vary + "zip = [['pes', 'seed']]\n"), HasSubstr("'seed', which does not vary"));
+  EXPECT_THAT(refusal(vary + "zip = [['pes'], ['pes']]\n"), HasSubstr("zipped twice"));
+  EXPECT_THAT(refusal(vary + "zip = 'pes'\n"), HasSubstr("list of lists"));
+}
+
+TEST(Plan, OfTheRepositoryAreRight) {
+  std::size_t count = 0;
+  for (const char* folder : {"/studies", "/tests/data/studies"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(TOROLUX_SOURCE_DIR) + folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      EXPECT_NO_THROW(read_plan(entry.path())) << entry.path();
+      ++count;
+    }
+  }
+  EXPECT_GE(count, 3U);
+}
+
+TEST(Plan, OfTheDocumentIsOne) {
+  const std::vector<std::byte> bytes = read_file(TOROLUX_SOURCE_DIR "/docs/studies.md", 1U << 20U);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t begin = text.find("```toml\n") + 8;
+  const Plan plan = parse_plan(text.substr(begin, text.find("```", begin) - begin), "docs/studies.md");
+  EXPECT_EQ(points_of(plan).size(), 3U * 2 * 3) << "pes with allocation, size; base and two others";
+}
+
+TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {
+  EXPECT_EQ(shell_line({"a", "b c", "it's", "", "$x", "1,2"}), "a 'b c' 'it'\\''s' '' '$x' 1,2");
+}
+
+}  // namespace
+}  // namespace torolux::study
