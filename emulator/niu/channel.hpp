@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "emulator/niu/byte_ring.hpp"
 #include "firmware/protocol/hints.hpp"
@@ -44,6 +45,8 @@ enum class WaitReason : std::uint8_t {
   count
 };
 inline constexpr std::size_t kWaitReasons = static_cast<std::size_t>(WaitReason::count);
+inline constexpr std::array<std::string_view, kWaitReasons> kWaitReasonNames = {"arrivals", "torus_place", "bus_place",
+                                                                                "copy"};
 using WaitCycles = std::array<std::uint64_t, kWaitReasons>;  ///< by WaitReason
 
 /// Size of the rings between the two sides. The more there is room, the further a processor runs ahead of the network.

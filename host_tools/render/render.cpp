@@ -41,6 +41,7 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
   figures.load_cycles = times.loaded + (times.loaded_again - times.radiosity);
   figures.machine = machine.figures();
   figures.ray_tracing_cycles = figures.machine.now - times.loaded_again;  // until the last pixel has been added
+  figures.rounds = program.rounds();
   figures.shots = program.shots();
   figures.rays = program.rays();
   figures.credits_total = setup.credits;

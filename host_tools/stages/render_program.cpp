@@ -113,6 +113,7 @@ void RenderProgram::leave(HostPort& port) {
       break;
     case Step::radiosity: {
       const auto& radiosity = static_cast<const RadiosityPhase&>(*phase_);
+      rounds_ = radiosity.rounds();
       shots_ = radiosity.shots();
       emitted_shot_ = radiosity.emitted_shot();
       reflected_shot_ = radiosity.reflected_shot();

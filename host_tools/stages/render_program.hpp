@@ -13,6 +13,7 @@
 #include "host_tools/stages/camera_rays.hpp"
 #include "host_tools/stages/phase.hpp"
 #include "host_tools/stages/ray_tracing_phase.hpp"
+#include "host_tools/stages/rounds.hpp"
 
 namespace torolux {
 
@@ -45,6 +46,7 @@ class RenderProgram : public HostProgram {
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given
   const StageTimes& times() const { return times_; }
   std::uint64_t shots() const { return shots_; }
+  const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< once the radiosity stage has ended
   std::uint64_t rays() const { return rays_; }
   std::uint64_t credits_home() const;
 
@@ -64,6 +66,7 @@ class RenderProgram : public HostProgram {
   std::unique_ptr<Phase> phase_;
   Lattice lattice_;
   StageTimes times_;
+  std::vector<RoundFigures> rounds_;
   std::uint64_t shots_ = 0;
   std::uint64_t rays_ = 0;
   protocol::Flux emitted_shot_{};

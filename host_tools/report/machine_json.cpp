@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// See machine_json.hpp.
+#include "host_tools/report/machine_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "host_tools/report/limits.hpp"
+#include "host_tools/report/sums.hpp"
+
+namespace torolux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json phases_of(const std::array<Cycles, protocol::kPhases>& cycles, Cycles outside) {
+  Json phases = Json::object();
+  for (std::size_t i = 0; i < protocol::kPhaseNames.size(); ++i) phases[protocol::kPhaseNames[i]] = cycles[i];
+  phases["outside"] = outside;
+  return phases;
+}
+
+Json waits_of(const WaitCycles& waits) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < kWaitReasons; ++i) json[std::string(kWaitReasonNames[i])] = waits[i];
+  return json;
+}
+
+Json traffic_json(const BusTraffic& traffic) {
+  return {{"transfers", traffic.transfers}, {"bytes", traffic.bytes}, {"cycles", traffic.cycles}};
+}
+
+Json bus_json(const MachineFigures& machine) {
+  const BusFigures& bus = machine.bus;
+  Json json = {{"busy_cycles", bus.busy_cycles()},
+               {"idle_cycles", machine.now - bus.busy_cycles()},
+               {"arbitration_cycles", bus.arbitration_cycles},
+               {"messages", bus.transfers}};
+  for (std::size_t i = 0; i < kBusUsers; ++i) {
+    json["requesters"][std::string(kBusUserNames[i])] = traffic_json(bus.users[i]);
+  }
+  for (std::size_t i = 0; i < kBusKinds; ++i) json["kinds"][std::string(kBusKindNames[i])] = traffic_json(bus.kinds[i]);
+  return json;
+}
+
+Json frame_buffer_json(const MachineFigures& machine) {
+  return {{"busy_cycles", machine.frame_buffer_busy_cycles},
+          {"idle_cycles", machine.now - machine.frame_buffer_busy_cycles},
+          {"pixels_added", machine.pixels_added},
+          {"message_cycles", machine.frame_buffer_message_cycles},
+          {"queue_high_water", machine.frame_buffer_high_water}};
+}
+
+Json host_json(const MachineFigures& machine) {
+  Json json = {{"busy_cycles", machine.host.busy_cycles}, {"idle_cycles", machine.now - machine.host.busy_cycles}};
+  for (std::size_t i = 0; i < kHostWorks; ++i) {
+    json["work"][std::string(kHostWorkNames[i])] = {{"items", machine.host.items[i]},
+                                                    {"own_cycles", machine.host.own_cycles[i]}};
+  }
+  return json;
+}
+
+Json limits_json(const Limits& limits) {
+  Json json = {{"by", kLimitNames[static_cast<std::size_t>(limits.by)]}, {"share", limits.share()}};
+  for (std::size_t i = 0; i < kLimits; ++i) json["shares"][std::string(kLimitNames[i])] = limits.shares[i];
+  return json;
+}
+
+}  // namespace
+
+Json machine_json(const MachineFigures& machine) {
+  const PeSums sums = sums_of(machine.pes);
+  const double mean_hops =
+      sums.delivered > 0 ? static_cast<double>(machine.hops) / static_cast<double>(sums.delivered) : 0;
+  Json json;
+  json["packets"] = {{"sent", sums.sent}, {"delivered", sums.delivered}, {"link_retries", machine.link_retries}};
+  json["records"] = {{"diverted", sums.diverted}};
+  json["hops"] = {{"mean", mean_hops}, {"total", machine.hops}};
+  json["bus"] = bus_json(machine);
+  json["frame_buffer"] = frame_buffer_json(machine);
+  json["host_processor"] = host_json(machine);
+  json["busy_cycles"] = sums.busy;
+  json["waits"] = waits_of(sums.waits);
+  json["idle_at_end"] = sums.idle_at_end;
+  json["phases"] = phases_of(sums.phases, sums.outside);
+  return json;
+}
+
+Json pes_json(const std::vector<PeFigures>& pes) {
+  Json json = Json::array();
+  for (const PeFigures& pe : pes) {
+    json.push_back({{"begin", pe.begin},
+                    {"cycles", pe.cycles},
+                    {"busy_cycles", pe.busy_cycles},
+                    {"idle_cycles", pe.idle_cycles()},
+                    {"waits", waits_of(pe.waits)},
+                    {"idle_at_end", pe.idle_at_end},
+                    {"instructions", pe.instructions},
+                    {"record_slots_high_water", pe.record_slots_high_water},
+                    {"receive_buffers_high_water", pe.receive_buffers_high_water},
+                    {"packets_sent", pe.packets_sent},
+                    {"packets_delivered", pe.packets_delivered},
+                    {"records_diverted", pe.records_diverted},
+                    {"copy_out_cycles", pe.copy_out_cycles},
+                    {"copy_in_cycles", pe.copy_in_cycles},
+                    {"phase_cycles", phases_of(pe.phase_cycles, pe.outside_phases())}});
+  }
+  return json;
+}
+
+Json stages_json(const MachineFigures& machine, const std::vector<RoundFigures>& rounds) {
+  Json json = Json::array();
+  for (const StageFigures& stage : machine.stages) {
+    Json one = {{"name", stage.name}, {"begin", stage.begin}, {"cycles", stage.figures.now}};
+    one["limits"] = limits_json(limits_of(stage, rounds));
+    one.update(machine_json(stage.figures));
+    one["pes"] = pes_json(stage.figures.pes);
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+Json rounds_json(const std::vector<RoundFigures>& rounds) {
+  Json json = Json::array();
+  for (const RoundFigures& round : rounds) {
+    json.push_back({{"begin", round.begin},
+                    {"chosen", round.chosen},
+                    {"last_shot_done", round.last_shot_done},
+                    {"end", round.end},
+                    {"tail", round.tail()},
+                    {"shooters", round.shooters},
+                    {"pes", round.pes},
+                    {"records", round.records},
+                    {"unshot", round.unshot}});
+  }
+  return json;
+}
+
+}  // namespace torolux
