@@ -26,11 +26,12 @@ BusKind kind_of(BusRequester requester, const Block& block) {
 
 }  // namespace
 
-Bus::Bus(unsigned pes, const MachineDescription& machine, EventQueue& events, std::uint32_t source,
-         std::uint32_t arbiter, BlockPool& pool, BusClient& client)
+Bus::Bus(unsigned pes, const MachineDescription& machine, const Jitter& jitter, EventQueue& events,
+         std::uint32_t source, std::uint32_t arbiter, BlockPool& pool, BusClient& client)
     : bytes_per_cycle_(machine.bus.bytes_per_cycle),
       arbitration_cycles_(machine.bus.arbitration_cycles),
       signal_cycles_(machine.signal_cycles()),
+      jitter_(jitter),
       events_(events),
       source_(source),
       arbiter_(arbiter),
@@ -108,21 +109,23 @@ void Bus::grant(std::uint32_t number, Cycles now) {
   const BusSend send = client_.take(BusRequester(number));
   requests_[number] = send.next;
   set_seen(number, send.next);
-  const std::uint32_t bytes = pool_[send.block].bytes + static_cast<std::uint32_t>(sizeof(protocol::MessageHeader));
-  count(BusRequester(number), pool_[send.block], bytes);
-  events_.push(now + arbitration_cycles_ + (bytes + bytes_per_cycle_ - 1) / bytes_per_cycle_, source_,
-               EventKind::bus_done, 0, 0, send.block);
+  const Cycles duration = count(BusRequester(number), pool_[send.block]);
+  events_.push(now + duration, source_, EventKind::bus_done, 0, 0, send.block);
 }
 
-void Bus::count(BusRequester requester, const Block& block, std::uint32_t bytes) {
+/// How long the transfer takes.
+Cycles Bus::count(BusRequester requester, const Block& block) {
+  const std::uint32_t bytes = block.bytes + static_cast<std::uint32_t>(sizeof(protocol::MessageHeader));
+  const Cycles arbitration = arbitration_cycles_ + jitter_.delay(Jitter::What::bus, figures_.transfers);
   const Cycles data = (bytes + bytes_per_cycle_ - 1) / bytes_per_cycle_;
-  const Cycles all = arbitration_cycles_ + data;
-  figures_.arbitration_cycles += arbitration_cycles_;
+  figures_.arbitration_cycles += arbitration;
   figures_.data_cycles += data;
   ++figures_.transfers;
-  figures_.users[static_cast<std::size_t>(user_of(requester))].add(bytes, all);
-  figures_.kinds[static_cast<std::size_t>(kind_of(requester, block))].add(bytes, all);
-  (requester.is_host() ? figures_.to_pe[block.destination] : figures_.from_pe[requester.pe()]).add(bytes, all);
+  const auto add = [&](BusTraffic& traffic) { traffic.add(bytes, arbitration + data); };
+  add(figures_.users[static_cast<std::size_t>(user_of(requester))]);
+  add(figures_.kinds[static_cast<std::size_t>(kind_of(requester, block))]);
+  add(requester.is_host() ? figures_.to_pe[block.destination] : figures_.from_pe[requester.pe()]);
+  return arbitration + data;
 }
 
 }  // namespace torolux

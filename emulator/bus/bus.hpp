@@ -8,6 +8,7 @@
 #include "emulator/bus/bus_figures.hpp"
 #include "emulator/machine/description.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/jitter.hpp"
 #include "emulator/time/ready_set.hpp"
 #include "emulator/torus/block.hpp"
 
@@ -53,8 +54,8 @@ class BusClient {
 class Bus {
  public:
   /// source, arbiter: of events; the arbiter's sorts after all others.
-  Bus(unsigned pes, const MachineDescription& machine, EventQueue& events, std::uint32_t source, std::uint32_t arbiter,
-      BlockPool& pool, BusClient& client);
+  Bus(unsigned pes, const MachineDescription& machine, const Jitter& jitter, EventQueue& events, std::uint32_t source,
+      std::uint32_t arbiter, BlockPool& pool, BusClient& client);
 
   /// The requester's request goes up; one that is up stays as it is.
   void request(BusRequester requester, BusRequest what, Cycles now);
@@ -74,10 +75,11 @@ class Bus {
   void schedule(Cycles now);
   std::size_t next_in_turn() const;
   void grant(std::uint32_t requester, Cycles now);
-  void count(BusRequester requester, const Block& block, std::uint32_t bytes);
+  Cycles count(BusRequester requester, const Block& block);
   void set_seen(std::uint32_t requester, BusRequest what);
 
   std::uint32_t bytes_per_cycle_, arbitration_cycles_, signal_cycles_;
+  Jitter jitter_;
   EventQueue& events_;
   std::uint32_t source_, arbiter_;
   BlockPool& pool_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/niu_window.hpp"
@@ -61,8 +60,8 @@ void HostActor::queue_for(PeNumber pe, BlockIndex index) {
   events_.push(clock_.now(), source_, EventKind::host_queue, pe, 0, index);
 }
 
-void HostActor::start(std::function<void(std::string_view)> on_stage) {
-  on_stage_ = std::move(on_stage);
+void HostActor::start(HostClient& client) {
+  client_ = &client;
   program_.start(*this);
 }
 

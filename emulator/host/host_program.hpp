@@ -18,6 +18,15 @@ namespace torolux {
 using protocol::PeNumber;
 using Cycles = std::uint64_t;  ///< virtual time
 
+/// What only a host program knows of the run.
+enum class HostGauge : std::uint8_t {
+  records_in_flight,  ///< credits that are not at home
+  unshot,             ///< of the emitted flux, as of the last selection
+  count
+};
+inline constexpr std::size_t kHostGauges = static_cast<std::size_t>(HostGauge::count);
+inline constexpr std::array<std::string_view, kHostGauges> kHostGaugeNames = {"records_in_flight", "unshot"};
+
 /// What a host program may do. Sends never block: they queue in host memory, in order for each PE, and the bus takes
 /// them as the PE has room (a control buffer, or reserved record slots). A message sent or taken in costs the host's
 /// clock by itself (HostWork::message and copy); all else that a program computes it must say.
@@ -29,6 +38,8 @@ class HostPort {
   /// From now on all counts are this stage's; the first call names the one that has begun with the run. Where nothing
   /// is in flight. Throws MachineFailure beyond kMostStages.
   virtual void begin_stage(std::string_view name) = 0;
+  /// From now on the gauge has this value. For the time line; costs nothing.
+  virtual void note(HostGauge gauge, double value) = 0;
   /// Moves the host's clock: so many items of this have been done.
   virtual void work(HostWork what, std::uint64_t items) = 0;
   /// kind: MessageKind. contents: up to kMostMessageBytes, copied.

@@ -48,9 +48,9 @@ void add_network_keys(Description& d, std::vector<Key>& keys) {
   keys.push_back({"torus.slot_return_cycles", &d.torus.slot_return_cycles, 1, kMostCycles});
   keys.push_back({"torus.send_queue_packets", &d.torus.send_queue_packets, 1, 256});
   keys.push_back({"torus.bubble", &d.torus.bubble});
+  keys.push_back({"torus.patience_cycles", &d.torus.patience_cycles, 1, 1'000'000'000});
   keys.push_back({"torus.link_error_rate", &d.torus.link_error_rate, 0, 0.5});
   keys.push_back({"torus.retry_cycles", &d.torus.retry_cycles, 1, kMostCycles});
-  keys.push_back({"torus.injected_delay_cycles", &d.injected_delay_cycles, 0, kMostCycles});
 }
 
 void add_other_keys(Description& d, std::vector<Key>& keys) {
@@ -72,6 +72,8 @@ void add_other_keys(Description& d, std::vector<Key>& keys) {
   keys.push_back({"records.niu_slots", &d.records.niu_slots, protocol::kMostRecordsPerPacket, 4096});
   keys.push_back({"records.gather_cycles", &d.records.gather_cycles, 0, 1'000'000'000});
   keys.push_back({"records.gather_records", &d.records.gather_records, 1, 4096});
+  keys.push_back({"jitter.seed", &d.jitter.seed, 0, 4294967295.0});
+  keys.push_back({"jitter.cycles", &d.jitter.cycles, 0, kMostCycles});
 }
 
 void add_ideal_keys(Description& d, std::vector<Key>& keys) {

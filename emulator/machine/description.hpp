@@ -53,8 +53,9 @@ struct MachineDescription {
     std::uint32_t slot_return_cycles = 1;   ///< until the router upstream knows of a freed slot, >= 1
     std::uint32_t send_queue_packets = 32;  ///< outgoing queue of a NIU, >= 1
     bool bubble = true;                     ///< off only to see the deadlock that it prevents
+    std::uint32_t patience_cycles = 64;     ///< that a packet waits to enter a ring before its router says so
     double link_error_rate = 0;             ///< chance that a packet's CRC fails on a link, 0..0.5
-    std::uint32_t retry_cycles = 8;         ///< from a failed CRC to the start of the next try
+    std::uint32_t retry_cycles = 8;         ///< from the tail of a packet with a bad CRC to the start of the next try
 
     bool operator==(const Torus&) const = default;
   } torus;
@@ -77,7 +78,7 @@ struct MachineDescription {
   } niu;
 
   struct FrameBuffer {
-    std::uint32_t cycles_per_pixel = 2;  ///< one addition
+    std::uint32_t cycles_per_pixel = 6;  ///< one addition: three sums of 8 bytes read and written
     std::uint32_t queue_messages = 16;
 
     bool operator==(const FrameBuffer&) const = default;
@@ -110,8 +111,13 @@ struct MachineDescription {
     bool operator==(const Records&) const = default;
   } records;
 
-  /// Delay added to link traversals by a hash of (seed, packet, hop), 0..this [cycles]: shakes the order of events.
-  std::uint32_t injected_delay_cycles = 0;
+  struct Jitter {
+    std::uint32_t seed = 0;  ///< 0: none
+    std::uint32_t cycles =
+        64;  ///< longest delay of a link, router or bus transfer, by a hash: shakes the order of events
+
+    bool operator==(const Jitter&) const = default;
+  } jitter;
 
   bool operator==(const MachineDescription&) const = default;
 

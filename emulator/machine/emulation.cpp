@@ -31,13 +31,15 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},
       nius_(make_nius(channels, setup.description, engine)),
       parts_(pes_),
-      torus_(TorusShape(setup.columns, setup.rows), setup.description.torus, setup.description.injected_delay_cycles,
-             events_, pes_, pool_, *this),
-      bus_(pes_, setup.description, events_, 2 * pes_, 3 * pes_ + 3, pool_, *this),
+      jitter_(setup.description.jitter.seed, setup.description.jitter.cycles),
+      torus_(TorusShape(setup.columns, setup.rows), setup.description.torus, jitter_, events_,
+             {.routers = pes_, .arbiters = 2 * pes_ + 3}, pool_, *this),
+      bus_(pes_, setup.description, jitter_, events_, 2 * pes_, 3 * pes_ + 3, pool_, *this),
       controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, setup.frame_layers, events_,
                   2 * pes_ + 2, pool_),
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
       signal_cycles_(setup.description.signal_cycles()) {
+  cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
   stages_.push_back({"run", network_figures(0)});
 }
 
@@ -48,6 +50,8 @@ void Emulation::handle(const Event& event) {
       break;
     case EventKind::arrive:
     case EventKind::head:
+    case EventKind::tail:
+    case EventKind::line:
     case EventKind::arbitrate:
       torus_.handle(event);
       break;
@@ -82,6 +86,7 @@ void Emulation::handle(const Event& event) {
       break;
     case EventKind::host_step:
       host_.step();
+      note_host_busy();
       break;
     case EventKind::pixels_done:
       pixels_done(event.block);
@@ -184,9 +189,9 @@ void Emulation::grant_slots(unsigned pe) {
 
 // ---- Torus ----
 
-void Emulation::injected(unsigned pe, Cycles now) {
+void Emulation::injected(unsigned pe, Cycles tail) {
   ++parts_[pe].packets_sent;
-  nius_[pe].left_torus_queue(now, times_);
+  nius_[pe].left_torus_queue(tail, times_);
 }
 
 /// Slots if there are enough, and a buffer to wait in until it is copied there; without slots the divert buffer, once
@@ -206,7 +211,9 @@ bool Emulation::accept(unsigned pe, BlockIndex block) {
 }
 
 void Emulation::deliver(unsigned pe, BlockIndex block) {
+  if (pool_[block].copy != Copy::good) return drop(pe, block);
   ++parts_[pe].packets_delivered;
+  time_line_.delivered(now_);
   if (parts_[pe].diverting != block) return copy_in(pe, block, false);
   bus_.request(BusRequester::divert(pe), BusRequest::room, now_);
 }
@@ -227,6 +234,19 @@ void Emulation::copied(unsigned pe, BlockIndex block, bool from_bus) {
     nius_[pe].release_receive_buffer();
     torus_.try_ejection(pe, now_);
   }
+}
+
+/// The tail of a packet has come and its CRC is bad. What `accept` reserved for it is free again.
+void Emulation::drop(unsigned pe, BlockIndex block) {
+  if (parts_[pe].diverting == block) {
+    parts_[pe].diverting = kNoBlock;
+    torus_.try_ejection(pe, now_);
+  } else {
+    nius_[pe].release_slots(pool_[block].records);
+    nius_[pe].release_receive_buffer();
+    slots_changed(pe);
+  }
+  pool_.give_back(block);
 }
 
 // ---- Bus ----
@@ -255,6 +275,9 @@ BusSend Emulation::take(BusRequester requester) {
 }
 
 void Emulation::bus_done(BlockIndex index) {
+  const Cycles bus_busy = bus_.figures().busy_cycles();  // one transfer at a time: the rest is this one's
+  time_line_.bus_was_busy(now_ - (bus_busy - bus_busy_), now_);
+  bus_busy_ = bus_busy;
   const Block& block = pool_[index];
   const unsigned from = block.source;
   const unsigned to = block.destination;
@@ -279,6 +302,8 @@ void Emulation::bus_done(BlockIndex index) {
 }
 
 void Emulation::pixels_done(BlockIndex block) {
+  const Cycles pixels = pool_[block].bytes / sizeof(protocol::PixelAdd);
+  time_line_.frame_buffer_was_busy(now_ - pixels * cycles_per_pixel_, now_);
   controller_.add_pixels(block);
   bus_.free_place(now_);
 }

@@ -12,6 +12,7 @@
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
 #include "emulator/machine/machine.hpp"
+#include "emulator/machine/time_line.hpp"
 #include "emulator/niu/network_side.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
@@ -20,7 +21,7 @@
 namespace torolux {
 
 /// Single-threaded. PEs run elsewhere, or when it asks their engine to; they meet it in their channels only.
-class Emulation final : private TorusClient, private BusClient {
+class Emulation final : private TorusClient, private BusClient, private HostClient {
  public:
   /// channels: zeroed, one per PE. image: for messages about faults. All references outlive this.
   Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image, Engine& engine,
@@ -47,7 +48,9 @@ class Emulation final : private TorusClient, private BusClient {
   void attend_now_and_then();
   bool settled(unsigned pe);
   // Figures (stages.cpp)
-  void begin_stage(std::string_view name);
+  void begin_stage(std::string_view name) override;
+  void note(HostGauge gauge, double value) override { time_line_.note(gauge, value, host_.now()); }
+  void note_host_busy();
   MachineFigures network_figures(Cycles now) const;
   void fill_in_stages(MachineFigures& all, unsigned pe, const ProcessorMark& end) const;
   bool empty() const;
@@ -58,6 +61,7 @@ class Emulation final : private TorusClient, private BusClient {
   void handle(const Event& event);
   void command(unsigned pe);
   void deliver(unsigned pe, BlockIndex block);
+  void drop(unsigned pe, BlockIndex block);
   void bus_done(BlockIndex block);
   void pixels_done(BlockIndex block);
   void copy_in(unsigned pe, BlockIndex block, bool from_bus);
@@ -73,7 +77,7 @@ class Emulation final : private TorusClient, private BusClient {
   [[noreturn]] void fail_niu(unsigned pe, BlockIndex block);
 
   // ---- TorusClient, BusClient ----
-  void injected(unsigned pe, Cycles now) override;
+  void injected(unsigned pe, Cycles tail) override;
   bool accept(unsigned pe, BlockIndex block) override;
   BusSend take(BusRequester requester) override;
 
@@ -97,6 +101,7 @@ class Emulation final : private TorusClient, private BusClient {
   PeTimes times_;
   std::vector<NiuNetworkSide> nius_;
   std::vector<PePart> parts_;
+  Jitter jitter_;
   Torus torus_;
   Bus bus_;
   FrameBufferController controller_;
@@ -115,6 +120,9 @@ class Emulation final : private TorusClient, private BusClient {
   };
   std::vector<Stage> stages_;
   bool begun_ = false;  // the program has named the first
+  TimeLine time_line_;
+  Cycles bus_busy_ = 0, host_busy_ = 0;  // as far as they are in the time line
+  Cycles cycles_per_pixel_;
 };
 
 }  // namespace torolux

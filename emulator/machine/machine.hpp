@@ -15,7 +15,9 @@
 #include "emulator/engines/image.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/machine/description.hpp"
+#include "emulator/machine/time_line.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/torus/figures.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux {
@@ -67,7 +69,9 @@ struct MachineFigures {
   Cycles now = 0;                ///< virtual time at which nothing happens any more: event, PE or host
   std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
   std::vector<PeFigures> pes;
-  std::uint64_t hops = 0;  ///< links crossed by all delivered packets
+  std::vector<RouterFigures> routers;  ///< of each PE
+  PacketFigures packets;               ///< that have left the torus
+  std::uint64_t hops = 0;              ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;
   BusFigures bus;
   HostFigures host;
@@ -77,6 +81,7 @@ struct MachineFigures {
   std::uint64_t pixels_added = 0;
   double scheduler_seconds = 0;      ///< host CPU time that the emulator itself used
   double engine_seconds = 0;         ///< host CPU time of the engine (all its processes or threads)
+  TimeLineFigures time_line;         ///< of a run
   std::vector<StageFigures> stages;  ///< of a run: stages of the host's program, one behind the other
 
   std::uint64_t instructions() const;  ///< of all PEs

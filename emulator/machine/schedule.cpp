@@ -56,7 +56,7 @@ void Emulation::await(unsigned pe, Cycles wanted) {
 /// The next event that no PE can precede any more. False: nothing will ever happen again.
 bool Emulation::next_event(Event& event) {
   for (;;) {
-    const Cycles time = events_.empty() ? kNever : events_.top().time;
+    const Cycles time = events_.next_time();  // kNever where there is none
     const Cycles least = times_.bounds.least();
     // Everything before this has happened, and no PE adds to it.
     const Cycles known = std::min(time, least);
@@ -80,7 +80,8 @@ bool Emulation::next_event(Event& event) {
 
 void Emulation::run(const std::function<void(Cycles)>& attend) {
   attend_ = attend;
-  host_.start([this](std::string_view name) { begin_stage(name); });
+  host_.start(*this);
+  note_host_busy();
   Event event{};
   while (next_event(event)) {
     if (event.time < now_) {  // only a wrong bound can do that

@@ -32,6 +32,16 @@ void subtract(BusTraffic& from, const BusTraffic& before) {
   from.cycles -= before.cycles;
 }
 
+void subtract(LinkFigures& from, const LinkFigures& before) {
+  from.packets -= before.packets;
+  from.flits -= before.flits;
+  from.wasted_flits -= before.wasted_flits;
+  from.busy -= before.busy;
+  from.stalled -= before.stalled;
+}
+
+void subtract(RouterFigures& from, const RouterFigures& before);
+
 template <class Range>
 void subtract_each(Range& from, const Range& before) {
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -53,6 +63,24 @@ void subtract(BusFigures& from, const BusFigures& before) {
   subtract_each(from.to_pe, before.to_pe);
 }
 
+void subtract(RouterFigures& from, const RouterFigures& before) {
+  subtract_each(from.links, before.links);
+  subtract(from.injection, before.injection);
+  subtract(from.ejection, before.ejection);
+}
+
+void subtract(PacketFigures& from, const PacketFigures& before) {
+  subtract_each(from.by_hops, before.by_hops);
+  subtract_each(from.bytes_by_hops, before.bytes_by_hops);
+  subtract_each(from.by_latency, before.by_latency);
+  subtract_each(from.by_records, before.by_records);
+  subtract_each(from.bytes_by_records, before.bytes_by_records);
+  from.packets -= before.packets;
+  from.latency_sum -= before.latency_sum;
+  from.hops -= before.hops;
+  from.wasted_hops -= before.wasted_hops;
+}
+
 /// What the network's side counts.
 void subtract(MachineFigures& from, const MachineFigures& before) {
   from.now -= before.now;
@@ -62,6 +90,8 @@ void subtract(MachineFigures& from, const MachineFigures& before) {
     from.pes[pe].records_diverted -= before.pes[pe].records_diverted;
     from.pes[pe].copy_in_cycles -= before.pes[pe].copy_in_cycles;
   }
+  subtract_each(from.routers, before.routers);
+  subtract(from.packets, before.packets);
   from.hops -= before.hops;
   from.link_retries -= before.link_retries;
   subtract(from.bus, before.bus);
@@ -88,6 +118,14 @@ void Emulation::begin_stage(std::string_view name) {
   stages_.push_back({std::string(name), network_figures(host_.now())});
 }
 
+/// The host's work since the last call ends where its clock is now.
+void Emulation::note_host_busy() {
+  const Cycles now = host_.now();
+  const Cycles busy = host_.clock().busy(now);
+  time_line_.host_was_busy(now - (busy - host_busy_), now);
+  host_busy_ = busy;
+}
+
 /// What the network's side has counted up to now.
 MachineFigures Emulation::network_figures(Cycles now) const {
   MachineFigures figures;
@@ -102,7 +140,9 @@ MachineFigures Emulation::network_figures(Cycles now) const {
     out.copy_in_cycles = nius_[pe].copy_in_cycles();
     out.receive_buffers_high_water = nius_[pe].receive_buffers_high_water();
   }
-  figures.hops = torus_.hops();
+  figures.routers = torus_.router_figures(now_);
+  figures.packets = torus_.packet_figures();
+  figures.hops = torus_.packet_figures().hops;
   figures.link_retries = torus_.link_retries();
   figures.bus = bus_.figures();
   figures.host = {host_.clock().busy(now), host_.clock().items(), host_.clock().own_cycles()};
@@ -148,6 +188,7 @@ void Emulation::fill_in(MachineFigures& figures) {
     figures.stages.back().figures.stages.clear();
     subtract(figures.stages.back().figures, stages_[s].before);
   }
+  std::vector<Slices<std::uint64_t>> busy;
   for (unsigned pe = 0; pe < pes_; ++pe) {
     const ProcessorMark mark = mark_of(nius_[pe].channel());
     PeFigures& out = figures.pes[pe];
@@ -156,7 +197,12 @@ void Emulation::fill_in(MachineFigures& figures) {
     out.idle_at_end = end - mark.clock;
     out.cycles = end;
     fill_in_stages(figures, pe, mark);
+    const ProcessorState& state = nius_[pe].channel().processor;
+    busy.push_back(state.busy);
+    busy.back().add_interval(state.busy_since, mark.clock, 1);
   }
+  note_host_busy();
+  figures.time_line = time_line_.figures(end, busy);
 }
 
 }  // namespace torolux

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "emulator/niu/byte_ring.hpp"
+#include "emulator/time/slices.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -179,6 +180,8 @@ struct ProcessorState {
   std::uint32_t stage;          ///< of the last arrival taken
   std::uint32_t phase_depth;
   std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
+  std::uint64_t busy_since;                            ///< clock at the end of the last wait
+  Slices<std::uint64_t> busy;                          ///< busy cycles over time, up to that
   std::array<ProcessorMark, kMostStages> marks;        ///< when its first arrival of each stage had been taken
   std::uint32_t slots_address, slot_bytes, own_slots, niu_slots;
   std::uint32_t slots_free;

@@ -283,11 +283,11 @@ void NiuNetworkSide::refill(BlockPool& pool) {
   if (any) wake_processor();
 }
 
-void NiuNetworkSide::left(Departures& departures, Cycles now, PeTimes& times) {
+void NiuNetworkSide::left(Departures& departures, Cycles when, PeTimes& times) {
   const bool waited = waits_for() != WaitKind::running;
-  departures.add(now);
+  departures.add(when);
   if (waited && waits_for() == WaitKind::running) {
-    floor_ = std::max(floor_, now + kCommandCycles);  // it goes on no earlier
+    floor_ = std::max(floor_, when + kCommandCycles);  // it goes on no earlier
     set_times(times);
   }
   const WaitKind waits = says();

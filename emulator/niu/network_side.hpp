@@ -88,8 +88,9 @@ class NiuNetworkSide {
 
   /// A packet or message, its room reserved, has come at `now`. The block belongs to the NIU from here on.
   void deliver(BlockIndex block, Cycles now, BlockPool& pool, PeTimes& times);
-  void left_torus_queue(Cycles now, PeTimes& times) { left(channel_->torus_departures, now, times); }
-  void left_bus_queue(Cycles now, PeTimes& times) { left(channel_->bus_departures, now, times); }
+  /// A place in an outgoing queue comes free at `when`, which is not before now.
+  void left_torus_queue(Cycles when, PeTimes& times) { left(channel_->torus_departures, when, times); }
+  void left_bus_queue(Cycles when, PeTimes& times) { left(channel_->bus_departures, when, times); }
 
   /// What comes from now on belongs to this stage of the host's program.
   void set_stage(std::uint32_t stage) { stage_ = stage; }
@@ -102,7 +103,7 @@ class NiuNetworkSide {
   void drain(EventQueue& events, BlockPool& pool);
   void refill(BlockPool& pool);
   void push_arrival(const Block& block, Cycles time, std::uint32_t stage);
-  void left(Departures& departures, Cycles now, PeTimes& times);
+  void left(Departures& departures, Cycles when, PeTimes& times);
   void wake_processor();
   void signal_processor();
   bool set_times(PeTimes& times) const;

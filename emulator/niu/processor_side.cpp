@@ -429,6 +429,10 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     window.retry = 1;
     return {retry, clock};
   }
+  if (run.clock() != clock) {
+    channel_.processor.busy.add_interval(channel_.processor.busy_since, clock, 1);
+    channel_.processor.busy_since = run.clock();
+  }
   for (std::size_t i = 0; i < kWaitReasons; ++i) {
     const std::uint64_t cycles = run.waited()[i];
     if (cycles == 0) continue;

@@ -3,6 +3,7 @@
 #include "emulator/time/event_queue.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace torolux {
 
@@ -14,6 +15,63 @@ void EventQueue::push(Cycles time, std::uint32_t source, EventKind kind, std::ui
                       std::uint32_t block) {
   const std::uint64_t order = (std::uint64_t{source} << 32U) | sequence_[source]++;
   const Event event{time, order, block, actor, port, kind};
+  if (time - now_ >= kWindow) return push_far(event);  // earlier ones too: the difference wraps
+  const std::size_t number = time % kWindow;
+  std::vector<Event>& bucket = buckets_[number];
+  bucket.push_back(event);
+  filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
+  near_ = std::min(near_, time);
+  if (!open_ || time != now_) return;
+  std::size_t at = bucket.size() - 1;
+  for (; at > popped_ && order < bucket[at - 1].order; --at) bucket[at] = bucket[at - 1];
+  bucket[at] = event;
+}
+
+Event EventQueue::pop() {
+  const Cycles time = next_time();
+  if (time < now_) return pop_far();
+  if (!open_ || time != now_) open(time);
+  const std::size_t number = time % kWindow;
+  std::vector<Event>& bucket = buckets_[number];
+  const Event result = bucket[popped_++];
+  if (popped_ == bucket.size()) {
+    bucket.clear();
+    filled_[number / kWord] &= ~(std::uint64_t{1} << (number % kWord));
+    open_ = false;
+    near_ = next_near();
+  }
+  return result;
+}
+
+/// The bucket of this time, the earliest of all, with what the heap has of it, in order.
+void EventQueue::open(Cycles time) {
+  now_ = near_ = time;
+  popped_ = 0;
+  open_ = true;
+  const std::size_t number = time % kWindow;
+  std::vector<Event>& bucket = buckets_[number];
+  while (!heap_.empty() && heap_.front().time == time) bucket.push_back(pop_far());
+  filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
+  if (bucket.size() > 1) {
+    std::ranges::sort(bucket, [](const Event& a, const Event& b) { return a.order < b.order; });
+  }
+}
+
+/// The earliest time after now_ with an event in a bucket.
+Cycles EventQueue::next_near() const {
+  const std::size_t first = (now_ + 1) % kWindow;
+  std::size_t word = first / kWord;
+  std::uint64_t bits = filled_[word] & (~std::uint64_t{0} << (first % kWord));
+  for (std::size_t looked = 0; bits == 0; ++looked) {
+    if (looked == filled_.size()) return kNone;
+    word = (word + 1) % filled_.size();
+    bits = filled_[word];
+  }
+  const std::size_t number = word * kWord + static_cast<std::size_t>(std::countr_zero(bits));
+  return now_ + 1 + (number + kWindow - first) % kWindow;
+}
+
+void EventQueue::push_far(const Event& event) {
   std::size_t at = heap_.size();
   heap_.push_back(event);
   while (at != 0) {
@@ -25,7 +83,7 @@ void EventQueue::push(Cycles time, std::uint32_t source, EventKind kind, std::ui
   heap_[at] = event;
 }
 
-Event EventQueue::pop() {
+Event EventQueue::pop_far() {
   const Event result = heap_.front();
   const Event last = heap_.back();
   heap_.pop_back();

@@ -2,6 +2,7 @@
 // Events of the machine, and the queue from which they leave in order of (time, source, sequence number).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,7 +15,9 @@ enum class EventKind : std::uint8_t {
   command,        ///< actor: PE. Its next command takes effect
   arrive,         ///< actor: router, port: input, block: a packet's head has come
   head,           ///< actor: router, port: input. Its next packet may ask for an output
-  arbitrate,      ///< actor: router, port: output
+  tail,           ///< actor: router, port: input, block: the tail of a packet with a bad CRC has come
+  line,           ///< actor: first router of a ring, port: output, block: 1 raised, 0 not; all of the ring see it
+  arbitrate,      ///< actor: router, port: output. Comes last in its cycle
   deliver,        ///< actor: PE, block: a packet has left the torus
   copied,         ///< actor: PE, port: 1 from the bus, block: a packet lies in its record slots
   bus_request,    ///< block: requester. The arbiter sees its request
@@ -39,21 +42,40 @@ struct Event {
 };
 static_assert(sizeof(Event) == 24);
 
-/// A heap of four children per node.
+/// A bucket for each of the next kWindow cycles, which is put in order when its time comes; a heap of four children per
+/// node for what is later, or earlier than what has been popped.
 class EventQueue {
  public:
-  /// sources: actors that make events, numbered from 0.
-  explicit EventQueue(std::size_t sources) : sequence_(sources, 0) {}
+  static constexpr Cycles kNone = ~Cycles{0};
 
-  bool empty() const { return heap_.empty(); }
-  const Event& top() const { return heap_.front(); }
+  /// sources: actors that make events, numbered from 0.
+  explicit EventQueue(std::size_t sources) : buckets_(kWindow), sequence_(sources, 0) {}
+
+  bool empty() const { return near_ == kNone && heap_.empty(); }
+  /// Of the event that comes next; kNone: there is none.
+  Cycles next_time() const { return heap_.empty() || near_ < heap_.front().time ? near_ : heap_.front().time; }
   void push(Cycles time, std::uint32_t source, EventKind kind, std::uint16_t actor, std::uint8_t port,
             std::uint32_t block);
+  /// Only if there is one.
   Event pop();
 
  private:
+  static constexpr std::size_t kWindow = 1024;
+  static constexpr std::size_t kWord = 64;
+
   static bool before(const Event& a, const Event& b) { return a.time != b.time ? a.time < b.time : a.order < b.order; }
 
+  void push_far(const Event& event);
+  Event pop_far();
+  void open(Cycles time);
+  Cycles next_near() const;
+
+  std::vector<std::vector<Event>> buckets_;              // [time % kWindow], for times from now_ to now_ + kWindow - 1
+  std::array<std::uint64_t, kWindow / kWord> filled_{};  // a bit for each bucket that is not empty
+  Cycles now_ = 0;                                       // of the last event popped from a bucket
+  Cycles near_ = kNone;                                  // earliest time with an event in a bucket
+  std::size_t popped_ = 0;                               // events of the open bucket that have gone
+  bool open_ = false;                                    // the bucket of now_ is in order
   std::vector<Event> heap_;
   std::vector<std::uint32_t> sequence_;  // per source
 };

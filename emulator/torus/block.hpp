@@ -20,12 +20,20 @@ inline constexpr BlockIndex kNoBlock = 0xFFFF'FFFFU;
 /// Greatest payload of packet and message alike.
 inline constexpr std::size_t kMostBlockBytes = protocol::kMostMessageBytes;
 static_assert(kMostBlockBytes >= protocol::kMostPacketBytes);
-/// What the torus carries beside the records [bytes]: destination, source, number of records, length, CRC-32.
+/// What the torus carries beside the records [bytes]: destination, source, number of records, length, age, CRC-32.
 inline constexpr std::uint32_t kPacketHeaderBytes = 16;
 
+/// What a packet in the torus is worth.
+enum class Copy : std::uint8_t {
+  good,
+  bad,       ///< its CRC fails at the router where it is; in the slot of the good copy that will follow
+  poisoned,  ///< a bad one that has been passed on, in a slot of its own
+};
+
 struct Block {
-  std::uint64_t number;  ///< the source's own count in the lower half, the source in the upper: a name for hashes
-  BlockIndex next;       ///< of the queue that it stands in
+  std::uint64_t number;   ///< the source's own count in the lower half, the source in the upper: a name for hashes
+  std::uint64_t entered;  ///< the outgoing queue to the torus [cycle]
+  BlockIndex next;        ///< of the queue that it stands in
   std::uint16_t source;
   std::uint16_t destination;
   std::uint16_t records;       ///< 0: a message
@@ -33,8 +41,22 @@ struct Block {
   std::uint32_t flits;         ///< in the torus, header included, >= 1
   std::uint32_t hops;          ///< links crossed so far
   std::uint32_t bytes;         ///< of the payload
+  Copy copy;
   std::array<std::byte, kMostBlockBytes> data;
 
+  /// All that routers and NIUs look at; the data stay as they are.
+  void become_bad_copy_of(const Block& good) {
+    number = good.number;
+    entered = good.entered;
+    source = good.source;
+    destination = good.destination;
+    records = good.records;
+    message_kind = good.message_kind;
+    flits = good.flits;
+    hops = good.hops;
+    bytes = good.bytes;
+    copy = Copy::bad;
+  }
   std::span<const std::byte> payload() const { return std::span(data).first(bytes); }
   void set_payload(std::span<const std::byte> contents) {
     bytes = static_cast<std::uint32_t>(contents.size());
@@ -54,7 +76,8 @@ class BlockPool {
     const BlockIndex index = free_.back();
     free_.pop_back();
     Block& block = (*this)[index];
-    block.number = 0;
+    block.number = block.entered = 0;
+    block.copy = Copy::good;
     block.next = kNoBlock;
     block.source = block.destination = block.records = block.message_kind = 0;
     block.flits = block.hops = block.bytes = 0;
@@ -87,6 +110,14 @@ class BlockQueue {
     (head_ == kNoBlock ? head_ : pool[tail_].next) = index;
     tail_ = index;
     ++size_;
+  }
+  BlockIndex back() const { return empty() ? kNoBlock : tail_; }
+  void remove_back(BlockPool& pool) {
+    BlockIndex before = kNoBlock;
+    for (BlockIndex at = head_; at != tail_; at = pool[at].next) before = at;
+    (before == kNoBlock ? head_ : pool[before].next) = kNoBlock;
+    tail_ = before;
+    --size_;
   }
   BlockIndex pop(BlockPool& pool) {
     const BlockIndex index = head_;

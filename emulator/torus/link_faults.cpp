@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faults of links: errors found by CRC-32 and sent again, delays injected to shake the order of events.
+// Errors of links: bits that flip, and that CRC-32 finds.
 #include "emulator/torus/link_faults.hpp"
 
 #include <zlib.h>
@@ -13,7 +13,7 @@ namespace torolux {
 
 namespace {
 
-enum class Purpose : std::uint32_t { error = 1, bit, delay };
+enum class Purpose : std::uint32_t { error = 1, bit };
 
 std::uint32_t hash(const Block& block, Purpose purpose, std::uint32_t attempt) {
   std::uint32_t key = protocol::hash_combine(static_cast<std::uint32_t>(purpose), attempt);
@@ -29,23 +29,21 @@ std::uint32_t crc(std::span<const std::byte> data) {
 
 }  // namespace
 
-LinkFaults::LinkFaults(const MachineDescription::Torus& torus, std::uint32_t injected_delay)
-    : error_threshold_(static_cast<std::uint32_t>(std::clamp(torus.link_error_rate, 0.0, 0.5) * 4294967296.0)),
-      retry_cycles_(torus.retry_cycles),
-      injected_delay_(injected_delay) {}
+LinkFaults::LinkFaults(const MachineDescription::Torus& torus)
+    : error_threshold_(static_cast<std::uint32_t>(std::clamp(torus.link_error_rate, 0.0, 0.5) * 4294967296.0)) {}
 
-std::uint64_t LinkFaults::cycles_lost(const Block& block) {
-  std::uint64_t lost = 0;
-  if (injected_delay_ != 0) lost = hash(block, Purpose::delay, 0) % (std::uint64_t{injected_delay_} + 1);
-  for (std::uint32_t attempt = 0; hash(block, Purpose::error, attempt) < error_threshold_; ++attempt) {
+std::uint32_t LinkFaults::bad_copies(const Block& block) {
+  if (error_threshold_ == 0) return 0;
+  std::uint32_t bad = 0;
+  while (hash(block, Purpose::error, bad) < error_threshold_) {
     const std::uint32_t bits = block.bytes * 8;
-    if (bits != 0 && !crc_detects_flip(block, hash(block, Purpose::bit, attempt) % bits)) {
+    if (bits != 0 && !crc_detects_flip(block, hash(block, Purpose::bit, bad) % bits)) {
       throw MachineFailure("a link's CRC-32 did not see a flipped bit");
     }
-    lost += block.flits + retry_cycles_;
+    ++bad;
     ++retries_;
   }
-  return lost;
+  return bad;
 }
 
 bool crc_detects_flip(const Block& block, std::uint32_t bit) {

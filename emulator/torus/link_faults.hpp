@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can go wrong on a link: a packet and its hop in, the cycles lost to retries and injected delay out.
+// Errors of links: a packet and its hop in, how many copies of it arrive with a bad CRC out.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,14 @@ namespace torolux {
 /// Decided by a hash of the packet's number and hop, so the same in every run.
 class LinkFaults {
  public:
-  LinkFaults(const MachineDescription::Torus& torus, std::uint32_t injected_delay);
+  explicit LinkFaults(const MachineDescription::Torus& torus);
 
-  bool none() const { return error_threshold_ == 0 && injected_delay_ == 0; }
-  /// Cycles from the grant until the copy that arrives whole begins.
-  std::uint64_t cycles_lost(const Block& block);
+  /// Copies that fail before the one that arrives whole. Throws MachineFailure if a CRC does not notice.
+  std::uint32_t bad_copies(const Block& block);
   std::uint64_t retries() const { return retries_; }
 
  private:
   std::uint32_t error_threshold_;  // of 2^32
-  std::uint32_t retry_cycles_;
-  std::uint32_t injected_delay_;
   std::uint64_t retries_ = 0;
 };
 

@@ -5,13 +5,17 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "emulator/machine/description.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/jitter.hpp"
 #include "emulator/torus/block.hpp"
+#include "emulator/torus/figures.hpp"
 #include "emulator/torus/link_faults.hpp"
+#include "emulator/torus/ring_lines.hpp"
 #include "emulator/torus/shape.hpp"
 
 namespace torolux {
@@ -20,20 +24,28 @@ namespace torolux {
 class TorusClient {
  public:
   virtual ~TorusClient() = default;
-  /// A packet has left the outgoing queue of its PE.
-  virtual void injected(unsigned pe, Cycles now) = 0;
-  /// May a packet leave the torus now? Then room for it is reserved. No: ask again after `Torus::try_ejection`.
+  /// The tail of a packet leaves the outgoing queue of its PE at `tail`, which is later than now: then its place is
+  /// free.
+  virtual void injected(unsigned pe, Cycles tail) = 0;
+  /// May a packet leave the torus now? Then room for it is reserved. No: ask again after `Torus::try_ejection`. Asked
+  /// at the end of a cycle, after all other events of it.
   virtual bool accept(unsigned pe, BlockIndex block) = 0;
+};
+
+/// Event sources of router 0 and of its arbiter; those of the others follow. Arbiters come after all other sources, so
+/// that they see all requests of a cycle.
+struct TorusSources {
+  std::uint32_t routers, arbiters;
 };
 
 /// A packet of F flits that is granted an output at time g occupies it until g + F; its head is at the next router's
 /// input, or its tail at the NIU F - 1 cycles later, at g + router_cycles + link_cycles. With nothing in the way a
 /// packet over h links is delivered (h + 1) * (router_cycles + link_cycles) + F - 1 cycles after `inject`.
+/// What is delivered may be a copy with a bad CRC (Block::copy): the client is to drop it, and what it reserved for it.
 class Torus {
  public:
-  /// first_source: event source of router 0; the others follow.
-  Torus(TorusShape shape, const MachineDescription::Torus& parameters, std::uint32_t injected_delay, EventQueue& events,
-        std::uint32_t first_source, BlockPool& pool, TorusClient& client);
+  Torus(TorusShape shape, const MachineDescription::Torus& parameters, const Jitter& jitter, EventQueue& events,
+        TorusSources sources, BlockPool& pool, TorusClient& client);
 
   const TorusShape& shape() const { return shape_; }
   /// Flits of a packet with so many bytes of records.
@@ -43,64 +55,102 @@ class Torus {
   /// Appends a packet (destination, flits, number set) to the outgoing queue of a PE. The limit on it is the NIU's.
   void inject(unsigned pe, BlockIndex block, Cycles now);
   /// The NIU has become able to accept more.
-  void try_ejection(unsigned pe, Cycles now) { arbitrate(pe, index_of(Port::local), now); }
-  /// Kinds arrive, head, arbitrate.
+  void try_ejection(unsigned pe, Cycles now) { ask(pe, index_of(Port::local), now); }
+  /// Kinds arrive, head, tail, line, arbitrate.
   void handle(const Event& event);
 
-  std::uint64_t hops() const { return hops_; }  ///< links crossed by packets whose ejection has begun
   std::uint64_t link_retries() const { return faults_.retries(); }
   std::size_t packets_inside() const { return inside_; }  ///< injected, ejection not begun
   std::uint32_t queued(unsigned pe) const { return routers_[pe].inputs[index_of(Port::local)].queue.size(); }
+  /// Of each router; what lasts still counts up to `now`.
+  std::vector<RouterFigures> router_figures(Cycles now) const;
+  const PacketFigures& packet_figures() const { return packet_figures_; }
   /// Throws MachineFailure unless on each link: free slots + slots held + slots on their way back = the buffer's.
   void check_slots() const;
   /// One line for each router that holds packets; at most `most` of them.
   std::string report(unsigned most) const;
 
  private:
+  static constexpr Cycles kNotYet = ~Cycles{0};
+  static constexpr std::uint8_t kNobody = 0xFF;
+  static constexpr std::uint8_t kAnyone = 0xFE;
+
   struct Input {
     BlockQueue queue;
     Cycles free_at = 0;       // its last packet's tail has left
+    Cycles asked_at = 0;      // its first packet asked for an output
     std::uint32_t held = 0;   // slots: packets granted to it and not granted onwards
     std::uint8_t output = 0;  // that the first packet asks for
+    std::uint32_t high_water = 0;
   };
   struct Output {
     Cycles free_at = 0;
-    Cycles scheduled = kUnscheduled;  // next arbitration
+    Cycles scheduled = kNotYet;       // next arbitration
+    Cycles stalled_at = kNotYet;      // since when it has been free and wanted, but nothing could go
     std::uint32_t slots = 0;          // free ones at the other end, as far as known here
     std::uint8_t waiting = 0;         // inputs that ask for it, a bit each
-    std::uint8_t next_input = 0;      // round robin
+    std::uint8_t next_input = 0;      // round robin, among packets of one age
+    std::uint8_t starving = kNobody;  // the input that has waited too long to enter this ring
+    std::uint32_t may_enter = 0;
     std::uint32_t first_return = 0, returns = 0;
+    LinkFigures figures;
   };
   struct Router {
     std::array<Input, kPorts> inputs;
     std::array<Output, kPorts> outputs;
+    LinkFigures injection;
   };
-  static constexpr Cycles kUnscheduled = ~Cycles{0};
 
+  void arrive(const Event& event);
+  void tail(const Event& event);
+  void line(const Event& event);
+  void head(unsigned router, std::size_t input, Cycles now);
   void request(unsigned router, std::size_t input, Cycles now);
-  void arbitrate(unsigned router, std::size_t output, Cycles now);
-  bool may_go(unsigned router, std::size_t input, std::size_t output);
-  void grant(unsigned router, std::size_t input, std::size_t output, Cycles now);
-  void free_slot(unsigned router, std::size_t input, Cycles when);
-  void collect_returns(unsigned router, std::size_t output, Cycles now);
+  void ask(unsigned router, std::size_t output, Cycles now);
   void schedule(unsigned router, std::size_t output, Cycles when);
+
+  void arbitrate(unsigned router, std::size_t output, Cycles now);
+  std::optional<std::size_t> choose(unsigned router, std::size_t output) const;
+  bool may_go(unsigned router, std::size_t input, std::size_t output) const;
+  void look_for_starving(unsigned router, std::size_t output, Cycles now);
+  void cease_starving(unsigned router, std::size_t output, Cycles now);
+  void withdraw(unsigned router, std::size_t input, std::size_t output, Cycles now);
+  void grant(unsigned router, std::size_t input, std::size_t output, Cycles now);
+  Cycles send(unsigned router, std::size_t output, BlockIndex index, Cycles start);
+  void send_copy(unsigned router, std::size_t output, BlockIndex index, Cycles start);
+  void eject(unsigned router, BlockIndex index, Cycles tail);
+  void free_slot(unsigned router, std::size_t input, Cycles when, Cycles now);
+  void collect_returns(unsigned router, std::size_t output, Cycles now);
+
+  static bool goes_on(std::size_t input, std::size_t output) {
+    return static_cast<Port>(input) == opposite(static_cast<Port>(output));
+  }
+  /// Of inputs that wait for an output, one bit each.
+  static bool anyone_enters(std::uint8_t waiting, std::size_t output) {
+    return (waiting & ~(1U << index_of(opposite(static_cast<Port>(output))))) != 0;
+  }
+  Cycles router_delay(const Block& block) const {
+    return jitter_.delay(Jitter::What::router, block.number, block.hops);
+  }
   Cycles& return_time(unsigned router, std::size_t output, std::uint32_t index) {
     return return_times_[(router * kLinks + output) * buffer_ + index % buffer_];
   }
-  std::uint32_t source(unsigned router) const { return first_source_ + router; }
+  std::uint32_t source(unsigned router) const { return sources_.routers + router; }
 
   TorusShape shape_;
-  std::uint32_t flit_bytes_, buffer_, hop_cycles_, slot_return_cycles_;
+  std::uint32_t flit_bytes_, buffer_, hop_cycles_, slot_return_cycles_, retry_cycles_, patience_;
   bool bubble_;
   LinkFaults faults_;
+  Jitter jitter_;
   EventQueue& events_;
-  std::uint32_t first_source_;
+  TorusSources sources_;
   BlockPool& pool_;
   TorusClient& client_;
+  RingLines lines_;
   std::vector<Router> routers_;
   std::vector<std::array<unsigned, kLinks>> neighbours_;
   std::vector<Cycles> return_times_;  // rings of buffer_ entries, one per router and link
-  std::uint64_t hops_ = 0;
+  PacketFigures packet_figures_;
   std::size_t inside_ = 0;
 };
 

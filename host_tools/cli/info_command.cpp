@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "emulator/errors.hpp"
+#include "emulator/machine/network_memory.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/settle.hpp"
@@ -80,6 +81,8 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
   line("neighbours", fixed(plan.mean_neighbour_hops, 2) + " hops apart on average");
   line("PEs", std::to_string(machine.columns) + " x " + std::to_string(machine.rows) + " with " +
                   bytes_text(plan.local_memory_bytes) + " each");
+  const NetworkMemory network = network_memory(machine.description);
+  line("network memory per PE", "NIU " + bytes_text(network.niu()) + ", router " + bytes_text(network.router()));
   if (!plan.pe_bytes.empty()) {
     const auto [least, most] = std::minmax_element(plan.pe_bytes.begin(), plan.pe_bytes.end());
     std::uint64_t sum = 0;

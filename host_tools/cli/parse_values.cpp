@@ -177,6 +177,22 @@ double parse_number(const std::string& text, double least, double most) {
   return *value;
 }
 
+double parse_link_fault(const std::string& text) {
+  constexpr std::string_view kLink = "link:";
+  if (!text.starts_with(kLink)) wrong_form(text, "of the form link:P, like link:0.01");
+  return parse_number(text.substr(kLink.size()), 0, 0.5);
+}
+
+std::vector<double> parse_rates(const std::string& text) {
+  std::vector<double> rates;
+  for (const std::string_view part : split(text, ',')) {
+    const std::string one(part);
+    rates.push_back(parse_number(one, 0, 1));
+    if (rates.back() == 0) throw InputError(in_quotes(one) + " is out of range: a rate is above 0 and at most 1");
+  }
+  return rates;
+}
+
 std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uint64_t most) {
   const bool negative = text.starts_with('-');
   const auto value = whole(std::string_view(text).substr(negative ? 1 : 0));

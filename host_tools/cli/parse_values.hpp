@@ -49,6 +49,12 @@ std::vector<unsigned> parse_pe_list(const std::string& text);
 /// "PE:PORT", each within its range of all machines.
 GdbPort parse_gdb_port(const std::string& text);
 
+/// "link:P": the chance P, 0 to 0.5, that a packet is spoilt on a link.
+double parse_link_fault(const std::string& text);
+
+/// "R" or "R,R,...": flits per node and cycle, each above 0 and up to 1.
+std::vector<double> parse_rates(const std::string& text);
+
 /// "radiosity" or "shadow-rays". True: shadow rays.
 bool parse_direct(const std::string& text);
 

@@ -271,6 +271,8 @@ void add_machine_options(CLI::App& command, RenderOptions& options) {
             [&options](const std::string& text) { take_path(options.machine, text); })
       ->group(group);
   add_machine_values_option(command, options.machine_values, group);
+  add_ideal_option(command, options.ideal, group);
+  add_fault_options(command, options.faults, group);
   add_value(
       command, "--threads", "N", "Threads of this computer that work for the machine [all cores]",
       [&options](const std::string& text) { options.threads = static_cast<std::uint32_t>(parse_count(text, 1, 4096)); })

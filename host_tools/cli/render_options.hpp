@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
+#include "host_tools/cli/fault_options.hpp"
+#include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/render/presets.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
@@ -68,6 +70,8 @@ struct RenderOptions {
   std::optional<SubspacesOption> subspaces;
   std::optional<std::string> allocation, engine;
   Debugging debugging;
+  FaultOptions faults;
+  MachineDescription::Ideal ideal;
   bool enter_empty = false;
   std::optional<std::filesystem::path> machine;
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
@@ -90,7 +94,8 @@ void add_view_options(CLI::App& command, RenderOptions& options);
 void add_light_options(CLI::App& command, RenderOptions& options);
 /// --set: KEY=VALUE of the machine's parameters, checked, into `values`.
 void add_machine_values_option(CLI::App& command, std::vector<std::string>& values, const std::string& group);
-/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --set, --threads.
+/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --set, --ideal, --jitter, --fault,
+/// --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
 /// --engine.
 void add_engine_option(CLI::App& command, RenderOptions& options);

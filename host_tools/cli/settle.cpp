@@ -132,6 +132,8 @@ MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   MachineChoice machine;
   if (options.machine) machine.description = load_machine_description(*options.machine);
   for (const std::string& value : options.machine_values) set_machine_value(machine.description, value);
+  machine.description.ideal = either(machine.description.ideal, options.ideal);
+  options.faults.apply_to(machine.description);
   if (options.pes) {
     machine.columns = (*options.pes)[0];
     machine.rows = (*options.pes)[1];

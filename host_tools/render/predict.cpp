@@ -177,11 +177,38 @@ class Rounds {
   std::uint64_t shots_ = 0;
 };
 
-/// Of one stage, over the bus in turn and into each PE's memory.
+/// What the host takes for so many items of work [cycles of the PEs].
+double host_cycles(const MachineDescription& machine, HostWork work, double items) {
+  const double factor = machine.ideal.host ? 0 : machine.host.cost_factor;
+  return factor * machine.host.cycles[static_cast<std::size_t>(work)] * items * machine.processor.clock_hertz /
+         machine.host.clock_hertz;
+}
+
+/// Of one stage, made by the host, over the bus in turn and into each PE's memory.
 double load_cycles(const RenderSetup& setup, const MachineDescription& machine) {
   double all = 0;
   for (const std::uint64_t bytes : setup.need.pe_bytes) all += static_cast<double>(bytes);
-  return std::max(all / machine.bus.bytes_per_cycle, static_cast<double>(setup.need.most()));
+  const double lines = all / static_cast<double>(kHostLineBytes);
+  const double host = host_cycles(machine, HostWork::message, all / protocol::kMostLoadBytes) +
+                      host_cycles(machine, HostWork::copy, lines) + host_cycles(machine, HostWork::layout, lines);
+  return std::max({all / machine.bus.bytes_per_cycle, static_cast<double>(setup.need.most()), host});
+}
+
+double lattice_cycles(const RenderSetup& setup, const MachineDescription& machine) {
+  double triangles = 0;
+  for (const MeshPatch& patch : setup.mesh.patches) {
+    for (const std::uint32_t side : patch.side) triangles += side == protocol::kNoSide ? 0 : patch.facets;
+  }
+  return host_cycles(machine, HostWork::lattice_triangle, triangles);
+}
+
+/// Subspaces that a camera ray enters before it begins.
+constexpr double kSubspacesOfRay = 4;
+double host_cycles_of_ray(const MachineDescription& machine) {
+  const double packet = 1.0 / protocol::records_per_packet(protocol::Stage::ray_tracing);
+  return host_cycles(machine, HostWork::camera_ray, 1) + host_cycles(machine, HostWork::subspace, kSubspacesOfRay) +
+         host_cycles(machine, HostWork::message, packet) +
+         host_cycles(machine, HostWork::copy, static_cast<double>(host_lines(sizeof(protocol::RayRecord))));
 }
 
 void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& setup, const Quality& quality,
@@ -203,7 +230,8 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
   double sum = 0;
   for (const double pe : cycles) sum += pe;
   prediction.rays = count;
-  prediction.ray_tracing_cycles = count * busiest / (cycles.size() > 1 ? kRayUtilisation : 1.0);
+  prediction.ray_tracing_cycles = std::max(count * busiest / (cycles.size() > 1 ? kRayUtilisation : 1.0),
+                                           count * host_cycles_of_ray(machine.description));
   prediction.instructions += count * sum / kCyclesPerInstruction;
   prediction.packets += count * sample.paths.sum().arrivals / kRecordsPerPacket;
 }
@@ -221,7 +249,7 @@ Prediction predict_radiosity(const Scene& scene, const RenderSetup& setup, const
 Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& setup, const RenderSetup* draft,
                    const Quality& quality, const MachineChoice& machine) {
   Prediction prediction = predict_radiosity(scene, setup, quality);
-  prediction.load_cycles = 2 * load_cycles(setup, machine.description);
+  prediction.load_cycles = 2 * load_cycles(setup, machine.description) + lattice_cycles(setup, machine.description);
   predict_rays(scene, camera, setup, quality, machine, prediction);
   if (draft != nullptr) {
     const Prediction rough = predict_radiosity(scene, *draft, draft_of(quality));

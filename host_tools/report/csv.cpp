@@ -2,6 +2,7 @@
 // See csv.hpp.
 #include "host_tools/report/csv.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <concepts>
@@ -110,6 +111,67 @@ CsvTable bus_table(const MachineFigures& machine) {
   return table;
 }
 
+CsvTable links_table(const MachineFigures& machine) {
+  CsvTable table{
+      "links", "stage,pe,link,packets,flits,wasted_flits,busy_cycles,idle_cycles,stalled_cycles,queue_high_water", {}};
+  for (const StageFigures& stage : machine.stages) {
+    const auto add = [&](std::size_t pe, std::string_view name, const LinkFigures& link) {
+      Line row;
+      row.add(stage.name).add(pe).add(name).add(link.packets).add(link.flits).add(link.wasted_flits).add(link.busy);
+      row.add(stage.figures.now - link.busy).add(link.stalled).add(link.queue_high_water);
+      table.rows.push_back(row.text());
+    };
+    for (std::size_t pe = 0; pe < stage.figures.routers.size(); ++pe) {
+      const RouterFigures& router = stage.figures.routers[pe];
+      for (std::size_t i = 0; i < kLinks; ++i) add(pe, kLinkNames[i], router.links[i]);
+      add(pe, "injection", router.injection);
+      add(pe, "ejection", router.ejection);
+    }
+  }
+  return table;
+}
+
+CsvTable histograms_table(const MachineFigures& machine) {
+  CsvTable table{"histograms", "stage,histogram,least,most,packets,bytes", {}};
+  for (const StageFigures& stage : machine.stages) {
+    const PacketFigures& packets = stage.figures.packets;
+    const auto add = [&](std::string_view name, std::uint64_t least, std::uint64_t most, std::uint64_t count,
+                         const std::string& bytes) {
+      if (count == 0) return;
+      Line row;
+      table.rows.push_back(row.add(stage.name).add(name).add(least).add(most).add(count).add(bytes).text());
+    };
+    for (std::size_t h = 0; h < packets.by_hops.size(); ++h) {
+      add("hops", h, h, packets.by_hops[h], std::to_string(packets.bytes_by_hops[h]));
+    }
+    for (std::size_t n = 0; n < packets.by_records.size(); ++n) {
+      add("records", n, n, packets.by_records[n], std::to_string(packets.bytes_by_records[n]));
+    }
+    for (std::size_t i = 0; i < packets.by_latency.size(); ++i) {
+      const std::uint64_t end = std::uint64_t{1} << i;
+      add("latency", end / 2, end - 1, packets.by_latency[i], "");
+    }
+  }
+  return table;
+}
+
+CsvTable time_line_table(const MachineFigures& machine) {
+  CsvTable table{"timeline", "", {}};
+  Line header;
+  header.add("begin,cycles,load,packets,bus_cycles,frame_buffer_cycles,host_cycles").add_names("", kHostGaugeNames);
+  table.header = header.text();
+  const TimeLineFigures& line = machine.time_line;
+  for (std::size_t i = 0; i < line.slices.size(); ++i) {
+    const TimeSlice& slice = line.slices[i];
+    const Cycles begin = i * line.width;
+    Line row;
+    row.add(begin).add(std::min(line.width, machine.now - begin)).add(slice.load).add(slice.packets);
+    row.add(slice.bus_cycles).add(slice.frame_buffer_cycles).add(slice.host_cycles);
+    table.rows.push_back(row.add_all(slice.gauges, kHostGauges).text());
+  }
+  return table;
+}
+
 CsvTable host_table(const MachineFigures& machine) {
   CsvTable table{"host", "stage,work,items,own_cycles", {}};
   for (const StageFigures& stage : machine.stages) {
@@ -142,8 +204,9 @@ std::string CsvTable::text() const {
 }
 
 std::vector<CsvTable> stats_tables(const MachineFigures& machine, const std::vector<RoundFigures>& rounds) {
-  std::vector<CsvTable> tables = {stages_table(machine, rounds), pes_table(machine), bus_table(machine),
-                                  host_table(machine)};
+  std::vector<CsvTable> tables = {stages_table(machine, rounds), pes_table(machine),   bus_table(machine),
+                                  host_table(machine),           links_table(machine), histograms_table(machine),
+                                  time_line_table(machine)};
   if (!rounds.empty()) tables.push_back(rounds_table(rounds));
   return tables;
 }

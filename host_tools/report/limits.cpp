@@ -25,6 +25,14 @@ double tails(const std::vector<RoundFigures>& rounds, Cycles begin, Cycles end) 
   return sum;
 }
 
+Cycles busiest_link(const MachineFigures& figures) {
+  Cycles most = 0;
+  for (const RouterFigures& router : figures.routers) {
+    for (const LinkFigures& link : router.links) most = std::max(most, link.busy);
+  }
+  return most;
+}
+
 }  // namespace
 
 Limits limits_of(const StageFigures& stage, const std::vector<RoundFigures>& rounds) {
@@ -48,6 +56,7 @@ Limits limits_of(const StageFigures& stage, const std::vector<RoundFigures>& rou
   share_of(limits, Limit::bus) = static_cast<double>(figures.bus.busy_cycles()) / length;
   share_of(limits, Limit::frame_buffer) = static_cast<double>(figures.frame_buffer_busy_cycles) / length;
   share_of(limits, Limit::host) = static_cast<double>(figures.host.busy_cycles) / length;
+  share_of(limits, Limit::link) = static_cast<double>(busiest_link(figures)) / length;
 
   const auto greater = [&](Limit a, Limit b) { return share_of(limits, a) < share_of(limits, b); };
   const Limit resource = *std::max_element(kResources.begin(), kResources.end(), greater);

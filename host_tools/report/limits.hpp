@@ -15,7 +15,7 @@ inline constexpr std::array<std::string_view, kLimits> kLimitNames = {"work", "b
                                                                       "bus",  "frame_buffer", "host", "link"};
 
 /// A part of the machine that is busy for more than this share of a stage bounds it, whatever the PEs do.
-inline constexpr double kSaturated = 0.9;
+inline constexpr double kSaturated = 0.8;
 
 struct Limits {
   Limit by = Limit::work;

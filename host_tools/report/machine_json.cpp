@@ -2,6 +2,7 @@
 // See machine_json.hpp.
 #include "host_tools/report/machine_json.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "host_tools/report/limits.hpp"
@@ -59,6 +60,46 @@ Json host_json(const MachineFigures& machine) {
   return json;
 }
 
+Json link_json(const LinkFigures& link, Cycles now) {
+  return {{"packets", link.packets},
+          {"flits", link.flits},
+          {"wasted_flits", link.wasted_flits},
+          {"busy_cycles", link.busy},
+          {"idle_cycles", now - link.busy},
+          {"stalled_cycles", link.stalled},
+          {"queue_high_water", link.queue_high_water}};
+}
+
+/// The busiest of all; each of them is in links.csv, and under `links` of the whole run.
+Json torus_json(const MachineFigures& machine) {
+  Cycles busy = 0;
+  Cycles most = 0;
+  std::uint64_t flits = 0;
+  std::uint64_t stalled = 0;
+  for (const RouterFigures& router : machine.routers) {
+    for (const LinkFigures& link : router.links) {
+      busy += link.busy;
+      most = std::max(most, link.busy);
+      flits += link.flits;
+      stalled += link.stalled;
+    }
+  }
+  return {{"flits", flits}, {"link_busy_cycles", busy}, {"busiest_link_cycles", most}, {"stalled_cycles", stalled}};
+}
+
+Json histograms_json(const PacketFigures& packets) {
+  Json json;
+  json["packets_by_hops"] = packets.by_hops;
+  json["bytes_by_hops"] = packets.bytes_by_hops;
+  json["packets_by_records"] = packets.by_records;
+  json["bytes_by_records"] = packets.bytes_by_records;
+  std::size_t used = packets.by_latency.size();
+  while (used > 0 && packets.by_latency[used - 1] == 0) --used;
+  json["packets_by_latency"] =
+      std::vector(packets.by_latency.begin(), packets.by_latency.begin() + static_cast<std::ptrdiff_t>(used));
+  return json;
+}
+
 Json limits_json(const Limits& limits) {
   Json json = {{"by", kLimitNames[static_cast<std::size_t>(limits.by)]}, {"share", limits.share()}};
   for (std::size_t i = 0; i < kLimits; ++i) json["shares"][std::string(kLimitNames[i])] = limits.shares[i];
@@ -72,9 +113,18 @@ Json machine_json(const MachineFigures& machine) {
   const double mean_hops =
       sums.delivered > 0 ? static_cast<double>(machine.hops) / static_cast<double>(sums.delivered) : 0;
   Json json;
-  json["packets"] = {{"sent", sums.sent}, {"delivered", sums.delivered}, {"link_retries", machine.link_retries}};
+  const PacketFigures& packets = machine.packets;
+  const double mean_latency =
+      packets.packets > 0 ? static_cast<double>(packets.latency_sum) / static_cast<double>(packets.packets) : 0;
+  json["packets"] = {{"sent", sums.sent},
+                     {"delivered", sums.delivered},
+                     {"link_retries", machine.link_retries},
+                     {"mean_latency", mean_latency},
+                     {"most_latency", packets.latency_most}};
   json["records"] = {{"diverted", sums.diverted}};
-  json["hops"] = {{"mean", mean_hops}, {"total", machine.hops}};
+  json["hops"] = {{"mean", mean_hops}, {"total", machine.hops}, {"wasted", packets.wasted_hops}};
+  json["torus"] = torus_json(machine);
+  json["histograms"] = histograms_json(packets);
   json["bus"] = bus_json(machine);
   json["frame_buffer"] = frame_buffer_json(machine);
   json["host_processor"] = host_json(machine);
@@ -105,6 +155,32 @@ Json pes_json(const std::vector<PeFigures>& pes) {
                     {"phase_cycles", phases_of(pe.phase_cycles, pe.outside_phases())}});
   }
   return json;
+}
+
+Json links_json(const MachineFigures& machine) {
+  Json json = Json::array();
+  for (const RouterFigures& router : machine.routers) {
+    Json one;
+    for (std::size_t i = 0; i < kLinks; ++i) one[std::string(kLinkNames[i])] = link_json(router.links[i], machine.now);
+    one["injection"] = link_json(router.injection, machine.now);
+    one["ejection"] = link_json(router.ejection, machine.now);
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+Json time_line_json(const TimeLineFigures& line) {
+  Json slices = Json::array();
+  for (const TimeSlice& slice : line.slices) {
+    Json one = {{"load", slice.load},
+                {"packets", slice.packets},
+                {"bus_cycles", slice.bus_cycles},
+                {"frame_buffer_cycles", slice.frame_buffer_cycles},
+                {"host_cycles", slice.host_cycles}};
+    for (std::size_t g = 0; g < kHostGauges; ++g) one[std::string(kHostGaugeNames[g])] = slice.gauges[g];
+    slices.push_back(std::move(one));
+  }
+  return {{"slice_cycles", line.width}, {"slices", std::move(slices)}};
 }
 
 Json stages_json(const MachineFigures& machine, const std::vector<RoundFigures>& rounds) {

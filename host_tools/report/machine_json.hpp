@@ -9,12 +9,15 @@
 
 namespace torolux {
 
-/// packets, records, hops, bus, frame_buffer, host_processor, phases.
+/// All but what there is one of for each PE, link, stage, round or slice of time.
 nlohmann::ordered_json machine_json(const MachineFigures& machine);
 /// One object for each PE.
 nlohmann::ordered_json pes_json(const std::vector<PeFigures>& pes);
 /// One object for each stage: name, begin, cycles, the keys of machine_json, limits, pes.
 nlohmann::ordered_json stages_json(const MachineFigures& machine, const std::vector<RoundFigures>& rounds);
+/// One object for each PE: its four links, and those from and to its NIU.
+nlohmann::ordered_json links_json(const MachineFigures& machine);
+nlohmann::ordered_json time_line_json(const TimeLineFigures& line);
 nlohmann::ordered_json rounds_json(const std::vector<RoundFigures>& rounds);
 
 }  // namespace torolux

@@ -58,7 +58,9 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["settings"] = settings_json(run, &figures);
   json["command_line"] = command_line_of(json["settings"]);
   json["stages"] = stages_json(machine, figures.rounds);
+  json["time_line"] = time_line_json(machine.time_line);
   json["rounds"] = rounds_json(figures.rounds);
+  json["links"] = links_json(machine);
   json["pes"] = pes_json(machine.pes);
   json["wall_seconds"] = figures.wall_seconds;
   json["host"] = {{"threads", run.machine.threads},

@@ -87,6 +87,8 @@ std::string run_stats_json(const MachineSetup& setup, const InputFile& image, co
   json["settings"] = settings_json(setup, image);
   json["command_line"] = command_line_of(json["settings"]);
   json["stages"] = stages_json(figures, {});
+  json["time_line"] = time_line_json(figures.time_line);
+  json["links"] = links_json(figures);
   json["pes"] = pes_json(figures.pes);
   json["wall_seconds"] = wall_seconds;
   json["host"] = {{"threads", setup.threads},

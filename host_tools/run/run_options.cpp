@@ -7,6 +7,7 @@
 #include "emulator/engines/engine.hpp"
 #include "emulator/errors.hpp"
 #include "host_tools/cli/debugging_options.hpp"
+#include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/cli/parse_words.hpp"
 #include "host_tools/cli/render_options.hpp"
@@ -41,6 +42,8 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_machine_values_option(command, options.machine_values, "");
   command.add_option("--engine", options.engine, "What runs the PEs")->type_name("NAME")->capture_default_str();
   add_debugging_options(command, options.debugging, "");
+  add_ideal_option(command, options.ideal, "");
+  add_fault_options(command, options.faults, "");
   command.add_option("--threads", options.threads, "Threads of this computer that work for the machine [all cores]")
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));
@@ -73,6 +76,8 @@ MachineSetup setup_from(const RunOptions& options) {
     setup.description = load_machine_description(*options.machine);
   }
   for (const std::string& value : options.machine_values) set_machine_value(setup.description, value);
+  setup.description.ideal = either(setup.description.ideal, options.ideal);
+  options.faults.apply_to(setup.description);
   return setup;
 }
 

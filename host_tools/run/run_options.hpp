@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/prepared_render.hpp"
 
 namespace CLI {
@@ -23,6 +24,8 @@ struct RunOptions {
   std::optional<std::string> machine, stats, stats_csv;
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
   Debugging debugging;
+  FaultOptions faults;
+  MachineDescription::Ideal ideal;
   unsigned threads = 0;
   bool quiet = false;
 };

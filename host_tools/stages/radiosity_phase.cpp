@@ -107,6 +107,7 @@ void RadiosityPhase::begin_round(HostPort& port) {
   if (candidates_.size() > most) candidates_.resize(most);
   RoundFigures& round = rounds_.back();
   round.unshot = settings_.emitted > 0 ? static_cast<double>(unshot_) / settings_.emitted : 0;
+  port.note(HostGauge::unshot, round.unshot);
   round.chosen = round.last_shot_done = round.end = port.now();
   if (candidates_.empty() || unshot_ <= settings_.enough_unshot) {
     state_ = State::done;
@@ -147,6 +148,10 @@ void RadiosityPhase::begin_shot(HostPort& port, PeNumber pe) {
   }
 }
 
+void RadiosityPhase::note_credits(HostPort& port) const {
+  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
+}
+
 void RadiosityPhase::grant(HostPort& port) {
   // In turn to all shooters; one that has grants waiting is passed over, and asked again when more credits come home.
   std::size_t passed_over = 0;
@@ -163,6 +168,7 @@ void RadiosityPhase::grant(HostPort& port) {
     pool_ -= credits;
     torolux::send(port, pe, MessageKind::grant, protocol::Grant{credits});
   }
+  note_credits(port);
 }
 
 void RadiosityPhase::end_round_if_over(HostPort& port) {

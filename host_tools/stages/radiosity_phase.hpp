@@ -51,6 +51,7 @@ class RadiosityPhase : public Phase {
   void take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   void begin_round(HostPort& port);
   void begin_shot(HostPort& port, PeNumber pe);
+  void note_credits(HostPort& port) const;
   void grant(HostPort& port);
   void end_round_if_over(HostPort& port);
 

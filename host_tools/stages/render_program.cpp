@@ -114,6 +114,7 @@ void RenderProgram::leave(HostPort& port) {
     case Step::radiosity: {
       const auto& radiosity = static_cast<const RadiosityPhase&>(*phase_);
       rounds_ = radiosity.rounds();
+      port.note(HostGauge::unshot, 0);  // it is told of the radiosity stage alone
       shots_ = radiosity.shots();
       emitted_shot_ = radiosity.emitted_shot();
       reflected_shot_ = radiosity.reflected_shot();

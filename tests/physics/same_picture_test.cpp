@@ -87,6 +87,21 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Torus,
                            return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
                          });
 
+/// Host, NIUs and signals that cost nothing, as much as they should, a hundred times that.
+TEST(Costs, NeverChangeThePicture) {
+  RenderCase ideal = small_cornell("cornell_spheres");
+  ideal.machine.description.ideal = {.host = true, .niu = true, .signals = true};
+  expect_same_picture(ideal);
+  RenderCase dear = small_cornell("cornell_spheres");
+  MachineDescription& machine = dear.machine.description;
+  machine.host.cost_factor = 100;
+  machine.bus.signal_cycles *= 100;
+  machine.bus.arbitration_cycles *= 100;
+  machine.frame_buffer.cycles_per_pixel *= 100;
+  machine.niu = {.bytes_per_cycle = 1, .receive_packets = 1};
+  expect_same_picture(dear);
+}
+
 RenderResult render_on(const char* engine, unsigned threads) {
   RenderCase cornell = small_cornell("cornell_spheres");
   cornell.machine.engine = engine;
@@ -205,7 +220,7 @@ TEST(Links, LatencyAndDelaysDoNotShow) {
   RenderCase cornell = small_cornell("cornell_spheres");
   cornell.machine.description.torus.link_cycles = 37;
   cornell.machine.description.torus.flit_bytes = 4;
-  cornell.machine.description.injected_delay_cycles = 900;
+  cornell.machine.description.jitter = {.seed = 1, .cycles = 900};
   expect_same_picture(cornell);
 }
 
@@ -217,6 +232,21 @@ TEST(Links, FaultsAreRepairedAndDoNotShow) {
   EXPECT_EQ(bytes_of(result.picture), reference_picture());
   EXPECT_GT(result.figures.machine.link_retries, 0U);
 }
+
+/// The seeds of `--jitter`; the soak takes a hundred.
+class Jittered : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(Jittered, DelaysOfLinksRoutersAndBusDoNotShow) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  const std::string still = exact_figures(run_case(cornell).figures);
+  cornell.machine.description.jitter.seed = GetParam();
+  cornell.machine.description.torus.link_error_rate = GetParam() % 2 * 0.1;
+  const RenderResult result = run_case(cornell);
+  expect_all_home(result);
+  EXPECT_EQ(bytes_of(result.picture), reference_picture());
+  EXPECT_NE(exact_figures(result.figures), still) << "it is to change the cycles";
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, Jittered, testing::Values(1, 2, 3));
 
 TEST(Credits, FewMakeTheSamePicture) {
   RenderCase cornell = small_cornell("cornell_spheres");
@@ -258,7 +288,7 @@ TEST(ShadowRays, MakeTheSamePicture) {
   other.machine.rows = 5;
   other.machine.subspaces = {5, 3, 7};
   other.machine.allocation = "balanced";
-  other.machine.description.injected_delay_cycles = 900;
+  other.machine.description.jitter = {.seed = 1, .cycles = 900};
   same(other);
   cornell.machine.engine = "qemu";
   const std::string figures = same(cornell);

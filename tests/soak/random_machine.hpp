@@ -28,12 +28,17 @@ class MachineDice {
     machine.torus.link_cycles = number(1, 40);
     machine.torus.buffer_packets = number(2, 5);
     machine.torus.slot_return_cycles = number(1, 20);
+    machine.torus.patience_cycles = chance(2) ? number(1, 50) : 1024;
     machine.torus.send_queue_packets = number(1, 5);
     machine.torus.retry_cycles = number(1, 30);
     machine.bus.bytes_per_cycle = 1U << number(0, 5);
     machine.bus.arbitration_cycles = number(1, 9);
     machine.bus.send_queue_messages = number(1, 5);
     machine.bus.control_buffers = number(1, 4);
+    machine.bus.signal_cycles = number(1, 40);
+    machine.niu.bytes_per_cycle = 1U << number(0, 5);
+    machine.niu.receive_packets = number(1, 3);
+    machine.ideal = {chance(4), chance(4), chance(4)};
     machine.frame_buffer.cycles_per_pixel = number(1, 30);
     machine.frame_buffer.queue_messages = number(1, 16);
     machine.host.cost_factor = chance(3) ? 0 : number(1, 20);
@@ -42,7 +47,7 @@ class MachineDice {
     machine.records.gather_cycles = chance(3) ? 0 : 1U << number(4, 20);
     machine.records.gather_records = chance(3) ? number(1, 40) : 4096;
     if (chance(2)) machine.torus.link_error_rate = number(1, 200) * 1e-3;
-    if (chance(2)) machine.injected_delay_cycles = number(1, 3000);
+    if (chance(2)) machine.jitter = {.seed = number(1, 1'000'000), .cycles = number(1, 3000)};
     return machine;
   }
 
@@ -58,11 +63,13 @@ inline std::string to_text(const MachineDescription& machine, unsigned columns, 
        << machine.torus.buffer_packets << ", slot return " << machine.torus.slot_return_cycles << ", queues "
        << machine.torus.send_queue_packets << "/" << machine.bus.send_queue_messages << ", bus "
        << machine.bus.bytes_per_cycle << ", control buffers " << machine.bus.control_buffers << ", FBC "
-       << machine.frame_buffer.cycles_per_pixel << "/" << machine.frame_buffer.queue_messages << ", host "
+       << machine.frame_buffer.cycles_per_pixel << "/" << machine.frame_buffer.queue_messages << ", signals "
+       << machine.bus.signal_cycles << ", NIU " << machine.niu.bytes_per_cycle << "/" << machine.niu.receive_packets
+       << ", ideal " << machine.ideal.host << machine.ideal.niu << machine.ideal.signals << ", host "
        << machine.host.cost_factor << ", credits " << machine.records.credits_per_pe << ", slots "
        << machine.records.niu_slots << ", gathering " << machine.records.gather_cycles << "/"
        << machine.records.gather_records << ", errors " << machine.torus.link_error_rate << ", delays "
-       << machine.injected_delay_cycles;
+       << machine.jitter.seed << "/" << machine.jitter.cycles;
   return text.str();
 }
 

@@ -70,5 +70,18 @@ TEST(RandomMachines, MakeOnePicture) {
   EXPECT_GT(retries, 1000U) << "and to send again";
 }
 
+TEST(RandomMachines, JitterAndFaultsDoNotShow) {
+  RenderCase render_case = small_scene();
+  const std::vector<std::byte> picture = bytes_of(run_case(render_case).picture);
+  render_case.machine.columns = render_case.machine.rows = 3;
+  for (std::uint32_t seed = 1; seed <= 100; ++seed) {
+    render_case.machine.description.jitter.seed = seed;
+    render_case.machine.description.torus.link_error_rate = seed % 4 == 0 ? 0.1 : 0;
+    const RenderResult result = run_case(render_case);
+    ASSERT_EQ(bytes_of(result.picture), picture) << "seed " << seed;
+    expect_all_home(result.figures);
+  }
+}
+
 }  // namespace
 }  // namespace torolux::test

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Machines by chance under records that wander until they die: every record comes home, and the same machine does the
-// same to the last event.
+// same to the last event. The torus alone under overload, with the smallest buffers, errors and delays: it never locks.
 #include <gtest/gtest.h>
 
+#include "emulator/traffic/pattern.hpp"
+#include "emulator/traffic/traffic.hpp"
 #include "tests/soak/random_machine.hpp"
 #include "tests/unit/emulator/wanderers.hpp"
 
@@ -38,6 +40,52 @@ TEST(RandomTraffic, EveryRecordComesHomeTheSameWay) {
       ASSERT_EQ(sent, records * life) << "one packet for each step of a life";
       if (attempt == 0) first = outcome.figures;
       ASSERT_EQ(outcome.figures, first);
+    }
+  }
+}
+
+/// run_traffic throws where it locks, and ends only when all packets that count have arrived.
+TEST(RandomTraffic, RingsOfEverySizeNeverLock) {
+  std::uint32_t seed = 1;
+  for (const auto& [columns, rows] : {std::pair(1U, 2U),
+                                      {1U, 3U},
+                                      {1U, 5U},
+                                      {1U, 8U},
+                                      {7U, 1U},
+                                      {16U, 1U},
+                                      {2U, 2U},
+                                      {2U, 3U},
+                                      {5U, 2U},
+                                      {2U, 8U},
+                                      {3U, 3U},
+                                      {3U, 5U},
+                                      {5U, 5U},
+                                      {5U, 8U},
+                                      {8U, 8U}}) {
+    for (const std::string_view pattern : traffic_pattern_names()) {
+      if (pattern == "transpose" && columns != rows) continue;
+      if (pattern == "tornado" && columns < 3 && rows < 3) continue;
+      for (const double errors : {0.0, 0.1, 0.5}) {
+        for (const std::uint32_t jitter : {0U, 20U}) {
+          MachineDice dice(seed);
+          TrafficSetup setup;
+          setup.columns = columns;
+          setup.rows = rows;
+          setup.pattern = pattern;
+          setup.rate = pattern == "hotspot" ? std::min(1.0, 3.0 / (columns * rows)) : 0.7;
+          setup.packet_flits = dice.number(1, 20);
+          setup.seed = seed++;
+          setup.warm_up = 1000;
+          setup.cycles = 10000;
+          setup.machine.torus.buffer_packets = 2;
+          setup.machine.torus.slot_return_cycles = dice.number(1, 20);
+          setup.machine.torus.patience_cycles = dice.chance(2) ? dice.number(1, 50) : 1000;
+          setup.machine.torus.link_error_rate = errors;
+          setup.machine.jitter = {.seed = jitter == 0 ? 0 : seed, .cycles = jitter};
+          SCOPED_TRACE(std::string(pattern) + ", " + to_text(setup.machine, columns, rows));
+          ASSERT_GT(run_traffic(setup).packets, 0U);
+        }
+      }
     }
   }
 }

@@ -51,7 +51,8 @@ TEST(Main, HelpOfRenderIsComplete) {
                              "--unshot",    "--max-shots",   "--bounces",    "--two-sided-lights", "--save-radiosity",
                              "--radiosity", "--stats",       "--seed",       "--threads",          "--quiet",
                              "--studio",    "--enter-empty", "--direct",     "--filter",           "--tone-curve",
-                             "--layers",    "--no-picture",  "--set"})
+                             "--layers",    "--no-picture",  "--set",        "--jitter",           "--fault",
+                             "--stats-csv"})
     EXPECT_THAT(help, HasSubstr(option));
   for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[8]", "[0.002]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
@@ -125,6 +126,41 @@ TEST(Main, NegativeCoordinatesAreValuesNotOptions) {
       torolux({"render", "/nowhere", "--eye", "-1,2,3", "--look-at", "-.5,0,0", "--exposure", "-1"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("/nowhere"));
+}
+
+TEST(Main, NetworkWritesARowForEachRate) {
+  const std::vector<std::string> command = {"network",  "--pes", "4x4",    "--rate",   "0.1,0.3",
+                                            "--cycles", "2000",  "--self", "--format", "csv"};
+  const Outcome outcome = torolux(command);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "offered,accepted,mean_latency,p99_latency,max_latency,mean_hops,max_link_load,fairness");
+  for (const std::string rate : {"0.1,", "0.3,"}) {
+    std::getline(lines, line);
+    EXPECT_THAT(line, testing::StartsWith(rate));
+    EXPECT_EQ(std::ranges::count(line, ','), 7);
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+  EXPECT_EQ(torolux(command).out, outcome.out);
+  EXPECT_THAT(torolux({"network", "--pes", "4x4", "--cycles", "2000"}).out, HasSubstr("  mean_latency"));
+}
+
+TEST(Main, NetworkRefusesAndFails) {
+  const TemporaryFolder folder;
+  const std::string machine = (folder.path() / "machine.toml").string();
+  std::ofstream(machine) << "[torus]\nbubble = false\nbuffer_packets = 2\n";
+  const Outcome deadlock = torolux({"network", "--pes", "1x8", "--rate", "1", "--machine", machine});
+  EXPECT_EQ(deadlock.code, 3);
+  EXPECT_THAT(deadlock.err, HasSubstr("deadlock at cycle"));
+  EXPECT_EQ(torolux({"network", "--rate", "0"}).code, 2);
+  EXPECT_EQ(torolux({"network", "--rate", "0.1,much"}).code, 1);
+  EXPECT_EQ(torolux({"network", "--pes", "1x1"}).code, 2);
+  EXPECT_EQ(torolux({"network", "--traffic", "rain"}).code, 1);
+  EXPECT_EQ(torolux({"network", "--pes", "2x3", "--traffic", "transpose"}).code, 2);
+  EXPECT_EQ(torolux({"network", "--fault", "link:0.6"}).code, 2);
+  EXPECT_EQ(torolux({"network", "--fault", "bus:0.1"}).code, 1);
 }
 
 TEST(Main, MissingSceneIsBadInput) {

@@ -116,6 +116,23 @@ TEST(ParseLayers, TakesNamesOrAll) {
     EXPECT_THROW(parse_layers(text), UsageError) << text;
 }
 
+TEST(ParseLinkFault, IsAChanceUpToHalf) {
+  EXPECT_EQ(parse_link_fault("link:0.25"), 0.25);
+  EXPECT_EQ(parse_link_fault("link:0"), 0);
+  EXPECT_THROW(parse_link_fault("0.25"), UsageError);
+  EXPECT_THROW(parse_link_fault("link:"), UsageError);
+  EXPECT_THROW(parse_link_fault("link:0.51"), InputError);
+  EXPECT_THROW(parse_link_fault("link:-0.1"), InputError);
+}
+
+TEST(ParseRates, AreAboveZeroAndAtMostOne) {
+  EXPECT_EQ(parse_rates("0.1,1"), (std::vector<double>{0.1, 1}));
+  EXPECT_THROW(parse_rates(""), UsageError);
+  EXPECT_THROW(parse_rates("0.1,"), UsageError);
+  EXPECT_THROW(parse_rates("0.1,0"), InputError);
+  EXPECT_THROW(parse_rates("1.01"), InputError);
+}
+
 TEST(ParseCount, HasLimits) {
   EXPECT_EQ(parse_count("18446744073709551615", 0, ~std::uint64_t{0}), ~std::uint64_t{0});
   EXPECT_EQ(parse_count("7", 1, 7), 7U);

@@ -17,6 +17,7 @@ TEST(Summary, OfAKnownRun) {
 picture                 room.png (320 x 240)
 picture                 out/room.exr (320 x 240)
 machine                 2 x 1 PEs of 2 MiB on qemu; 8 x 4 x 8 subspaces, skewed
+network memory          NIU 54.7 KiB, router 20.3 KiB of each PE
 virtual time                     cycles               ms
   load                        1 000 000           10.000
   radiosity                  23 456 789          234.568
@@ -48,8 +49,15 @@ TEST(Summary, WithoutARadiosityStage) {
   EXPECT_NE(text.find("energy                  no radiosity stage\n"), std::string::npos) << text;
 }
 
+TEST(Summary, SaysWhatBoundsEachStage) {
+  const std::string text = summary(made_up_run(), testing_support::whole_figures());
+  EXPECT_NE(text.find("what bounds each stage\n  radiosity             waiting: every PE waits for 100 %\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(Summary, FitsOnATerminal) {
-  std::istringstream lines(summary(made_up_run(), made_up_figures()));
+  std::istringstream lines(summary(made_up_run(), testing_support::whole_figures()));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 79U) << line;
 }
 

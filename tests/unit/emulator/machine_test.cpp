@@ -102,7 +102,7 @@ TEST(Machine, PacketsOfAPairArriveInOrder) {
   ListeningHost host(16);
   MachineSetup setup = small_machine(4, 4);
   setup.local_memory_bytes = 512U * 1024U;
-  setup.description.injected_delay_cycles = 30;
+  setup.description.jitter = {.seed = 1, .cycles = 30};
   setup.description.torus.link_error_rate = 0.1;
   const Outcome outcome = run(setup, host, [](Niu& niu, NativeClock& /*clock*/) {
     set_test_slots(niu, niu.pe() == 0 ? 15 * kPackets : 0);

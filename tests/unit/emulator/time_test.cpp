@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <random>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/ready_set.hpp"
+#include "emulator/time/slices.hpp"
 
 namespace torolux::test {
 
@@ -35,6 +37,36 @@ TEST(EventQueue, OrderIsTimeThenSourceThenSequence) {
     ASSERT_EQ(event.block, block);
   }
   EXPECT_TRUE(queue.empty());
+}
+
+/// Pushes and pops in turn, near, far and backwards in time, at the time of what was just popped too.
+TEST(EventQueue, KeepsTheOrderWhilePushingAndPopping) {
+  for (const std::uint32_t spread : {1U, 3U, 50U, 2000U, 1'000'000U}) {
+    constexpr std::uint32_t kSources = 7;
+    EventQueue queue(kSources);
+    std::minstd_rand random(spread);
+    std::set<std::tuple<Cycles, std::uint32_t, std::uint32_t>> model;
+    Cycles now = 5000;
+    std::uint32_t number = 0;
+    for (int step = 0; step < 20000; ++step) {
+      const bool grow = step / 500 % 2 == 0;
+      for (auto i = random() % (grow ? 4 : 2); i > 0; --i) {
+        Cycles time = now + random() % spread;
+        if (random() % 50 == 0) time += 5000;
+        if (random() % 50 == 0) time = now - random() % 100;
+        const auto source = static_cast<std::uint32_t>(random() % kSources);
+        queue.push(time, source, EventKind::command, 0, 0, number);
+        model.emplace(time, source, number++);
+      }
+      ASSERT_EQ(queue.empty(), model.empty());
+      ASSERT_EQ(queue.next_time(), model.empty() ? EventQueue::kNone : std::get<0>(*model.begin()));
+      if (model.empty()) continue;
+      const Event event = queue.pop();
+      ASSERT_EQ(std::tuple(event.time, static_cast<std::uint32_t>(event.order >> 32U), event.block), *model.begin());
+      model.erase(model.begin());
+      now = std::max(now, event.time);
+    }
+  }
 }
 
 TEST(BoundTree, GivesTheLeastAndTheLowestOfEquals) {
@@ -73,6 +105,31 @@ TEST(ReadySet, GivesTurnsInACircle) {
       ASSERT_EQ(set.empty(), expected == ReadySet::kNobody);
       ASSERT_EQ(set.has(at), model[at]);
     }
+  }
+}
+
+TEST(Slices, HoldWhateverTheOrderAndTheLength) {
+  // Against one counter for each cycle, over a time for which the width doubles five times.
+  constexpr std::uint64_t kEnd = (kSlices << kLeastSliceShift) * 20;
+  std::minstd_rand random(7);
+  auto slices = std::make_unique<Slices<std::uint64_t>>();
+  std::vector<std::uint32_t> model(kEnd);
+  for (int i = 0; i < 300; ++i) {
+    const std::uint64_t begin = random() % (kEnd * (static_cast<std::uint64_t>(i) + 1) / 300);
+    const std::uint64_t end = std::min(kEnd, begin + random() % 30'000);
+    slices->add_interval(begin, end, 2);
+    for (std::uint64_t t = begin; t < end; ++t) model[t] += 2;
+    slices->add(begin, 1);
+    ++model[begin];
+  }
+  slices->widen(slice_shift_for(kEnd - 1));
+  const std::uint64_t width = std::uint64_t{1} << slices->shift();
+  EXPECT_LE(kEnd, width * kSlices);
+  EXPECT_GT(kEnd, width / 2 * kSlices) << "no wider than needed";
+  for (std::size_t i = 0; i < kSlices; ++i) {
+    std::uint64_t expected = 0;
+    for (std::uint64_t t = i * width; t < std::min(kEnd, (i + 1) * width); ++t) expected += model[t];
+    EXPECT_EQ(slices->sums()[i], expected) << i;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <unordered_map>
 #include <vector>
 
@@ -15,10 +16,10 @@ namespace torolux::test {
 /// A torus alone: every packet is taken at once where it leaves, every one offered waits in an unbounded queue.
 class TorusDriver final : private TorusClient {
  public:
-  TorusDriver(unsigned columns, unsigned rows, const MachineDescription::Torus& parameters,
-              std::uint32_t injected_delay = 0)
-      : events_(2 * std::size_t{columns} * rows),
-        torus_(TorusShape(columns, rows), parameters, injected_delay, events_, columns * rows, pool_, *this) {}
+  TorusDriver(unsigned columns, unsigned rows, const MachineDescription::Torus& parameters, std::uint32_t jitter = 0)
+      : events_(3 * std::size_t{columns} * rows),
+        torus_(TorusShape(columns, rows), parameters, Jitter(1, jitter), events_,
+               {.routers = columns * rows, .arbiters = 2 * columns * rows}, pool_, *this) {}
 
   struct Delivery {
     Cycles sent, delivered;
@@ -30,6 +31,7 @@ class TorusDriver final : private TorusClient {
   Torus& torus() { return torus_; }
   BlockPool& pool() { return pool_; }
   Cycles now() const { return now_; }
+  std::uint64_t dropped() const { return dropped_; }  ///< copies with a bad CRC that came to their destination
 
   /// The packet is offered at `when`, which is not before now.
   void send(unsigned from, unsigned to, std::uint32_t flits, Cycles when) {
@@ -42,11 +44,15 @@ class TorusDriver final : private TorusClient {
     events_.push(when, from, EventKind::command, static_cast<std::uint16_t>(from), 0, index);
   }
 
+  /// The lower half of the number of the next packet from there: chance is a hash of numbers.
+  void set_next_number(unsigned from, std::uint32_t number) { sent_[from] = number; }
+
   /// Handles all events before `until`, or all there are. Returns their number.
   std::uint64_t run(Cycles until = ~Cycles{0}) {
     std::uint64_t handled = 0;
-    while (!events_.empty() && events_.top().time < until) {
+    while (events_.next_time() < until) {
       const Event event = events_.pop();
+      if (event.time < now_) throw std::logic_error("time runs backwards");
       now_ = event.time;
       ++handled;
       if (event.kind == EventKind::command) {
@@ -64,11 +70,16 @@ class TorusDriver final : private TorusClient {
   }
 
  private:
-  void injected(unsigned /*pe*/, Cycles /*now*/) override {}
+  void injected(unsigned /*pe*/, Cycles /*tail*/) override {}
   bool accept(unsigned /*pe*/, BlockIndex /*block*/) override { return true; }
   void deliver(BlockIndex index) {
     const Block& block = pool_[index];
+    if (block.copy != Copy::good) {
+      ++dropped_;
+      return pool_.give_back(index);
+    }
     const auto found = offered_.find(block.number);
+    if (found == offered_.end()) throw std::logic_error("a packet has arrived twice");
     if (on_delivery) {
       on_delivery({found->second, now_, block.source, block.destination, static_cast<std::uint32_t>(block.number),
                    block.hops, block.flits});
@@ -81,6 +92,7 @@ class TorusDriver final : private TorusClient {
   BlockPool pool_;
   Torus torus_;
   Cycles now_ = 0;
+  std::uint64_t dropped_ = 0;
   std::map<unsigned, std::uint32_t> sent_;
   std::unordered_map<std::uint64_t, Cycles> offered_;  // by packet number
 };

@@ -133,6 +133,15 @@ TEST_F(LoadReadTest, ImagesReachTheirPesWhole) {
   EXPECT_THROW(tell(phase, port, 0, MessageKind::tally), MachineFailure);
 }
 
+TEST_F(LoadReadTest, LayingOutCostsTheHostByTheByte) {
+  FakePort port(6);
+  LoadPhase phase(6, [this](PeNumber pe) { return loads_[pe]; });
+  phase.start(port);
+  std::uint64_t lines = 0;
+  for (const PeLoad& load : loads_) lines += (sizeof load.layout + load.image.size() + 63) / 64;
+  EXPECT_EQ(port.done(HostWork::layout), lines);
+}
+
 TEST_F(LoadReadTest, ImagesAreMadeAsPesBecomeReady) {
   constexpr unsigned kPes = 300;
   unsigned made = 0;

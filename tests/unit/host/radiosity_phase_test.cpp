@@ -93,6 +93,22 @@ TEST(RadiosityPhase, AsksAllPesForTheirBest) {
   }
 }
 
+TEST(RadiosityPhase, SaysWhatItComputes) {
+  FakePort port(3);
+  RadiosityPhase phase(settings(3));
+  phase.start(port);
+  offer(phase, port, 0, {candidate(500, 6), candidate(400, 1)}, 1000);
+  offer(phase, port, 1, {candidate(300, 9), candidate(200, 8), candidate(100, 0)}, 1000);
+  EXPECT_EQ(port.done(HostWork::entry), 5U) << "candidates taken in";
+  EXPECT_EQ(port.done(HostWork::compare), 0U);
+  port.take();  // what was asked is on its way
+  offer(phase, port, 2, {}, 1000);
+  // Five are sorted: 5 x 3. Of the best four the first of each PE begins: found as number 0 and 2 of the choice.
+  EXPECT_EQ(port.done(HostWork::compare), 15U + 1 + 3);
+  // A grant to each of two shooters; behind the shot it is the second thing under way there, so both are passed over.
+  EXPECT_EQ(port.done(HostWork::entry), 5U + 4);
+}
+
 TEST(RadiosityPhase, TheBestOfAllPesShootAndTheirNumbersFollowTheOrderOfChoice) {
   // Of seven the best four: 900; of the three 500s the lower patch, then front before back, emitted before reflected.
   const std::vector<std::vector<Candidate>> offers = {

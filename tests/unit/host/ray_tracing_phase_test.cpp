@@ -70,6 +70,17 @@ std::vector<Made> all_rays(RayTracingPhase& phase, std::uint64_t credits, std::u
   }
 }
 
+TEST_F(RayTracingPhaseTest, SaysWhatItComputes) {
+  FakePort port(6);
+  RayTracingPhase tested = phase(1000);
+  tested.start(port);
+  EXPECT_EQ(port.done(HostWork::camera_ray), std::uint64_t{kWidth} * kHeight * 2);
+  EXPECT_GE(port.done(HostWork::subspace), tested.sent()) << "each ray begins in one";
+  EXPECT_EQ(port.done(HostWork::entry), 0U);
+  tell(tested, port, 0, MessageKind::credits, protocol::Credits{1});
+  EXPECT_EQ(port.done(HostWork::entry), 1U);
+}
+
 TEST_F(RayTracingPhaseTest, EachSampleOfEachPixelGoesOutOnce) {
   for (const std::uint64_t credits : {1U, 7U, 100U, 1000U}) {
     RayTracingPhase tested = phase(credits);
