@@ -3,6 +3,7 @@
 // time, stages and the time line to the run; and a stage is said to be bounded by what was made to bound it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -45,7 +46,9 @@ void expect_pes_add_up(const json& pes, std::uint64_t cycles) {
     EXPECT_EQ(busy + number(pe["idle_cycles"]), number(pe["cycles"]));
     EXPECT_EQ(sum_of(pe["phase_cycles"]), busy);
     EXPECT_EQ(pe["phase_cycles"]["outside"], 0);
-    if (cycles != 0) EXPECT_EQ(number(pe["cycles"]), cycles);
+    if (cycles != 0) {
+      EXPECT_EQ(number(pe["cycles"]), cycles);
+    }
   }
 }
 
