@@ -229,7 +229,7 @@ void add_machine_values_option(CLI::App& command, std::vector<std::string>& valu
       } catch (const UsageError& error) {
         throw UsageError(std::string("--set: ") + error.what());
       } catch (const InputError& error) {
-        throw InputError(std::string("--set: ") + error.what());
+        throw InputError("--set " + text + ": " + error.what());
       }
       values.push_back(text);
     }

@@ -71,12 +71,12 @@ Json cycles(const Json& result, std::string_view stage) {
 }
 
 Json by_stage(const Json& result, const Json* baseline, std::string_view name, std::string_view stage) {
-  const Json own = cycles(result, stage);
+  Json own = cycles(result, stage);
   if (name == "cycles") return own;
   if (baseline == nullptr) return nullptr;
   const Json first = cycles(*baseline, stage);
   if (name == "relative") return quotient(own, first);
-  const Json speed_up = quotient(first, own);
+  Json speed_up = quotient(first, own);
   if (name == "speed_up" || !speed_up.is_number()) return speed_up;
   const Json pes = quotient(pe_count(*baseline), pe_count(result));
   return pes.is_number() ? Json(speed_up.get<double>() * pes.get<double>()) : Json();

@@ -19,14 +19,14 @@ using Json = nlohmann::ordered_json;
 
 /// Options of render and run whose effect stands in the settings. Any other one comes into the key as it is written,
 /// so that an option that is forgotten here makes keys differ, never agree.
-constexpr std::array<std::string_view, 38> kSettled = {
+constexpr std::array<std::string_view, 39> kSettled = {
     "scene",     "image",      "studio",      "layers",           "exposure", "tone-curve",
     "radiosity", "size",       "samples",     "filter",           "eye",      "look-at",
     "up",        "fov",        "quality",     "patches",          "elements", "refine",
     "hemicube",  "unshot",     "shot-points", "max-shots",        "bounces",  "emission-records",
     "direct",    "texels",     "seed",        "two-sided-lights", "pes",      "pe-memory",
     "subspaces", "allocation", "enter-empty", "machine",          "engine",   "qemu-pes",
-    "jitter",    "fault"};
+    "jitter",    "fault",      "ideal"};
 
 bool settled(const std::string& name) {
   return name.starts_with("machine.") || std::ranges::find(kSettled, name) != kSettled.end();
@@ -69,8 +69,8 @@ KeyedRun settle_run(const Plan& plan, const Point& point, const std::string& pro
   run.words = words_of(plan, point.options);
   Json material = {{"program", program}, {"command", plan.command}};
   const bool has_settings = plan.command == "render" || plan.command == "run";
-  if (plan.command == "render") run.settings = determining(render_settings(run.words, run.work));
-  if (plan.command == "run") run.settings = determining(run_settings(run.words, run.work));
+  if (plan.command == "render") run.settings = determining(render_settings(run.words, run.work)).dump();
+  if (plan.command == "run") run.settings = determining(run_settings(run.words, run.work)).dump();
   material["settings"] = run.settings;
   material["options"] = written(plan, point, !has_settings);
   run.key = sha256(material.dump());

@@ -2,7 +2,6 @@
 // A run's key: what would give the same result has the same key, whatever it is called and wherever it lies.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,10 +11,10 @@ namespace torolux::study {
 
 /// What a run is done with, and the name of its result.
 struct KeyedRun {
-  std::vector<std::string> words;   ///< after `torolux`, without options of results and threads
-  std::string key;                  ///< SHA-256, 64 hexadecimal digits
-  nlohmann::ordered_json settings;  ///< as determining() leaves them; null where the command has none
-  double work = 0;                  ///< to be expected, in no unit: more takes longer
+  std::vector<std::string> words;  ///< after `torolux`, without options of results and threads
+  std::string key;                 ///< SHA-256, 64 hexadecimal digits
+  std::string settings;            ///< JSON, as determining() leaves them; empty where the command has none
+  double work = 0;                 ///< to be expected, in no unit: more takes longer
 };
 
 /// SHA-256 of the program that is running.

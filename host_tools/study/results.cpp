@@ -54,7 +54,7 @@ std::optional<Json> ResultFolder::read(const KeyedRun& run) const {
   if (from_output()) return row_of_csv(text);
   Json result = Json::parse(text, nullptr, false);
   if (result.is_discarded() || !result.is_object()) return std::nullopt;
-  if (!result.contains("settings") || determining(result["settings"]) != run.settings)
+  if (!result.contains("settings") || determining(result["settings"]).dump() != run.settings)
     throw InputError(name.string() + ": these are statistics of another run; remove the file");
   return result;
 }
@@ -63,7 +63,8 @@ std::optional<Json> row_of_csv(const std::string& text) {
   std::istringstream lines(text);
   std::string header;
   std::string row;
-  if (!std::getline(lines, header) || !std::getline(lines, row)) return std::nullopt;
+  std::string more;
+  if (!std::getline(lines, header) || !std::getline(lines, row) || std::getline(lines, more)) return std::nullopt;
   const std::vector<std::string> names = cells_of(header);
   const std::vector<std::string> values = cells_of(row);
   if (names.empty() || names.size() != values.size()) return std::nullopt;

@@ -39,7 +39,7 @@ class ResultFolder {
 /// All words after `torolux` that leave the result in the folder, and nothing else anywhere.
 std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolder& folder, unsigned threads);
 
-/// Header and first row; numbers where they read as such. Absent where there is no row.
+/// Header and row; numbers where they read as such. Absent where there is not just one row.
 std::optional<Json> row_of_csv(const std::string& text);
 
 }  // namespace torolux::study

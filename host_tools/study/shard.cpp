@@ -19,6 +19,7 @@ Shard parse_shard(const std::string& text) {
 
 void keep_shard(std::vector<Work>& work, const std::vector<Work>& all, const Shard& shard) {
   std::vector<std::string> keys;
+  keys.reserve(all.size());
   for (const Work& one : all) keys.push_back(one.run.key);
   std::ranges::sort(keys);
   std::erase_if(work, [&](const Work& one) {

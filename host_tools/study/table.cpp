@@ -95,6 +95,7 @@ Table make_table(const Plan& plan, const std::vector<Point>& points, const std::
   const std::vector<std::size_t> baselines = baselines_of(plan, points, names);
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::vector<Json> row;
+    row.reserve(table.columns.size());
     for (const std::string& name : names) row.push_back(plan_value(points[i].value(name)));
     if (!plan.vary_one.empty()) {
       row.push_back(points[i].one.empty() ? Json("base") : Json(points[i].one));
@@ -131,9 +132,11 @@ std::string markdown_of(const Table& table, const std::vector<std::string>& y) {
   text += "\n";
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     text += "|";
-    for (const std::size_t column : shown)
-      text +=
-          " " + (column >= table.varied && !table.there[row] ? "missing" : for_people(table.rows[row][column])) + " |";
+    for (const std::size_t column : shown) {
+      const Json& value = table.rows[row][column];
+      const bool varied = column < table.varied;
+      text += " " + (varied ? cell_text(value) : table.there[row] ? for_people(value) : "missing") + " |";
+    }
     text += "\n";
   }
   return text;

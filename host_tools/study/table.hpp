@@ -29,7 +29,7 @@ Table make_table(const Plan& plan, const std::vector<Point>& points, const std::
 /// RFC 4180, with a line end after each row; numbers exact.
 std::string csv_of(const Table& table);
 
-/// For people: the varied columns and those named; numbers to four digits.
+/// For people: the varied columns, and the figures named, to four digits.
 std::string markdown_of(const Table& table, const std::vector<std::string>& y);
 
 }  // namespace torolux::study

@@ -41,11 +41,12 @@ TEST(Figures, FollowFromTheStatistics) {
 }
 
 TEST(Figures, OfACsvAreItsColumns) {
-  const auto row = row_of_csv("offered,accepted,name\n0.1,12,a\n0.2,13,b\n");
+  const auto row = row_of_csv("offered,accepted,name\n0.1,12,a\n");
   ASSERT_TRUE(row);
   EXPECT_EQ(figure(*row, nullptr, "offered"), 0.1);
   EXPECT_EQ(figure(*row, nullptr, "accepted"), 12);
   EXPECT_FALSE(row_of_csv("offered\n"));
+  EXPECT_FALSE(row_of_csv("offered\n0.1\n0.2\n")) << "several rates at once are several runs";
   EXPECT_FALSE(row_of_csv("a,b\n1\n"));
 }
 
