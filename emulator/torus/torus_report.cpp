@@ -41,7 +41,7 @@ void Torus::check_slots() const {
       const Output& out = routers_[router].outputs[port];
       const std::size_t at = index_of(opposite(static_cast<Port>(port)));
       const std::uint32_t held = routers_[neighbours_[router][port]].inputs[at].held;
-      if (out.slots + out.returns + held != buffer_) {
+      if (held > buffer_ || out.slots + out.returns + held != buffer_) {  // the sum may wrap
         throw MachineFailure("router " + std::to_string(router) + ", link " + std::to_string(port) + ": " +
                              std::to_string(out.slots) + " slots free, " + std::to_string(out.returns) +
                              " on their way back, " + std::to_string(held) + " held; the buffer has " +

@@ -140,6 +140,9 @@ std::size_t soak(unsigned columns, unsigned rows, const MachineDescription::Toru
   driver.run();
   driver.torus().check_slots();
   EXPECT_EQ(driver.torus().packets_inside(), left);
+  for (const RouterFigures& router : driver.torus().router_figures(driver.now())) {
+    for (const LinkFigures& link : router.links) EXPECT_LE(link.queue_high_water, parameters.buffer_packets);
+  }
   return left;
 }
 
