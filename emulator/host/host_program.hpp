@@ -56,6 +56,10 @@ class HostProgram {
   virtual void start(HostPort& port) = 0;
   /// Called in order of virtual time. Diverted records do not come here: the machine sends them again by itself.
   virtual void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) = 0;
+  /// Names of the kinds of records that the PEs send each other; the machine knows none of itself.
+  virtual std::span<const std::string_view> record_kinds() const { return {}; }
+  /// Which of them a record is. Called for every record that a PE sends.
+  virtual std::size_t record_kind(std::span<const std::byte> /*record*/) const { return 0; }
   /// The run ends when this is true, nothing is in flight and the FBC has drained.
   virtual bool finished() const = 0;
   /// For the deadlock report: what the program waits for.

@@ -40,6 +40,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
       signal_cycles_(setup.description.signal_cycles()) {
   cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
+  for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
   stages_.push_back({"run", network_figures(0)});
 }
 
@@ -102,6 +103,7 @@ void Emulation::command(unsigned pe) {
     case CommandKind::send_records: {
       Block& block = pool_[command.block];
       block.flits = torus_.flits(block.bytes);
+      count_kinds(block);
       torus_.inject(pe, command.block, now_);
       break;
     }

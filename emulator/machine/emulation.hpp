@@ -51,6 +51,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void begin_stage(std::string_view name) override;
   void note(HostGauge gauge, double value) override { time_line_.note(gauge, value, host_.now()); }
   void note_host_busy();
+  void count_kinds(const Block& block);
   MachineFigures network_figures(Cycles now) const;
   void fill_in_stages(MachineFigures& all, unsigned pe, const ProcessorMark& end) const;
   bool empty() const;
@@ -123,6 +124,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   TimeLine time_line_;
   Cycles bus_busy_ = 0, host_busy_ = 0;  // as far as they are in the time line
   Cycles cycles_per_pixel_;
+  std::vector<KindFigures> kinds_;
 };
 
 }  // namespace torolux

@@ -62,6 +62,14 @@ struct HostFigures {
   std::array<std::uint64_t, kHostWorks> own_cycles{};  ///< likewise, of the host's processor
 };
 
+/// Of one kind of records on the torus.
+struct KindFigures {
+  std::string name;
+  std::uint64_t packets = 0;  ///< that carry at least one
+  std::uint64_t records = 0;
+  std::uint64_t bytes = 0;  ///< of the records
+};
+
 struct StageFigures;
 
 /// Of a run, or of one stage of it.
@@ -73,6 +81,7 @@ struct MachineFigures {
   PacketFigures packets;               ///< that have left the torus
   std::uint64_t hops = 0;              ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;
+  std::vector<KindFigures> record_kinds;  ///< as the host program has them; empty: it has none
   BusFigures bus;
   HostFigures host;
   Cycles frame_buffer_busy_cycles = 0;

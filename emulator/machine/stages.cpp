@@ -41,6 +41,7 @@ void subtract(LinkFigures& from, const LinkFigures& before) {
 }
 
 void subtract(RouterFigures& from, const RouterFigures& before);
+void subtract(KindFigures& from, const KindFigures& before);
 
 template <class Range>
 void subtract_each(Range& from, const Range& before) {
@@ -81,6 +82,12 @@ void subtract(PacketFigures& from, const PacketFigures& before) {
   from.wasted_hops -= before.wasted_hops;
 }
 
+void subtract(KindFigures& from, const KindFigures& before) {
+  from.packets -= before.packets;
+  from.records -= before.records;
+  from.bytes -= before.bytes;
+}
+
 /// What the network's side counts.
 void subtract(MachineFigures& from, const MachineFigures& before) {
   from.now -= before.now;
@@ -94,6 +101,7 @@ void subtract(MachineFigures& from, const MachineFigures& before) {
   subtract(from.packets, before.packets);
   from.hops -= before.hops;
   from.link_retries -= before.link_retries;
+  subtract_each(from.record_kinds, before.record_kinds);
   subtract(from.bus, before.bus);
   from.host.busy_cycles -= before.host.busy_cycles;
   subtract_each(from.host.items, before.host.items);
@@ -116,6 +124,21 @@ void Emulation::begin_stage(std::string_view name) {
   }
   for (NiuNetworkSide& niu : nius_) niu.set_stage(static_cast<std::uint32_t>(stages_.size()));
   stages_.push_back({std::string(name), network_figures(host_.now())});
+}
+
+/// Of a packet that a PE sends.
+void Emulation::count_kinds(const Block& block) {
+  if (kinds_.empty()) return;
+  const std::size_t bytes = block.bytes / block.records;
+  std::uint64_t met = 0;  // a bit for each kind
+  for (std::size_t at = 0; at + bytes <= block.bytes; at += bytes) {
+    const std::size_t kind = program_.record_kind(block.payload().subspan(at, bytes));
+    KindFigures& figures = kinds_.at(kind);
+    ++figures.records;
+    figures.bytes += bytes;
+    if ((met >> kind & 1U) == 0) ++figures.packets;
+    met |= std::uint64_t{1} << kind;
+  }
 }
 
 /// The host's work since the last call ends where its clock is now.
@@ -144,6 +167,7 @@ MachineFigures Emulation::network_figures(Cycles now) const {
   figures.packets = torus_.packet_figures();
   figures.hops = torus_.packet_figures().hops;
   figures.link_retries = torus_.link_retries();
+  figures.record_kinds = kinds_;
   figures.bus = bus_.figures();
   figures.host = {host_.clock().busy(now), host_.clock().items(), host_.clock().own_cycles()};
   figures.frame_buffer_busy_cycles = controller_.busy_cycles();

@@ -155,6 +155,18 @@ CsvTable histograms_table(const MachineFigures& machine) {
   return table;
 }
 
+CsvTable kinds_table(const MachineFigures& machine) {
+  CsvTable table{"kinds", "stage,kind,packets,records,bytes", {}};
+  for (const StageFigures& stage : machine.stages) {
+    for (const KindFigures& kind : stage.figures.record_kinds) {
+      Line row;
+      table.rows.push_back(
+          row.add(stage.name).add(kind.name).add(kind.packets).add(kind.records).add(kind.bytes).text());
+    }
+  }
+  return table;
+}
+
 CsvTable time_line_table(const MachineFigures& machine) {
   CsvTable table{"timeline", "", {}};
   Line header;
@@ -207,6 +219,7 @@ std::vector<CsvTable> stats_tables(const MachineFigures& machine, const std::vec
   std::vector<CsvTable> tables = {stages_table(machine, rounds), pes_table(machine),   bus_table(machine),
                                   host_table(machine),           links_table(machine), histograms_table(machine),
                                   time_line_table(machine)};
+  if (!machine.record_kinds.empty()) tables.push_back(kinds_table(machine));
   if (!rounds.empty()) tables.push_back(rounds_table(rounds));
   return tables;
 }

@@ -122,6 +122,9 @@ Json machine_json(const MachineFigures& machine) {
                      {"mean_latency", mean_latency},
                      {"most_latency", packets.latency_most}};
   json["records"] = {{"diverted", sums.diverted}};
+  for (const KindFigures& kind : machine.record_kinds) {
+    json["kinds"][kind.name] = {{"packets", kind.packets}, {"records", kind.records}, {"bytes", kind.bytes}};
+  }
   json["hops"] = {{"mean", mean_hops}, {"total", machine.hops}, {"wasted", packets.wasted_hops}};
   json["torus"] = torus_json(machine);
   json["histograms"] = histograms_json(packets);

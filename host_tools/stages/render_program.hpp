@@ -41,6 +41,8 @@ class RenderProgram : public HostProgram {
   void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) override;
   bool finished() const override { return step_ == Step::finished; }
   const char* waiting_for() const override;
+  std::span<const std::string_view> record_kinds() const override;
+  std::size_t record_kind(std::span<const std::byte> record) const override;
 
   RenderProgress progress(Cycles now) const;
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given

@@ -131,6 +131,11 @@ TEST(Statistics, AddUp) {
       }
     }
     expect_time_line_adds_up(stats);
+    std::uint64_t bytes = 0;
+    for (const json& kind : stats["kinds"]) bytes += number(kind["bytes"]);
+    EXPECT_EQ(bytes, sum_of(stats["histograms"]["bytes_by_hops"])) << "every record has a kind";
+    EXPECT_GT(number(stats["kinds"]["light"]["records"]), 0U);
+    EXPECT_GT(number(stats["kinds"]["ray"]["records"]), 0U);
     std::uint64_t records = 0;
     for (const json& round : stats["rounds"]) records += number(round["records"]);
     EXPECT_EQ(records + number(stats["rays"]), number(stats["records"]["created"]));

@@ -86,6 +86,7 @@ inline RenderFigures whole_figures() {
   machine.packets.by_hops = {10, 20};
   machine.packets.bytes_by_hops = {100, 200};
   machine.packets.by_latency[3] = 30;
+  machine.record_kinds = {{"light", 1, 2, 128}};
   machine.bus.from_pe.resize(2);
   machine.bus.to_pe.resize(2);
   machine.time_line = {1024, {TimeSlice{}}};

@@ -151,7 +151,7 @@ TEST(Stats, AreThoseOfThePage) {
 TEST(StatsTables, HaveTheirHeadersColumns) {
   const RenderFigures figures = testing_support::whole_figures();
   const std::vector<CsvTable> tables = stats_tables(figures.machine, figures.rounds);
-  EXPECT_EQ(tables.size(), 8U);
+  EXPECT_EQ(tables.size(), 9U);
   for (const CsvTable& table : tables) {
     const auto commas = std::count(table.header.begin(), table.header.end(), ',');
     EXPECT_FALSE(table.rows.empty()) << table.name;
