@@ -60,7 +60,8 @@ void HostActor::queue_for(PeNumber pe, BlockIndex index) {
   events_.push(clock_.now(), source_, EventKind::host_queue, pe, 0, index);
 }
 
-void HostActor::start() {
+void HostActor::start(HostClient& client) {
+  client_ = &client;
   program_.start(*this);
 }
 

@@ -19,6 +19,14 @@
 
 namespace torolux {
 
+/// Who counts what the host's program tells of itself, by the host's clock.
+class HostClient {
+ public:
+  virtual ~HostClient() = default;
+  virtual void begin_stage(std::string_view name) = 0;
+  virtual void note(HostGauge gauge, double value) = 0;
+};
+
 /// All that the host does it does one after the other, by its own clock; the bus takes what it has made meanwhile.
 class HostActor final : public HostPort {
  public:
@@ -31,10 +39,12 @@ class HostActor final : public HostPort {
   void work(HostWork what, std::uint64_t items) override { clock_.work(what, items); }
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override;
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override;
+  void begin_stage(std::string_view name) override { client_->begin_stage(name); }
+  void note(HostGauge gauge, double value) override { client_->note(gauge, value); }
   std::size_t queued(PeNumber pe) const override { return lines_[pe].made; }
 
   // ---- The machine's side ----
-  void start();
+  void start(HostClient& client);
   /// A message or diverted records have come over the bus.
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
@@ -79,6 +89,7 @@ class HostActor final : public HostPort {
   void update(unsigned pe);
   void schedule_step(Cycles now);
 
+  HostClient* client_ = nullptr;
   HostClock clock_;
   HostProgram& program_;
   EventQueue& events_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "emulator/host/host_work.hpp"
@@ -17,6 +18,15 @@ namespace torolux {
 using protocol::PeNumber;
 using Cycles = std::uint64_t;  ///< virtual time
 
+/// What only a host program knows of the run.
+enum class HostGauge : std::uint8_t {
+  records_in_flight,  ///< credits that are not at home
+  unshot,             ///< of the emitted flux, as of the last selection
+  count
+};
+inline constexpr std::size_t kHostGauges = static_cast<std::size_t>(HostGauge::count);
+inline constexpr std::array<std::string_view, kHostGauges> kHostGaugeNames = {"records_in_flight", "unshot"};
+
 /// What a host program may do. Sends never block: they queue in host memory, in order for each PE, and the bus takes
 /// them as the PE has room (a control buffer, or reserved record slots). A message sent or taken in costs the host's
 /// clock by itself (HostWork::message and copy); all else that a program computes it must say.
@@ -25,6 +35,11 @@ class HostPort {
   virtual ~HostPort() = default;
   virtual Cycles now() const = 0;
   virtual unsigned pes() const = 0;
+  /// From now on all counts are this stage's; the first call names the one that has begun with the run. Where nothing
+  /// is in flight. Throws MachineFailure beyond kMostStages.
+  virtual void begin_stage(std::string_view name) = 0;
+  /// From now on the gauge has this value. For the time line; costs nothing.
+  virtual void note(HostGauge gauge, double value) = 0;
   /// Moves the host's clock: so many items of this have been done.
   virtual void work(HostWork what, std::uint64_t items) = 0;
   /// kind: MessageKind. contents: up to kMostMessageBytes, copied.
@@ -41,6 +56,10 @@ class HostProgram {
   virtual void start(HostPort& port) = 0;
   /// Called in order of virtual time. Diverted records do not come here: the machine sends them again by itself.
   virtual void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) = 0;
+  /// Names of the kinds of records that the PEs send each other; the machine knows none of itself.
+  virtual std::span<const std::string_view> record_kinds() const { return {}; }
+  /// Which of them a record is. Called for every record that a PE sends.
+  virtual std::size_t record_kind(std::span<const std::byte> /*record*/) const { return 0; }
   /// The run ends when this is true, nothing is in flight and the FBC has drained.
   virtual bool finished() const = 0;
   /// For the deadlock report: what the program waits for.

@@ -38,7 +38,11 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, setup.frame_layers, events_,
                   2 * pes_ + 2, pool_),
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
-      signal_cycles_(setup.description.signal_cycles()) {}
+      signal_cycles_(setup.description.signal_cycles()) {
+  cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
+  for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
+  stages_.push_back({"run", network_figures(0)});
+}
 
 void Emulation::handle(const Event& event) {
   switch (event.kind) {
@@ -83,6 +87,7 @@ void Emulation::handle(const Event& event) {
       break;
     case EventKind::host_step:
       host_.step();
+      note_host_busy();
       break;
     case EventKind::pixels_done:
       pixels_done(event.block);
@@ -98,6 +103,7 @@ void Emulation::command(unsigned pe) {
     case CommandKind::send_records: {
       Block& block = pool_[command.block];
       block.flits = torus_.flits(block.bytes);
+      count_kinds(block);
       torus_.inject(pe, command.block, now_);
       break;
     }
@@ -209,6 +215,7 @@ bool Emulation::accept(unsigned pe, BlockIndex block) {
 void Emulation::deliver(unsigned pe, BlockIndex block) {
   if (pool_[block].copy != Copy::good) return drop(pe, block);
   ++parts_[pe].packets_delivered;
+  time_line_.delivered(now_);
   if (parts_[pe].diverting != block) return copy_in(pe, block, false);
   bus_.request(BusRequester::divert(pe), BusRequest::room, now_);
 }
@@ -270,6 +277,9 @@ BusSend Emulation::take(BusRequester requester) {
 }
 
 void Emulation::bus_done(BlockIndex index) {
+  const Cycles bus_busy = bus_.figures().busy_cycles();  // one transfer at a time: the rest is this one's
+  time_line_.bus_was_busy(now_ - (bus_busy - bus_busy_), now_);
+  bus_busy_ = bus_busy;
   const Block& block = pool_[index];
   const unsigned from = block.source;
   const unsigned to = block.destination;
@@ -294,6 +304,8 @@ void Emulation::bus_done(BlockIndex index) {
 }
 
 void Emulation::pixels_done(BlockIndex block) {
+  const Cycles pixels = pool_[block].bytes / sizeof(protocol::PixelAdd);
+  time_line_.frame_buffer_was_busy(now_ - pixels * cycles_per_pixel_, now_);
   controller_.add_pixels(block);
   bus_.free_place(now_);
 }

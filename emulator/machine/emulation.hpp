@@ -12,6 +12,7 @@
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
 #include "emulator/machine/machine.hpp"
+#include "emulator/machine/time_line.hpp"
 #include "emulator/niu/network_side.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
@@ -20,7 +21,7 @@
 namespace torolux {
 
 /// Single-threaded. PEs run elsewhere, or when it asks their engine to; they meet it in their channels only.
-class Emulation final : private TorusClient, private BusClient {
+class Emulation final : private TorusClient, private BusClient, private HostClient {
  public:
   /// channels: zeroed, one per PE. image: for messages about faults. All references outlive this.
   Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image, Engine& engine,
@@ -46,7 +47,13 @@ class Emulation final : private TorusClient, private BusClient {
   void await(unsigned pe, Cycles wanted);
   void attend_now_and_then();
   bool settled(unsigned pe);
-  void fill_in(PeFigures& figures, unsigned pe);
+  // Figures (stages.cpp)
+  void begin_stage(std::string_view name) override;
+  void note(HostGauge gauge, double value) override { time_line_.note(gauge, value, host_.now()); }
+  void note_host_busy();
+  void count_kinds(const Block& block);
+  MachineFigures network_figures(Cycles now) const;
+  void fill_in_stages(MachineFigures& all, unsigned pe, const ProcessorMark& end) const;
   bool empty() const;
   std::string deadlock_report() const;
   std::string report_of(unsigned pe) const;
@@ -107,6 +114,17 @@ class Emulation final : private TorusClient, private BusClient {
   double slept_ = 0;
   Cycles now_ = 0;
   std::uint64_t trace_hash_ = 0;
+  /// Stages of the host's program so far; before: what the network's side had counted when it began.
+  struct Stage {
+    std::string name;
+    MachineFigures before;
+  };
+  std::vector<Stage> stages_;
+  bool begun_ = false;  // the program has named the first
+  TimeLine time_line_;
+  Cycles bus_busy_ = 0, host_busy_ = 0;  // as far as they are in the time line
+  Cycles cycles_per_pixel_;
+  std::vector<KindFigures> kinds_;
 };
 
 }  // namespace torolux

@@ -101,10 +101,7 @@ struct Machine::Parts {
   bool running = false;
   double begin_wall = 0, begin_scheduler = 0, begin_process = 0, begin_children = 0;
 
-  void fill_in_figures() {
-    emulation->fill_in(figures);
-    figures.trace_hash = emulation->trace_hash();
-  }
+  void fill_in_figures() { emulation->fill_in(figures); }
   /// The emulator's own CPU time is the calling thread's, but for PEs that it ran; all other is the engine's. A clock
   /// of CPU time is too slow to be read each time: of what the thread had, PEs had the same share as of wall time.
   void measure(MachineFigures& out) const {

@@ -15,6 +15,7 @@
 #include "emulator/engines/image.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/machine/description.hpp"
+#include "emulator/machine/time_line.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/torus/figures.hpp"
 #include "firmware/protocol/hints.hpp"
@@ -35,9 +36,11 @@ struct MachineSetup {
 };
 
 struct PeFigures {
+  Cycles begin = 0;        ///< 0, or that of the stage
+  Cycles cycles = 0;       ///< its length: busy + waits + idle at the end
   Cycles busy_cycles = 0;  ///< executing instructions
   WaitCycles waits{};      ///< waiting in HINTs, by WaitReason
-  Cycles idle_at_end = 0;  ///< from the last thing that it did to the end of the run; busy + waits + this = now
+  Cycles idle_at_end = 0;  ///< from the last thing that it did to the end of the run
   bool halted = false;     ///< its program has ended
   std::uint64_t instructions = 0;
   std::uint64_t packets_sent = 0;       ///< to the torus
@@ -59,6 +62,17 @@ struct HostFigures {
   std::array<std::uint64_t, kHostWorks> own_cycles{};  ///< likewise, of the host's processor
 };
 
+/// Of one kind of records on the torus.
+struct KindFigures {
+  std::string name;
+  std::uint64_t packets = 0;  ///< that carry at least one
+  std::uint64_t records = 0;
+  std::uint64_t bytes = 0;  ///< of the records
+};
+
+struct StageFigures;
+
+/// Of a run, or of one stage of it.
 struct MachineFigures {
   Cycles now = 0;                ///< virtual time at which nothing happens any more: event, PE or host
   std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
@@ -67,16 +81,27 @@ struct MachineFigures {
   PacketFigures packets;               ///< that have left the torus
   std::uint64_t hops = 0;              ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;
+  std::vector<KindFigures> record_kinds;  ///< as the host program has them; empty: it has none
   BusFigures bus;
   HostFigures host;
   Cycles frame_buffer_busy_cycles = 0;
   std::uint32_t frame_buffer_high_water = 0;  ///< messages in its queue
   Cycles frame_buffer_message_cycles = 0;     ///< summed over messages: in the queue or being added
   std::uint64_t pixels_added = 0;
-  double scheduler_seconds = 0;  ///< host CPU time that the emulator itself used
-  double engine_seconds = 0;     ///< host CPU time of the engine (all its processes or threads)
+  double scheduler_seconds = 0;      ///< host CPU time that the emulator itself used
+  double engine_seconds = 0;         ///< host CPU time of the engine (all its processes or threads)
+  TimeLineFigures time_line;         ///< of a run
+  std::vector<StageFigures> stages;  ///< of a run: stages of the host's program, one behind the other
 
   std::uint64_t instructions() const;  ///< of all PEs
+};
+
+/// The network's side, the host too, is in a stage from when the host begins it until it begins the next one; a PE,
+/// from its first arrival of the stage on. So lengths, and all counts, add up to those of the run on either side.
+struct StageFigures {
+  std::string name;
+  Cycles begin = 0;        ///< by the host's clock
+  MachineFigures figures;  ///< of the stage alone, `now` its length; high-water marks: of the run up to its end
 };
 
 class Machine {

@@ -80,7 +80,8 @@ bool Emulation::next_event(Event& event) {
 
 void Emulation::run(const std::function<void(Cycles)>& attend) {
   attend_ = attend;
-  host_.start();
+  host_.start(*this);
+  note_host_busy();
   Event event{};
   while (next_event(event)) {
     if (event.time < now_) {  // only a wrong bound can do that
@@ -116,51 +117,6 @@ bool Emulation::empty() const {
 bool Emulation::settled(unsigned pe) {
   nius_[pe].refresh(events_, pool_, times_);
   return nius_[pe].waits_for() != WaitKind::running;
-}
-
-void Emulation::fill_in(PeFigures& out, unsigned pe) {
-  const NiuChannel& channel = nius_[pe].channel();
-  for (std::size_t i = 0; i < kWaitReasons; ++i) out.waits[i] = channel.waits[i].load(std::memory_order_relaxed);
-  out.busy_cycles = channel.clock.load(std::memory_order_acquire) - waited_cycles(channel);
-  out.halted = nius_[pe].waits_for() == WaitKind::halted;
-  out.instructions = channel.instructions.load(std::memory_order_relaxed);
-  out.packets_sent = parts_[pe].packets_sent;
-  out.packets_delivered = parts_[pe].packets_delivered;
-  out.records_diverted = host_.records_diverted(pe);
-  out.record_slots_high_water = nius_[pe].slots_high_water();
-  out.copy_out_cycles = channel.copied.load(std::memory_order_relaxed);
-  out.copy_in_cycles = nius_[pe].copy_in_cycles();
-  out.receive_buffers_high_water = nius_[pe].receive_buffers_high_water();
-  for (std::size_t i = 0; i < out.phase_cycles.size(); ++i) {
-    out.phase_cycles[i] = channel.phase_cycles[i].load(std::memory_order_relaxed);
-  }
-  if (channel.processor.phase_depth != 0) {  // what the open phase has had since the last marker
-    const std::uint8_t open = channel.processor.phases[channel.processor.phase_depth - 1];
-    out.phase_cycles[open] += out.busy_cycles - channel.processor.phase_begin;
-  }
-}
-
-void Emulation::fill_in(MachineFigures& figures) {
-  figures.now = std::max(now_, host_.now());
-  figures.pes.assign(pes_, {});
-  for (unsigned pe = 0; pe < pes_; ++pe) {
-    while (!settled(pe)) await(pe, kNever);
-    fill_in(figures.pes[pe], pe);
-    figures.now = std::max(figures.now, nius_[pe].channel().clock.load(std::memory_order_relaxed));
-  }
-  for (unsigned pe = 0; pe < pes_; ++pe) {
-    figures.pes[pe].idle_at_end = figures.now - nius_[pe].channel().clock.load(std::memory_order_relaxed);
-  }
-  figures.routers = torus_.router_figures(now_);
-  figures.packets = torus_.packet_figures();
-  figures.hops = torus_.packet_figures().hops;
-  figures.link_retries = torus_.link_retries();
-  figures.bus = bus_.figures();
-  figures.host = {host_.clock().busy(figures.now), host_.clock().items(), host_.clock().own_cycles()};
-  figures.frame_buffer_busy_cycles = controller_.busy_cycles();
-  figures.frame_buffer_high_water = controller_.high_water();
-  figures.frame_buffer_message_cycles = controller_.message_cycles();
-  figures.pixels_added = controller_.pixels_added();
 }
 
 // ---- Deadlock ----

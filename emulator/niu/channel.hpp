@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "emulator/niu/byte_ring.hpp"
+#include "emulator/time/slices.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -44,6 +46,8 @@ enum class WaitReason : std::uint8_t {
   count
 };
 inline constexpr std::size_t kWaitReasons = static_cast<std::size_t>(WaitReason::count);
+inline constexpr std::array<std::string_view, kWaitReasons> kWaitReasonNames = {"arrivals", "torus_place", "bus_place",
+                                                                                "copy"};
 using WaitCycles = std::array<std::uint64_t, kWaitReasons>;  ///< by WaitReason
 
 /// Size of the rings between the two sides. The more there is room, the further a processor runs ahead of the network.
@@ -116,7 +120,7 @@ struct Arrival {
   std::uint16_t count;         ///< records
   std::uint16_t message_kind;  ///< message
   std::uint32_t bytes;         ///< of the payload: records or contents
-  std::uint32_t unused;
+  std::uint32_t stage;         ///< of the host's program, counted from 0, when it came
 };
 static_assert(sizeof(Arrival) == 24);
 
@@ -151,6 +155,18 @@ struct Departures {
   }
 };
 
+/// Most stages of a host's program.
+inline constexpr std::uint32_t kMostStages = 8;
+
+/// What a processor has done up to some moment; the difference of two is what it has done between them.
+struct ProcessorMark {
+  std::uint64_t clock;
+  std::uint64_t instructions;
+  std::uint64_t copied;  ///< as in the channel, like the two that follow
+  WaitCycles waits;
+  std::array<std::uint64_t, protocol::kPhases> phase_cycles;
+};
+
 /// What only the processor's side uses; here so that its owner may be any engine.
 struct ProcessorState {
   std::uint64_t last_command;   ///< time of the last command
@@ -161,8 +177,12 @@ struct ProcessorState {
   std::uint32_t gathered;       ///< records of them so far
   std::uint64_t last_hint;      ///< clock at the end of the last HINT
   std::uint64_t phase_begin;    ///< busy cycles at the last marker
+  std::uint32_t stage;          ///< of the last arrival taken
   std::uint32_t phase_depth;
   std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
+  std::uint64_t busy_since;                            ///< clock at the end of the last wait
+  Slices<std::uint64_t> busy;                          ///< busy cycles over time, up to that
+  std::array<ProcessorMark, kMostStages> marks;        ///< when its first arrival of each stage had been taken
   std::uint32_t slots_address, slot_bytes, own_slots, niu_slots;
   std::uint32_t slots_free;
   std::uint16_t first_free;                            ///< index of a NIU slot, counted from own_slots

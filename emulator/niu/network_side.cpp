@@ -256,25 +256,26 @@ void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, PeTi
   }
   gathered_.push_back({now, block.records});
   if (overflow_.empty() && channel_->arrivals.has_room(block.bytes)) {
-    push_arrival(block, now);
+    push_arrival(block, now, stage_);
     pool.give_back(index);
   } else {
-    overflow_.push_back({now, index});
+    overflow_.push_back({now, stage_, index});
   }
   set_times(times);
   if (says() == WaitKind::poll) wake_processor();
 }
 
-void NiuNetworkSide::push_arrival(const Block& block, Cycles time) {
+void NiuNetworkSide::push_arrival(const Block& block, Cycles time, std::uint32_t stage) {
   const auto kind = block.records != 0 ? protocol::ArrivalKind::records : protocol::ArrivalKind::message;
   channel_->arrivals.push(
-      {time, static_cast<std::uint16_t>(kind), block.source, block.records, block.message_kind, 0, 0}, block.payload());
+      {time, static_cast<std::uint16_t>(kind), block.source, block.records, block.message_kind, 0, stage},
+      block.payload());
 }
 
 void NiuNetworkSide::refill(BlockPool& pool) {
   bool any = false;
   while (!overflow_.empty() && channel_->arrivals.has_room(pool[overflow_.front().block].bytes)) {
-    push_arrival(pool[overflow_.front().block], overflow_.front().time);
+    push_arrival(pool[overflow_.front().block], overflow_.front().time, overflow_.front().stage);
     pool.give_back(overflow_.front().block);
     overflow_.pop_front();
     any = true;

@@ -92,6 +92,9 @@ class NiuNetworkSide {
   void left_torus_queue(Cycles when, PeTimes& times) { left(channel_->torus_departures, when, times); }
   void left_bus_queue(Cycles when, PeTimes& times) { left(channel_->bus_departures, when, times); }
 
+  /// What comes from now on belongs to this stage of the host's program.
+  void set_stage(std::uint32_t stage) { stage_ = stage; }
+
   const NiuChannel& channel() const { return *channel_; }
   /// Whether all that was delivered has been taken, as of the last refresh.
   bool nothing_gathered() const { return gathered_.empty(); }
@@ -99,7 +102,7 @@ class NiuNetworkSide {
  private:
   void drain(EventQueue& events, BlockPool& pool);
   void refill(BlockPool& pool);
-  void push_arrival(const Block& block, Cycles time);
+  void push_arrival(const Block& block, Cycles time, std::uint32_t stage);
   void left(Departures& departures, Cycles when, PeTimes& times);
   void wake_processor();
   void signal_processor();
@@ -109,6 +112,7 @@ class NiuNetworkSide {
 
   struct Overflow {
     Cycles time;
+    std::uint32_t stage;
     BlockIndex block;
   };
 
@@ -127,6 +131,7 @@ class NiuNetworkSide {
   std::uint64_t taken_ = 0;
   std::uint64_t wakes_ = 0;        // as in the channel
   std::deque<Gathered> gathered_;  // numbers taken_ and up
+  std::uint32_t stage_ = 0;
   std::uint32_t sends_ = 0;
   std::uint32_t slots_ = 0, used_ = 0, high_water_ = 0;
   std::uint32_t control_buffers_, control_used_ = 0;

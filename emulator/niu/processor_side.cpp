@@ -46,6 +46,7 @@ class HintRun {
   bool execute(Hint hint);
   std::uint64_t clock() const { return clock_; }
   const WaitCycles& waited() const { return waited_; }  ///< clock() - the clock at the beginning, by reason
+  std::uint32_t stage() const { return stage_; }        ///< of the last arrival taken
   bool must_stop() const { return stop_; }
 
  private:
@@ -99,6 +100,7 @@ class HintRun {
   std::uint64_t clock_;
   WaitCycles waited_{};
   NiuProcessorSide::Waiting waiting_;
+  std::uint32_t stage_ = channel_.processor.stage;
   bool later_ = false;
   bool stop_ = false;
 };
@@ -369,6 +371,7 @@ void HintRun::take_nothing() {
 
 void HintRun::take(const Arrival& arrival) {
   state_.gathered += arrival.count;
+  stage_ = arrival.stage;
   const bool ends = arrival.count == 0 || state_.gathered >= window_.gather.records;
   if (ends) state_.gather_end = 0;
   window_.arrival.kind = static_cast<protocol::ArrivalKind>(arrival.kind);
@@ -426,6 +429,10 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     window.retry = 1;
     return {retry, clock};
   }
+  if (run.clock() != clock) {
+    channel_.processor.busy.add_interval(channel_.processor.busy_since, clock, 1);
+    channel_.processor.busy_since = run.clock();
+  }
   for (std::size_t i = 0; i < kWaitReasons; ++i) {
     const std::uint64_t cycles = run.waited()[i];
     if (cycles == 0) continue;
@@ -433,6 +440,7 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
   }
   channel_.clock.store(run.clock(), std::memory_order_relaxed);
   channel_.processor.last_hint = run.clock();
+  if (run.stage() != channel_.processor.stage) begin_stage(channel_, run.stage());
   window.retry = 0;
   // The next HINT ends at least one cycle later.
   publish_bound(channel_, std::max(run.clock() + kCommandCycles + 1, channel_.processor.last_command),

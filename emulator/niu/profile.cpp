@@ -51,4 +51,26 @@ bool mark_phase(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock
   return false;
 }
 
+ProcessorMark mark_of(const NiuChannel& channel) {
+  constexpr auto relaxed = std::memory_order_relaxed;
+  ProcessorMark mark{};
+  mark.clock = channel.clock.load(relaxed);
+  mark.instructions = channel.instructions.load(relaxed);
+  mark.copied = channel.copied.load(relaxed);
+  for (std::size_t i = 0; i < kWaitReasons; ++i) mark.waits[i] = channel.waits[i].load(relaxed);
+  for (std::size_t i = 0; i < protocol::kPhases; ++i) mark.phase_cycles[i] = channel.phase_cycles[i].load(relaxed);
+  const ProcessorState& state = channel.processor;
+  if (state.phase_depth != 0) {  // what the open phase has had since the last marker
+    const std::uint64_t busy = mark.clock - waited_cycles(channel);
+    mark.phase_cycles[state.phases[state.phase_depth - 1]] += busy - state.phase_begin;
+  }
+  return mark;
+}
+
+void begin_stage(NiuChannel& channel, std::uint32_t stage) {
+  ProcessorState& state = channel.processor;
+  const ProcessorMark mark = mark_of(channel);
+  while (state.stage < stage) state.marks[++state.stage] = mark;
+}
+
 }  // namespace torolux

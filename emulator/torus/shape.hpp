@@ -5,12 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace torolux {
 
 /// Ports of a router. Data leave east by the east output and enter the neighbour's west input.
 enum class Port : std::uint8_t { east, west, south, north, local };
 inline constexpr std::size_t kPorts = 5;
+inline constexpr std::array<std::string_view, 4> kLinkNames = {"east", "west", "south", "north"};
 inline constexpr std::size_t kLinks = 4;
 constexpr std::size_t index_of(Port port) {
   return static_cast<std::size_t>(port);

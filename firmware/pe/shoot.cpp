@@ -139,10 +139,11 @@ void create_record(Pe& pe, Niu& niu) {
 /// Credits that were not needed go home before the shot is reported done.
 void end_shot(Pe& pe, Niu& niu) {
   pe.shot.active = false;
+  const protocol::ShotDone done{pe.shot.granted - pe.shot.credits};
   if (pe.shot.credits > 0) pe.homecoming.add_credits(niu, pe.shot.credits);
   pe.shot.credits = 0;
   pe.homecoming.flush(niu);
-  niu.send(protocol::MessageKind::shot_done);
+  niu.send(protocol::MessageKind::shot_done, done);
 }
 
 }  // namespace
@@ -157,6 +158,7 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   shot.active = true;
   shot.point = 0;
   shot.credits = 0;
+  shot.granted = 0;
   begin_points(pe.scene, shot);
   begin_point(pe);
   if (!next_pixel(pe)) end_shot(pe, niu);
@@ -169,6 +171,7 @@ void grant_credits(Pe& pe, Niu& niu, std::uint32_t credits) {
     return;
   }
   pe.shot.credits += credits;
+  pe.shot.granted += credits;
   while (pe.shot.credits > 0) {
     --pe.shot.credits;
     create_record(pe, niu);

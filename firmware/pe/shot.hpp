@@ -28,6 +28,7 @@ struct Shot {
   std::uint32_t grid = 0;     ///< k: k * k points
   std::uint32_t key = 0;      ///< of its random numbers
   std::uint32_t credits = 0;  ///< granted and not used yet
+  std::uint32_t granted = 0;  ///< in all
   // Of the points: each stands for an equal part of what the facets would send, one behind the other.
   bool by_area = false;    ///< facets send by their area alone
   glm::vec3 all{};         ///< what all of them would send

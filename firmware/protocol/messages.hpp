@@ -25,7 +25,7 @@ enum class MessageKind : std::uint16_t {
   // PE -> host
   ready,       ///< nothing follows
   candidates,  ///< Candidates
-  shot_done,   ///< nothing follows; grants not used up come back in a `credits` message before it
+  shot_done,   ///< ShotDone; grants not used up come back in a `credits` message before it
   credits,     ///< Credits that have come home
   data,        ///< LoadBlock, then its bytes
   tally,       ///< Tally
@@ -80,6 +80,10 @@ static_assert(sizeof(Shoot) == 40);
 
 struct Grant {
   std::uint32_t credits;
+};
+
+struct ShotDone {
+  std::uint32_t records;  ///< that the shot has made
 };
 
 struct Credits {

@@ -12,6 +12,7 @@
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/files/write_file.hpp"
+#include "host_tools/report/csv.hpp"
 #include "host_tools/report/figures.hpp"
 #include "host_tools/report/progress_line.hpp"
 
@@ -22,6 +23,7 @@ namespace {
 void check_results_writable(const Settled& settled, const RenderOptions& options) {
   for (const auto& file : settled.outputs) check_layers_writable(file, settled.quality.layers);
   if (options.stats) check_file_writable(*options.stats);
+  if (options.stats_csv) check_stats_folder(*options.stats_csv);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
   if (options.save_mesh) check_file_writable(*options.save_mesh);
 }
@@ -57,6 +59,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
   std::string statistics = stats_json(prepared.run, result.figures);
   if (options.stats) write_file(*options.stats, statistics);
+  if (options.stats_csv) write_stats_tables(*options.stats_csv, result.figures.machine, result.figures.rounds);
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
   return {0, std::move(statistics)};
 }

@@ -117,6 +117,9 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       ->group(group);
   add_tone_options(command, options.tone, group);
   path("--stats", "Statistics of the run, as JSON", options.stats);
+  command.add_option("--stats-csv", options.stats_csv, "The same as tables (.csv), into this folder")
+      ->type_name("FOLDER")
+      ->group(group);
   path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);
   path("--save-mesh", "The solved elements with the radiosity at their corners, as .ply", options.save_mesh);
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",

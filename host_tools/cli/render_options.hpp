@@ -45,7 +45,7 @@ struct RenderOptions {
   bool no_picture = false;
   ToneOptions tone;
   LayerSet layers = 0;
-  std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats;
+  std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv;
   bool quiet = false;
 
   // The view.

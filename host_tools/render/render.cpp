@@ -39,8 +39,9 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
   const StageTimes& times = program.times();
   figures.radiosity_cycles = times.radiosity - times.loaded;
   figures.load_cycles = times.loaded + (times.loaded_again - times.radiosity);
-  figures.ray_tracing_cycles = times.ray_tracing - times.loaded_again;
   figures.machine = machine.figures();
+  figures.ray_tracing_cycles = figures.machine.now - times.loaded_again;  // until the last pixel has been added
+  figures.rounds = program.rounds();
   figures.shots = program.shots();
   figures.rays = program.rays();
   figures.credits_total = setup.credits;

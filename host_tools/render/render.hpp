@@ -15,6 +15,7 @@
 #include "host_tools/picture/picture.hpp"
 #include "host_tools/scene/scene.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
+#include "host_tools/stages/rounds.hpp"
 
 namespace torolux {
 
@@ -80,6 +81,7 @@ struct EnergyBalance {
 struct RenderFigures {
   Cycles load_cycles = 0, radiosity_cycles = 0, ray_tracing_cycles = 0;  ///< of each stage
   MachineFigures machine;
+  std::vector<RoundFigures> rounds;  ///< of the radiosity stage
   EnergyBalance energy;
   std::uint64_t shots = 0;  ///< patches shot
   std::uint64_t radiosity_records = 0;

@@ -7,6 +7,7 @@
 
 #include "emulator/machine/network_memory.hpp"
 #include "host_tools/report/figures.hpp"
+#include "host_tools/report/limits.hpp"
 #include "host_tools/report/text.hpp"
 
 namespace torolux {
@@ -65,6 +66,18 @@ std::string load_table(const MachineFigures& machine) {
          line("  record slots used",
               spread_of(pes, [](const PeFigures& pe) { return static_cast<double>(pe.record_slots_high_water); }),
               count);
+}
+
+/// One line for each stage: its length, what the PEs did in it, and what bounds it.
+std::string limits_table(const RenderFigures& figures) {
+  std::string text;
+  for (const StageFigures& stage : figures.machine.stages) {
+    const Limits limits = limits_of(stage, figures.rounds);
+    std::string name = stage.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += left("  " + name, kLabel) + "  " + limit_text(limits) + "\n";
+  }
+  return text.empty() ? text : "what bounds each stage\n" + text;
 }
 
 std::string traffic(const RenderFigures& figures) {
@@ -132,7 +145,8 @@ std::string summary(const RunDescription& run, const RenderFigures& figures) {
   const NetworkMemory network = network_memory(run.machine.description);
   text += left("network memory", kLabel) + "  NIU " + bytes_text(network.niu()) + ", router " +
           bytes_text(network.router()) + " of each PE\n";
-  text += stages_table(run, figures) + load_table(figures.machine) + traffic(figures) + energy_table(figures.energy);
+  text += stages_table(run, figures) + load_table(figures.machine) + limits_table(figures) + traffic(figures) +
+          energy_table(figures.energy);
   return text + left("wall time", kLabel) + "  " + duration(figures.wall_seconds) + "\n";
 }
 

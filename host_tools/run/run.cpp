@@ -7,6 +7,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/niu_window.hpp"
+#include "host_tools/report/machine_json.hpp"
 #include "host_tools/report/settings_json.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/version.hpp"
@@ -81,31 +82,14 @@ std::string run_stats_json(const MachineSetup& setup, const InputFile& image, co
   json["version"] = kVersion;
   json["engine"] = setup.engine;
   json["virtual_cycles"] = {{"total", figures.now}};
-  std::uint64_t sent = 0;
-  std::uint64_t delivered = 0;
-  std::uint64_t diverted = 0;
-  Json pes = Json::array();
-  for (const PeFigures& pe : figures.pes) {
-    sent += pe.packets_sent;
-    delivered += pe.packets_delivered;
-    diverted += pe.records_diverted;
-    pes.push_back({{"busy_cycles", pe.busy_cycles},
-                   {"idle_cycles", pe.idle_cycles()},
-                   {"instructions", pe.instructions},
-                   {"record_slots_high_water", pe.record_slots_high_water},
-                   {"packets_sent", pe.packets_sent},
-                   {"packets_delivered", pe.packets_delivered},
-                   {"records_diverted", pe.records_diverted}});
-  }
-  json["packets"] = {{"sent", sent}, {"delivered", delivered}, {"link_retries", figures.link_retries}};
-  json["records"] = {{"diverted", diverted}};
-  json["hops"] = {{"mean", delivered > 0 ? static_cast<double>(figures.hops) / static_cast<double>(delivered) : 0},
-                  {"total", figures.hops}};
-  json["bus"] = {{"busy_cycles", figures.bus.busy_cycles()}, {"messages", figures.bus.transfers}};
+  json.update(machine_json(figures));
   json["trace_hash"] = hexadecimal(figures.trace_hash);
   json["settings"] = settings_json(setup, image);
   json["command_line"] = command_line_of(json["settings"]);
-  json["pes"] = std::move(pes);
+  json["stages"] = stages_json(figures, {});
+  json["time_line"] = time_line_json(figures.time_line);
+  json["links"] = links_json(figures);
+  json["pes"] = pes_json(figures.pes);
   json["wall_seconds"] = wall_seconds;
   json["host"] = {{"threads", setup.threads},
                   {"scheduler_seconds", figures.scheduler_seconds},

@@ -7,6 +7,7 @@
 
 #include "host_tools/cli/command.hpp"
 #include "host_tools/files/write_file.hpp"
+#include "host_tools/report/csv.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/run/run.hpp"
 #include "host_tools/run/run_options.hpp"
@@ -31,6 +32,9 @@ RunEnd run_prepared(const RunOptions& options) {
   if (options.stats) {
     check_file_writable(*options.stats);
   }
+  if (options.stats_csv) {
+    check_stats_folder(*options.stats_csv);
+  }
   const InputFile image_file{"image", options.image, sha256_of_file(options.image)};
   const auto begin = std::chrono::steady_clock::now();
   const auto print = [](const PeText& text) {
@@ -44,6 +48,9 @@ RunEnd run_prepared(const RunOptions& options) {
   std::string statistics = run_stats_json(setup, image_file, figures, wall_seconds);
   if (options.stats) {
     write_file(*options.stats, statistics);
+  }
+  if (options.stats_csv) {
+    write_stats_tables(*options.stats_csv, figures, {});
   }
   if (!options.quiet) {
     print_summary(setup, figures, wall_seconds);

@@ -48,6 +48,8 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));
   command.add_option("--stats", options.stats, "Statistics of the run, as JSON")->type_name("FILE");
+  command.add_option("--stats-csv", options.stats_csv, "The same as tables (.csv), into this folder")
+      ->type_name("FOLDER");
   command.add_flag("--quiet", options.quiet, "No summary; only what the PEs say");
 }
 

@@ -49,6 +49,8 @@ void RadiosityPhase::select(HostPort& port) {
   answers_ = 0;
   unshot_ = 0;
   candidates_.clear();
+  rounds_.push_back({});
+  rounds_.back().begin = port.now();
   const protocol::Select message{settings_.shooters, 0, settings_.least_unshot};
   for (unsigned pe = 0; pe < settings_.pes; ++pe) {
     torolux::send(port, static_cast<PeNumber>(pe), MessageKind::select, message);
@@ -67,6 +69,8 @@ void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kin
     end_round_if_over(port);
   } else if (state_ == State::shooting && kind == MessageKind::shot_done) {
     port.work(HostWork::entry, shooting_.size());
+    rounds_.back().records += contents_as<protocol::ShotDone>(contents).records;
+    rounds_.back().last_shot_done = port.now();
     std::erase(shooting_, source);
     if (!waiting_[source].empty()) begin_shot(port, source);
     grant(port);
@@ -101,13 +105,21 @@ void RadiosityPhase::begin_round(HostPort& port) {
   std::uint64_t most = settings_.shooters;
   if (settings_.max_shots > 0) most = std::min<std::uint64_t>(most, settings_.max_shots - shots_);
   if (candidates_.size() > most) candidates_.resize(most);
+  RoundFigures& round = rounds_.back();
+  round.unshot = settings_.emitted > 0 ? static_cast<double>(unshot_) / settings_.emitted : 0;
+  port.note(HostGauge::unshot, round.unshot);
+  round.chosen = round.last_shot_done = round.end = port.now();
   if (candidates_.empty() || unshot_ <= settings_.enough_unshot) {
     state_ = State::done;
     return;
   }
   state_ = State::shooting;
   turn_ = 0;
-  for (const Chosen& chosen : candidates_) waiting_[chosen.pe].push_back(chosen.candidate);
+  for (const Chosen& chosen : candidates_) {
+    if (waiting_[chosen.pe].empty()) ++round.pes;
+    waiting_[chosen.pe].push_back(chosen.candidate);
+  }
+  round.shooters = static_cast<std::uint32_t>(candidates_.size());
   for (unsigned pe = 0; pe < settings_.pes; ++pe) {
     if (!waiting_[pe].empty()) begin_shot(port, static_cast<PeNumber>(pe));
   }
@@ -136,6 +148,10 @@ void RadiosityPhase::begin_shot(HostPort& port, PeNumber pe) {
   }
 }
 
+void RadiosityPhase::note_credits(HostPort& port) const {
+  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
+}
+
 void RadiosityPhase::grant(HostPort& port) {
   // In turn to all shooters; one that has grants waiting is passed over, and asked again when more credits come home.
   std::size_t passed_over = 0;
@@ -152,11 +168,13 @@ void RadiosityPhase::grant(HostPort& port) {
     pool_ -= credits;
     torolux::send(port, pe, MessageKind::grant, protocol::Grant{credits});
   }
+  note_credits(port);
 }
 
 void RadiosityPhase::end_round_if_over(HostPort& port) {
   if (!shooting_.empty() || pool_ < settings_.credits) return;
   shots_ += candidates_.size();
+  rounds_.back().end = port.now();
   if (settings_.max_shots > 0 && shots_ >= settings_.max_shots) {
     state_ = State::done;
     return;

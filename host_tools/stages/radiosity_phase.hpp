@@ -8,6 +8,7 @@
 #include "host_tools/layout/light_units.hpp"
 #include "host_tools/mesh/mesh.hpp"
 #include "host_tools/stages/phase.hpp"
+#include "host_tools/stages/rounds.hpp"
 
 namespace torolux {
 
@@ -33,6 +34,7 @@ class RadiosityPhase : public Phase {
   const char* waiting_for() const override;
 
   std::uint64_t shots() const { return shots_; }
+  const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< the present one, not ended, included
   std::uint64_t credits_home() const { return pool_; }
   std::int64_t unshot() const { return unshot_; }  ///< [quanta, R + G + B], at the last selection
   const protocol::Flux& emitted_shot() const { return emitted_shot_; }
@@ -49,6 +51,7 @@ class RadiosityPhase : public Phase {
   void take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   void begin_round(HostPort& port);
   void begin_shot(HostPort& port, PeNumber pe);
+  void note_credits(HostPort& port) const;
   void grant(HostPort& port);
   void end_round_if_over(HostPort& port);
 
@@ -62,6 +65,7 @@ class RadiosityPhase : public Phase {
   std::size_t turn_ = 0;                                  ///< of shooting_: who gets credits next
   std::uint64_t pool_;                                    ///< credits at home
   std::uint64_t shots_ = 0;
+  std::vector<RoundFigures> rounds_;
   protocol::Flux emitted_shot_{};
   protocol::Flux reflected_shot_{};
 };

@@ -51,6 +51,7 @@ void RayTracingPhase::on_message(HostPort& port, PeNumber source, MessageKind ki
 void RayTracingPhase::make_rays(HostPort& port) {
   while (pool_ > 0 && next_ < rays_.count()) make_ray(port);
   for (const PeNumber pe : std::exchange(open_, {})) flush(port, pe);
+  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
 }
 
 void RayTracingPhase::make_ray(HostPort& port) {

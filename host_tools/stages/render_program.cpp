@@ -3,6 +3,7 @@
 #include "host_tools/stages/render_program.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -14,12 +15,34 @@ namespace torolux {
 
 using protocol::Stage;
 
-RenderProgram::RenderProgram(RenderJob job) : job_(std::move(job)) {}
+RenderProgram::RenderProgram(RenderJob job)
+    : job_(std::move(job)),
+      given_(job_.solution.has_value()),
+      step_(given_ ? Step::load_ray_tracing : Step::load_radiosity) {}
 RenderProgram::~RenderProgram() = default;
 
 void RenderProgram::start(HostPort& port) {
+  port.begin_stage(name_of(step_));
   port.work(HostWork::filter_entry, job_.rays.table_entries());
-  enter(port, job_.solution ? Step::load_ray_tracing : Step::load_radiosity);
+  enter(port, step_);
+}
+
+std::string_view RenderProgram::name_of(Step step) const {
+  switch (step) {
+    case Step::load_radiosity:
+      return "load";
+    case Step::radiosity:
+      return "radiosity";
+    case Step::read:
+      return "read";
+    case Step::load_ray_tracing:
+      return given_ ? "load" : "load_again";
+    case Step::ray_tracing:
+      return "ray_tracing";
+    case Step::finished:
+      break;
+  }
+  return "";
 }
 
 void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t kind,
@@ -31,6 +54,7 @@ void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t ki
 }
 
 void RenderProgram::enter(HostPort& port, Step step) {
+  if (step != step_ && step != Step::finished) port.begin_stage(name_of(step));
   step_ = step;
   phase_ = phase_for(port, step);
   if (!phase_) return;
@@ -90,6 +114,8 @@ void RenderProgram::leave(HostPort& port) {
       break;
     case Step::radiosity: {
       const auto& radiosity = static_cast<const RadiosityPhase&>(*phase_);
+      rounds_ = radiosity.rounds();
+      port.note(HostGauge::unshot, 0);  // it is told of the radiosity stage alone
       shots_ = radiosity.shots();
       emitted_shot_ = radiosity.emitted_shot();
       reflected_shot_ = radiosity.reflected_shot();
@@ -117,6 +143,26 @@ void RenderProgram::leave(HostPort& port) {
     case Step::finished:
       break;
   }
+}
+
+/// In the order of record_kind: those of the radiosity stage, then those of the ray tracing stage.
+std::span<const std::string_view> RenderProgram::record_kinds() const {
+  static constexpr std::array<std::string_view, 6> kNames = {"light", "light_seeking", "deposit",
+                                                             "ray",   "shadow_ray",    "branch"};
+  return kNames;
+}
+
+std::size_t RenderProgram::record_kind(std::span<const std::byte> record) const {
+  using protocol::RecordKind;
+  if (record.size() == sizeof(protocol::RadiosityRecord)) {
+    const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RadiosityRecord, kind)]);
+    return kind == RecordKind::deposit ? 2 : kind == RecordKind::seek ? 1 : 0;
+  }
+  if (record.size() != sizeof(protocol::RayRecord)) throw MachineFailure("a PE sends records of another size");
+  const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RayRecord, kind)]);
+  if (kind == RecordKind::branch) return 5;
+  const auto flags = std::to_integer<std::uint8_t>(record[offsetof(protocol::RayRecord, flags)]);
+  return (flags & protocol::kShadow) != 0 ? 4 : 3;
 }
 
 const char* RenderProgram::waiting_for() const {

@@ -13,6 +13,7 @@
 #include "host_tools/stages/camera_rays.hpp"
 #include "host_tools/stages/phase.hpp"
 #include "host_tools/stages/ray_tracing_phase.hpp"
+#include "host_tools/stages/rounds.hpp"
 
 namespace torolux {
 
@@ -40,27 +41,34 @@ class RenderProgram : public HostProgram {
   void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) override;
   bool finished() const override { return step_ == Step::finished; }
   const char* waiting_for() const override;
+  std::span<const std::string_view> record_kinds() const override;
+  std::size_t record_kind(std::span<const std::byte> record) const override;
 
   RenderProgress progress(Cycles now) const;
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given
   const StageTimes& times() const { return times_; }
   std::uint64_t shots() const { return shots_; }
+  const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< once the radiosity stage has ended
   std::uint64_t rays() const { return rays_; }
   std::uint64_t credits_home() const;
 
  private:
   enum class Step { load_radiosity, radiosity, read, load_ray_tracing, ray_tracing, finished };
 
+  /// Of the stage of the statistics.
+  std::string_view name_of(Step step) const;
   void enter(HostPort& port, Step step);
   void leave(HostPort& port);
   std::unique_ptr<Phase> phase_for(HostPort& port, Step step);
   std::unique_ptr<Phase> loading(protocol::Stage stage);
 
   RenderJob job_;
-  Step step_ = Step::load_radiosity;
+  bool given_;  ///< the solution
+  Step step_;
   std::unique_ptr<Phase> phase_;
   Lattice lattice_;
   StageTimes times_;
+  std::vector<RoundFigures> rounds_;
   std::uint64_t shots_ = 0;
   std::uint64_t rays_ = 0;
   protocol::Flux emitted_shot_{};

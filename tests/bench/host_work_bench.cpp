@@ -48,6 +48,8 @@ class SinkPort final : public HostPort {
  public:
   Cycles now() const override { return 0; }
   unsigned pes() const override { return 1; }
+  void begin_stage(std::string_view /*name*/) override {}
+  void note(HostGauge /*gauge*/, double /*value*/) override {}
   void work(HostWork what, std::uint64_t items) override { done_[static_cast<std::size_t>(what)] += items; }
   void send_message(PeNumber, std::uint16_t, std::span<const std::byte> contents) override { put(contents); }
   void send_records(PeNumber, std::span<const std::byte> records, std::uint32_t) override { put(records); }

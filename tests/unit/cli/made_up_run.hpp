@@ -76,4 +76,25 @@ inline RenderFigures made_up_figures() {
   return figures;
 }
 
+/// The same with one of everything: a stage, a round, a slice of time, links.
+inline RenderFigures whole_figures() {
+  RenderFigures figures = made_up_figures();
+  figures.draft_cycles = 17;
+  MachineFigures& machine = figures.machine;
+  machine.routers.resize(2);
+  machine.routers[1].links[2].busy = 5'000'000;
+  machine.packets.by_hops = {10, 20};
+  machine.packets.bytes_by_hops = {100, 200};
+  machine.packets.by_latency[3] = 30;
+  machine.record_kinds = {{"light", 1, 2, 128}};
+  machine.bus.from_pe.resize(2);
+  machine.bus.to_pe.resize(2);
+  machine.time_line = {1024, {TimeSlice{}}};
+  StageFigures stage{"radiosity", 1'000'000, machine};
+  stage.figures.now = 10'000'000;
+  machine.stages = {stage};
+  figures.rounds = {{1'000'100, 1'000'200, 1'000'300, 1'000'400, 20, 2, 345, 0.25}};
+  return figures;
+}
+
 }  // namespace torolux::testing_support

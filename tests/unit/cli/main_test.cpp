@@ -51,7 +51,8 @@ TEST(Main, HelpOfRenderIsComplete) {
                              "--unshot",    "--max-shots",   "--bounces",    "--two-sided-lights", "--save-radiosity",
                              "--radiosity", "--stats",       "--seed",       "--threads",          "--quiet",
                              "--studio",    "--enter-empty", "--direct",     "--filter",           "--tone-curve",
-                             "--layers",    "--no-picture",  "--set",       "--jitter",           "--fault"})
+                             "--layers",    "--no-picture",  "--set",        "--jitter",           "--fault",
+                             "--stats-csv"})
     EXPECT_THAT(help, HasSubstr(option));
   for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[8]", "[0.002]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));

@@ -3,8 +3,14 @@
 // depend on the computer.
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <fstream>
 
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "host_tools/report/csv.hpp"
 #include "tests/unit/cli/made_up_run.hpp"
 
 namespace torolux {
@@ -71,6 +77,87 @@ TEST(Stats, NameOfASceneThatIsNotUtf8) {
   RunDescription run;
   run.scene = "r\xFFoom";
   EXPECT_TRUE(json::accept(stats_json(run, RenderFigures{})));
+}
+
+/// Every path of a document: names with dots between them, [] for an entry of a list.
+void collect_paths(const json& value, const std::string& path, std::set<std::string>& paths) {
+  if (value.is_object()) {
+    for (const auto& [name, inner] : value.items())
+      collect_paths(inner, path.empty() ? name : path + "." + name, paths);
+  } else if (value.is_array()) {
+    for (const json& inner : value) collect_paths(inner, path + "[]", paths);
+  } else {
+    paths.insert(path);
+  }
+}
+
+/// Patterns of docs/statistics.md: what stands in backticks in the first column of the table of keys.
+std::vector<std::string> documented_keys() {
+  std::ifstream page(std::string(TOROLUX_SOURCE_DIR) + "/docs/statistics.md");
+  std::vector<std::string> keys;
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) inside = line == "## Keys";
+    if (!inside || !line.starts_with("| `")) continue;
+    const std::string cell = line.substr(0, line.find('|', 1));
+    for (std::size_t at = cell.find('`'); at != std::string::npos; at = cell.find('`', at + 1)) {
+      const std::size_t end = cell.find('`', at + 1);
+      keys.push_back(cell.substr(at + 1, end - at - 1));
+      at = end;
+    }
+  }
+  return keys;
+}
+
+/// `*` stands for one name.
+bool matches(const std::string& pattern, const std::string& path) {
+  std::string expression;
+  for (const char c : pattern) {
+    if (c == '*') {
+      expression += "[^.]+";
+    } else {
+      expression += std::string(".[]").find(c) != std::string::npos ? std::string("\\") + c : std::string(1, c);
+    }
+  }
+  return std::regex_match(path, std::regex(expression));
+}
+
+TEST(Stats, AreThoseOfThePage) {
+  RunDescription run = made_up_run();
+  run.quality.layers = 1U << 1U;
+  RenderFigures figures = testing_support::whole_figures();
+  figures.layers_sha256 = {"abc"};
+  json stats = json::parse(stats_json(run, figures));
+  stats["settings"] = 0;
+  stats["command_line"] = 0;
+  std::set<std::string> paths;
+  collect_paths(stats, "", paths);
+  const std::vector<std::string> keys = documented_keys();
+  ASSERT_GT(keys.size(), 50U);
+  std::set<std::string> met;
+  for (const std::string& path : paths) {
+    const std::string inner = path.starts_with("stages[].") ? path.substr(9) : path;
+    bool found = false;
+    for (const std::string& key : keys) {
+      if (!matches(key, path) && !matches(key, inner)) continue;
+      found = true;
+      met.insert(key);
+    }
+    EXPECT_TRUE(found) << path << " is not in docs/statistics.md";
+  }
+  for (const std::string& key : keys) EXPECT_TRUE(met.contains(key)) << key << " is on the page alone";
+}
+
+TEST(StatsTables, HaveTheirHeadersColumns) {
+  const RenderFigures figures = testing_support::whole_figures();
+  const std::vector<CsvTable> tables = stats_tables(figures.machine, figures.rounds);
+  EXPECT_EQ(tables.size(), 9U);
+  for (const CsvTable& table : tables) {
+    const auto commas = std::count(table.header.begin(), table.header.end(), ',');
+    EXPECT_FALSE(table.rows.empty()) << table.name;
+    for (const std::string& row : table.rows) EXPECT_EQ(std::count(row.begin(), row.end(), ','), commas) << row;
+    for (const char c : table.header) EXPECT_TRUE(c == ',' || c == '_' || (c >= 'a' && c <= 'z')) << table.header;
+  }
 }
 
 TEST(ClosingError, IsTheWorstChannelRelativeToItsOwnEmission) {

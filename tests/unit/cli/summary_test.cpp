@@ -49,8 +49,15 @@ TEST(Summary, WithoutARadiosityStage) {
   EXPECT_NE(text.find("energy                  no radiosity stage\n"), std::string::npos) << text;
 }
 
+TEST(Summary, SaysWhatBoundsEachStage) {
+  const std::string text = summary(made_up_run(), testing_support::whole_figures());
+  EXPECT_NE(text.find("what bounds each stage\n  radiosity             waiting: every PE waits for 100 %\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(Summary, FitsOnATerminal) {
-  std::istringstream lines(summary(made_up_run(), made_up_figures()));
+  std::istringstream lines(summary(made_up_run(), testing_support::whole_figures()));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 79U) << line;
 }
 

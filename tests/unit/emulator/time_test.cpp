@@ -13,6 +13,7 @@
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/ready_set.hpp"
+#include "emulator/time/slices.hpp"
 
 namespace torolux::test {
 
@@ -104,6 +105,31 @@ TEST(ReadySet, GivesTurnsInACircle) {
       ASSERT_EQ(set.empty(), expected == ReadySet::kNobody);
       ASSERT_EQ(set.has(at), model[at]);
     }
+  }
+}
+
+TEST(Slices, HoldWhateverTheOrderAndTheLength) {
+  // Against one counter for each cycle, over a time for which the width doubles five times.
+  constexpr std::uint64_t kEnd = (kSlices << kLeastSliceShift) * 20;
+  std::minstd_rand random(7);
+  auto slices = std::make_unique<Slices<std::uint64_t>>();
+  std::vector<std::uint32_t> model(kEnd);
+  for (int i = 0; i < 300; ++i) {
+    const std::uint64_t begin = random() % (kEnd * (static_cast<std::uint64_t>(i) + 1) / 300);
+    const std::uint64_t end = std::min(kEnd, begin + random() % 30'000);
+    slices->add_interval(begin, end, 2);
+    for (std::uint64_t t = begin; t < end; ++t) model[t] += 2;
+    slices->add(begin, 1);
+    ++model[begin];
+  }
+  slices->widen(slice_shift_for(kEnd - 1));
+  const std::uint64_t width = std::uint64_t{1} << slices->shift();
+  EXPECT_LE(kEnd, width * kSlices);
+  EXPECT_GT(kEnd, width / 2 * kSlices) << "no wider than needed";
+  for (std::size_t i = 0; i < kSlices; ++i) {
+    std::uint64_t expected = 0;
+    for (std::uint64_t t = i * width; t < std::min(kEnd, (i + 1) * width); ++t) expected += model[t];
+    EXPECT_EQ(slices->sums()[i], expected) << i;
   }
 }
 

@@ -34,6 +34,8 @@ class FakePort final : public HostPort {
 
   Cycles now() const override { return 0; }
   unsigned pes() const override { return pes_; }
+  void begin_stage(std::string_view /*name*/) override {}
+  void note(HostGauge /*gauge*/, double /*value*/) override {}
   void work(HostWork what, std::uint64_t items) override { done_[static_cast<std::size_t>(what)] += items; }
   /// Items of work so far.
   std::uint64_t done(HostWork what) const { return done_[static_cast<std::size_t>(what)]; }

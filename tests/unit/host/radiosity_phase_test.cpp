@@ -74,7 +74,7 @@ std::map<std::uint32_t, std::pair<PeNumber, Shoot>> first_round(const std::vecto
   std::map<std::uint32_t, std::pair<PeNumber, Shoot>> shots;
   for (std::vector<Sent> sent = port.take(); !shots_in(sent).empty(); sent = port.take()) {
     for (const auto& [pe, shoot] : shots_in(sent)) shots[shoot.number] = {pe, shoot};
-    for (const auto& [pe, shoot] : shots_in(sent)) tell(phase, port, pe, MessageKind::shot_done);
+    for (const auto& [pe, shoot] : shots_in(sent)) tell(phase, port, pe, MessageKind::shot_done, protocol::ShotDone{5});
   }
   return shots;
 }
@@ -144,7 +144,7 @@ TEST(RadiosityPhase, SumsOfFluxShotAreThoseOfTheAmounts) {
   phase.start(port);
   offer(phase, port, 0, {candidate(400, 1), candidate(300, 2, 0, ShotKind::emitted)}, 1000);
   EXPECT_EQ(shots_in(port.take()).size(), 1U) << "one shot at a time from each PE";
-  tell(phase, port, 0, MessageKind::shot_done);
+  tell(phase, port, 0, MessageKind::shot_done, protocol::ShotDone{5});
   EXPECT_EQ(shots_in(port.take()).size(), 1U);
   EXPECT_EQ(phase.emitted_shot(), (protocol::Flux{600, 300, 4}));
   EXPECT_EQ(phase.reflected_shot(), (protocol::Flux{400, 100, 4})) << "amount times reflectance 1/2, 1/4, 1";
@@ -207,7 +207,7 @@ TEST(RadiosityPhase, NoMoreShotsThanAllowed) {
     for (const auto& [pe, credits] : grants_in(sent)) tell(phase, port, pe, MessageKind::credits, credits);
     // Meanwhile more were granted; they come home unused.
     const auto more = grants_in(port.take());
-    for (const auto& [pe, shoot] : shots_in(sent)) tell(phase, port, pe, MessageKind::shot_done);
+    for (const auto& [pe, shoot] : shots_in(sent)) tell(phase, port, pe, MessageKind::shot_done, protocol::ShotDone{5});
     for (const auto& [pe, credits] : more) tell(phase, port, pe, MessageKind::credits, credits);
     for (const auto& [pe, credits] : grants_in(port.take())) tell(phase, port, pe, MessageKind::credits, credits);
   }
@@ -256,7 +256,7 @@ class RandomPes {
   void act(PeNumber pe) {
     if (const auto shot = shooting_.find(pe); shot != shooting_.end() && shot->second == 0) {
       shooting_.erase(shot);
-      tell(phase_, port_, pe, MessageKind::shot_done);
+      tell(phase_, port_, pe, MessageKind::shot_done, protocol::ShotDone{5});
     } else if (held_[pe] > 0) {
       const std::uint64_t used = std::min<std::uint64_t>(held_[pe], 1 + random_() % 64);
       if (shot != shooting_.end()) shot->second -= std::min(shot->second, used);
@@ -311,7 +311,8 @@ TEST(RadiosityPhase, MessagesThatCannotBeAreRefused) {
   FakePort port(1);
   RadiosityPhase phase(settings(1));
   phase.start(port);
-  EXPECT_THROW(tell(phase, port, 0, MessageKind::shot_done), MachineFailure) << "nothing shoots yet";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::shot_done, protocol::ShotDone{5}), MachineFailure)
+      << "nothing shoots yet";
   EXPECT_THROW(offer(phase, port, 0, {candidate(100, 30)}, 1000), MachineFailure) << "patch 30 of 30";
   protocol::Candidates cut{};
   cut.count = 3;
