@@ -9,7 +9,7 @@
 namespace torolux {
 namespace {
 
-constexpr std::array<Limit, 4> kResources = {Limit::bus, Limit::frame_buffer, Limit::host, Limit::link};
+constexpr std::array<Limit, 5> kParts = {Limit::work, Limit::bus, Limit::frame_buffer, Limit::host, Limit::link};
 
 double& share_of(Limits& limits, Limit limit) {
   return limits.shares[static_cast<std::size_t>(limit)];
@@ -59,12 +59,9 @@ Limits limits_of(const StageFigures& stage, const std::vector<RoundFigures>& rou
   share_of(limits, Limit::link) = static_cast<double>(busiest_link(figures)) / length;
 
   const auto greater = [&](Limit a, Limit b) { return share_of(limits, a) < share_of(limits, b); };
-  const Limit resource = *std::max_element(kResources.begin(), kResources.end(), greater);
-  if (share_of(limits, resource) >= kSaturated) {
-    limits.by = resource;
-    return limits;
-  }
-  limits.by = std::max({Limit::work, Limit::balance, Limit::waiting}, greater);
+  limits.by = *std::max_element(kParts.begin(), kParts.end(), greater);
+  if (limits.share() >= kSaturated) return limits;
+  limits.by = std::max(Limit::balance, Limit::waiting, greater);
   // Of the time in which even the busiest PE waits, most lies between the rounds' last shots and the next ones' first.
   if (limits.by == Limit::waiting && share_of(limits, Limit::tail) >= share_of(limits, Limit::waiting) / 2) {
     limits.by = Limit::tail;
@@ -73,24 +70,24 @@ Limits limits_of(const StageFigures& stage, const std::vector<RoundFigures>& rou
 }
 
 std::string limit_text(const Limits& limits) {
-  const std::string share = percent(limits.share(), 0);
+  const std::string busy = ", busy for " + percent(limits.share(), 0);
   switch (limits.by) {
     case Limit::work:
-      return "work: the PEs are busy for " + share;
+      return "the PEs' work";
     case Limit::balance:
-      return "balance: the busiest PE has " + share + " more than the mean";
+      return "the busiest PE";
     case Limit::tail:
-      return "tails and selections of the rounds: " + share;
+      return "rounds' ends, " + percent(limits.share(), 0);
     case Limit::waiting:
-      return "waiting: every PE waits for " + share;
+      return "waiting";
     case Limit::bus:
-      return "bus: busy for " + share;
+      return "bus" + busy;
     case Limit::frame_buffer:
-      return "frame buffer controller: busy for " + share;
+      return "frame buffer" + busy;
     case Limit::host:
-      return "host: busy for " + share;
+      return "host" + busy;
     case Limit::link:
-      return "a link of the torus: busy for " + share;
+      return "a link" + busy;
     case Limit::count:
       break;
   }

@@ -14,7 +14,7 @@ inline constexpr std::size_t kLimits = static_cast<std::size_t>(Limit::count);
 inline constexpr std::array<std::string_view, kLimits> kLimitNames = {"work", "balance",      "tail", "waiting",
                                                                       "bus",  "frame_buffer", "host", "link"};
 
-/// A part of the machine that is busy for more than this share of a stage bounds it, whatever the PEs do.
+/// A part of the machine that is busy for this share of a stage or more bounds it: all PEs on average, bus, ...
 inline constexpr double kSaturated = 0.8;
 
 struct Limits {
@@ -30,7 +30,7 @@ struct Limits {
 /// rounds: of the whole run; those that begin in the stage count.
 Limits limits_of(const StageFigures& stage, const std::vector<RoundFigures>& rounds);
 
-/// As a person reads it: "balance: the busiest PE has 42 % of the stage more than the mean".
+/// As a person reads it, at most 27 characters: "host, busy for 90 %".
 std::string limit_text(const Limits& limits);
 
 }  // namespace torolux

@@ -70,14 +70,21 @@ std::string load_table(const MachineFigures& machine) {
 
 /// One line for each stage: its length, what the PEs did in it, and what bounds it.
 std::string limits_table(const RenderFigures& figures) {
+  constexpr std::size_t kShare = 10;
+  const auto line = [](const std::string& label, const std::array<std::string, 3>& shares, const std::string& by) {
+    std::string text = left(label, kLabel - kShare / 2);
+    for (const std::string& share : shares) text += right(share, kShare);
+    return text + "   " + by + "\n";
+  };
   std::string text;
   for (const StageFigures& stage : figures.machine.stages) {
     const Limits limits = limits_of(stage, figures.rounds);
     std::string name = stage.name;
     std::replace(name.begin(), name.end(), '_', ' ');
-    text += left("  " + name, kLabel) + "  " + limit_text(limits) + "\n";
+    const auto share = [&](Limit limit) { return percent(limits.shares[static_cast<std::size_t>(limit)], 0); };
+    text += line("  " + name, {share(Limit::work), share(Limit::balance), share(Limit::waiting)}, limit_text(limits));
   }
-  return text.empty() ? text : "what bounds each stage\n" + text;
+  return text.empty() ? text : line("stages", {"PEs busy", "unequally", "all wait"}, "bounded by") + text;
 }
 
 std::string traffic(const RenderFigures& figures) {

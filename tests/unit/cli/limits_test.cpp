@@ -32,14 +32,17 @@ TEST(Limits, SplitTheLengthByThePes) {
   EXPECT_DOUBLE_EQ(share(limits, Limit::balance), 0.2);
   EXPECT_DOUBLE_EQ(share(limits, Limit::waiting), 0.4);
   EXPECT_EQ(limits_of(stage_with({900, 900}), {}).by, Limit::work);
+  EXPECT_EQ(limits_of(stage_with({799, 799}), {}).by, Limit::waiting) << "the PEs are a part of the machine, too";
   EXPECT_EQ(limits_of(stage_with({900, 0, 0, 0}), {}).by, Limit::balance);
   EXPECT_EQ(limits_of(stage_with({100, 100}), {}).by, Limit::waiting);
 }
 
 TEST(Limits, NameAPartThatIsBusyForFourFifths) {
-  StageFigures stage = stage_with({900, 900});
-  stage.figures.host.busy_cycles = 790;
+  StageFigures stage = stage_with({850, 850});
   EXPECT_EQ(limits_of(stage, {}).by, Limit::work);
+  stage = stage_with({700, 700});
+  stage.figures.host.busy_cycles = 790;
+  EXPECT_EQ(limits_of(stage, {}).by, Limit::waiting);
   stage.figures.host.busy_cycles = 800;
   EXPECT_EQ(limits_of(stage, {}).by, Limit::host);
   stage.figures.bus.data_cycles = 900;

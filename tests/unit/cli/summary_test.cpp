@@ -51,7 +51,8 @@ TEST(Summary, WithoutARadiosityStage) {
 
 TEST(Summary, SaysWhatBoundsEachStage) {
   const std::string text = summary(made_up_run(), testing_support::whole_figures());
-  EXPECT_NE(text.find("what bounds each stage\n  radiosity             waiting: every PE waits for 100 %\n"),
+  EXPECT_NE(text.find("stages             PEs busy unequally  all wait   bounded by\n"
+                      "  radiosity             0 %       0 %     100 %   waiting\n"),
             std::string::npos)
       << text;
 }
