@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "emulator/errors.hpp"
+#include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
 
 namespace torolux {
@@ -15,15 +16,7 @@ namespace {
 template <class Parse>
 void add_fault(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
                const std::string& group, Parse parse) {
-  const auto take = [name, parse](const std::string& text) {
-    try {
-      parse(text);
-    } catch (const UsageError& error) {
-      throw UsageError(name + ": " + error.what());
-    } catch (const InputError& error) {
-      throw InputError(name + ": " + error.what());
-    }
-  };
+  const auto take = [name, parse](const std::string& text) { value_of(name, parse, text); };
   CLI::Option* option = command.add_option_function<std::string>(name, take, help);
   option->type_name(form)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   if (!group.empty()) option->group(group);

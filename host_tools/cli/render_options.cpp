@@ -9,6 +9,7 @@
 #include "emulator/engines/engine.hpp"
 #include "emulator/errors.hpp"
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/picture/picture.hpp"
 #include "host_tools/render/render.hpp"
@@ -25,15 +26,7 @@ constexpr std::string_view kAllocations =
 template <class Parse>
 CLI::Option* add_value(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
                        Parse parse) {
-  const auto take = [name, parse](const std::string& text) {
-    try {
-      parse(text);
-    } catch (const UsageError& error) {
-      throw UsageError(name + ": " + error.what());
-    } catch (const InputError& error) {
-      throw InputError(name + ": " + error.what());
-    }
-  };
+  const auto take = [name, parse](const std::string& text) { value_of(name, parse, text); };
   return command.add_option_function<std::string>(name, take, help)
       ->type_name(form)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);

@@ -12,6 +12,7 @@
 #include "emulator/traffic/traffic.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/fault_options.hpp"
+#include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/cli/render_options.hpp"
 #include "host_tools/report/text.hpp"
@@ -35,18 +36,6 @@ struct NetworkOptions {
 };
 
 constexpr std::uint64_t kMostNetworkCycles = 1'000'000'000;
-
-/// `parse`'s errors do not name the option.
-template <class Parse>
-auto value_of(const char* option, Parse parse, const std::string& text) {
-  try {
-    return parse(text);
-  } catch (const UsageError& error) {
-    throw UsageError(std::string(option) + ": " + error.what());
-  } catch (const InputError& error) {
-    throw InputError(std::string(option) + ": " + error.what());
-  }
-}
 
 struct Column {
   const char* name;

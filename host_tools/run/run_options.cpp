@@ -8,27 +8,12 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
+#include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/cli/parse_words.hpp"
 #include "host_tools/cli/render_options.hpp"
 
 namespace torolux {
-namespace {
-
-/// `parse`'s errors do not name the option.
-template <class Parse>
-auto value_of(const char* option, Parse parse, const std::string& text) {
-  try {
-    return parse(text);
-  } catch (const UsageError& error) {
-    throw UsageError(std::string(option) + ": " + error.what());
-  } catch (const InputError& error) {
-    throw InputError(std::string(option) + ": " + error.what());
-  }
-}
-
-}  // namespace
-
 void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("IMAGE", options.image, "A firmware image (ELF for rv32imafc); see docs/writing_firmware.md")
       ->required()
