@@ -14,6 +14,7 @@
 #include "host_tools/cli/render_options.hpp"
 
 namespace torolux {
+
 void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("IMAGE", options.image, "A firmware image (ELF for rv32imafc); see docs/writing_firmware.md")
       ->required()
