@@ -34,6 +34,7 @@ void begin(Pe& pe, Niu& niu) {
   pe.outbox.set(layout.stage);
   pe.shot = {};
   pe.tally = {};
+  pe.visits = {};
   niu.set_slots(layout.record_slots.address, protocol::slot_bytes(layout.stage), layout.own_slots,
                 layout.record_slots.count - layout.own_slots);
   niu.gather(layout.gather_cycles, layout.gather_records);
@@ -108,7 +109,7 @@ bool handle_message(Pe& pe, Niu& niu) {
       read(pe, niu);
       return true;
     case MessageKind::report:
-      niu.send(MessageKind::tally, pe.tally);
+      niu.send(MessageKind::tally, protocol::StageReport{pe.tally, pe.visits});
       return true;
     case MessageKind::stop:
       return false;

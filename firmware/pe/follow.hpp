@@ -2,6 +2,7 @@
 // What records of both stages share: the checks of one that has just arrived, and its way through this PE's subspaces.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "firmware/pe/pe.hpp"
@@ -43,12 +44,16 @@ void check_walk(const Pe& pe, Niu& niu, const Record& record) {
 
 /// As far as this PE can follow it; the record says where it has come to.
 template <class Record>
-Way traverse_record(const Pe& pe, Niu& niu, Record& record) {
+Way traverse_record(Pe& pe, Niu& niu, Record& record) {
   Segment segment = segment_of(record);
   niu.enter_phase<Phase::traverse>();
   const Way way = traverse(pe.scene, niu.pe(), segment);
   niu.leave_phase<Phase::traverse>();
   note_progress(record, segment);
+  const std::uint32_t visited = std::min(record.visited + way.visited, protocol::kMostVisits);
+  const bool ends = way.end != WayEnd::handed_on;
+  record.visited = static_cast<decltype(record.visited)>(ends ? 0 : visited);
+  if (ends) ++pe.visits[visited];
   return way;
 }
 

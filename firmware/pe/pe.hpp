@@ -35,6 +35,7 @@ struct Pe {
   Homecoming homecoming;
   Shot shot;
   protocol::Tally tally{};
+  protocol::Visits visits{};
   std::array<Choice, protocol::kMostShooters> choices{};
 };
 /// All that the program keeps outside the stores: part of the image, never of the stores' memory.

@@ -131,7 +131,7 @@ void create_record(Pe& pe, Niu& niu) {
   record.bounce = 0;
   record.flags =
       static_cast<std::uint8_t>(protocol::kFirst | (shot.command.kind == ShotKind::emitted ? protocol::kDirect : 0U));
-  record.unused = 0;
+  record.visited = 0;
   ++pe.tally.rays;
   follow_light(pe, niu, slot);
 }

@@ -28,8 +28,14 @@ enum class MessageKind : std::uint16_t {
   shot_done,   ///< ShotDone; grants not used up come back in a `credits` message before it
   credits,     ///< Credits that have come home
   data,        ///< LoadBlock, then its bytes
-  tally,       ///< Tally
+  tally,       ///< StageReport
 };
+
+struct StageReport {
+  Tally tally;  ///< zero in the ray tracing stage
+  Visits visits;
+};
+static_assert(sizeof(StageReport) <= kMostMessageBytes);
 
 struct LoadBlock {
   std::uint32_t address;  ///< multiple of 4, inside the PE's free memory

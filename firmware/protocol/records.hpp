@@ -13,6 +13,9 @@ namespace torolux::protocol {
 
 inline constexpr std::uint32_t kNoPolygon = 0xFFFF'FFFFU;
 
+/// Greatest number of subspaces of a segment that is told from others.
+inline constexpr std::uint32_t kMostVisits = 63;
+
 using Vec3f = std::array<float, 3>;
 using Flux = std::array<std::int64_t, 3>;  ///< R, G, B [quanta]
 
@@ -46,7 +49,7 @@ struct RadiosityRecord {
   RecordKind kind;
   std::uint8_t bounce;  ///< mirror, glass and glossy events so far
   std::uint8_t flags;
-  std::uint8_t unused;
+  std::uint8_t visited;  ///< subspaces of its present segment, with the last PE's; at most kMostVisits
 };
 static_assert(sizeof(RadiosityRecord) == 64);
 
@@ -81,7 +84,8 @@ struct RayRecord {
   std::uint8_t flags;
   std::uint8_t waiting;  ///< branches in use, 0..kMostBranches
   std::array<Branch, kMostBranches> branches;
-  std::uint32_t sample;  ///< of the pixel, counted from 0: for random numbers that keep apart (stratified.hpp)
+  std::uint16_t sample;   ///< of the pixel, counted from 0: for random numbers that keep apart (stratified.hpp)
+  std::uint16_t visited;  ///< as in RadiosityRecord
 };
 static_assert(sizeof(RayRecord) == 168);
 

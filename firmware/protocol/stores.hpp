@@ -143,6 +143,9 @@ struct Tally {
 };
 static_assert(sizeof(Tally) == 128);
 
+/// [n]: segments that ended at one PE, in a stage, after n subspaces of all PEs; kMostVisits: or more.
+using Visits = std::array<std::uint32_t, kMostVisits + 1>;
+
 /// Hemi-cube weights: exact delta form factors as fractions of 2^32. Half faces by symmetry, N = pixels across the top:
 /// the top's quadrant [j][i], i, j in 0..N/2-1 counted from the axis outwards, then a side's half
 /// [j][i]: i in 0..N/2-1 from its middle outwards, j in 0..N/2-1 from the surface up.

@@ -42,6 +42,8 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
   figures.machine = machine.figures();
   figures.ray_tracing_cycles = figures.machine.now - times.loaded_again;  // until the last pixel has been added
   figures.rounds = program.rounds();
+  figures.radiosity_visits = program.radiosity_visits();
+  figures.ray_visits = program.ray_visits();
   figures.shots = program.shots();
   figures.rays = program.rays();
   figures.credits_total = setup.credits;

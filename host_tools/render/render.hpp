@@ -82,6 +82,7 @@ struct RenderFigures {
   Cycles load_cycles = 0, radiosity_cycles = 0, ray_tracing_cycles = 0;  ///< of each stage
   MachineFigures machine;
   std::vector<RoundFigures> rounds;  ///< of the radiosity stage
+  VisitSums radiosity_visits{}, ray_visits{};
   EnergyBalance energy;
   std::uint64_t shots = 0;  ///< patches shot
   std::uint64_t radiosity_records = 0;

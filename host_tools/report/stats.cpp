@@ -59,6 +59,7 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["command_line"] = command_line_of(json["settings"]);
   json["stages"] = stages_json(machine, figures.rounds);
   json["time_line"] = time_line_json(machine.time_line);
+  json["visits"] = {{"radiosity", figures.radiosity_visits}, {"ray_tracing", figures.ray_visits}};
   json["rounds"] = rounds_json(figures.rounds);
   json["links"] = links_json(machine);
   json["pes"] = pes_json(machine.pes);

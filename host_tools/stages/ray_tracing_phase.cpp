@@ -76,7 +76,7 @@ void RayTracingPhase::make_ray(HostPort& port) {
   record.polygon = protocol::kNoPolygon;
   record.key = ray.key;
   record.pixel = pixel;
-  record.sample = sample;
+  record.sample = static_cast<std::uint16_t>(sample);
   record.kind = protocol::RecordKind::light;
   record.flags = start->flags;
   const PeNumber pe = placement_.pe_of_cell[start->cell];

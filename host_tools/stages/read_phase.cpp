@@ -49,7 +49,9 @@ void ReadPhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
     bytes_[source].insert(bytes_[source].end(), data.begin(), data.end());
     ask(port, source);
   } else if (kind == MessageKind::tally) {
-    const auto tally = contents_as<protocol::Tally>(contents);
+    const auto report = contents_as<protocol::StageReport>(contents);
+    const protocol::Tally& tally = report.tally;
+    add_visits(visits_, report.visits);
     protocol::Tally& sum = solution_.tally;
     for (std::size_t c = 0; c < 3; ++c) {
       sum.absorbed_specular[c] += tally.absorbed_specular[c];

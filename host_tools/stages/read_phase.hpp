@@ -7,6 +7,7 @@
 #include "host_tools/layout/placement.hpp"
 #include "host_tools/solution/solution.hpp"
 #include "host_tools/stages/phase.hpp"
+#include "host_tools/stages/report_phase.hpp"
 
 namespace torolux {
 
@@ -23,6 +24,7 @@ class ReadPhase : public Phase {
 
   /// Shots and their flux are not known here and stay zero.
   Solution take_solution() { return std::move(solution_); }
+  const VisitSums& visits() const { return visits_; }
 
  private:
   struct Range {
@@ -37,6 +39,7 @@ class ReadPhase : public Phase {
   std::vector<protocol::StageLayout> layouts_;
   std::vector<std::vector<std::byte>> bytes_;  ///< read so far, by PE
   Solution solution_;
+  VisitSums visits_{};
   std::size_t done_ = 0;
 };
 

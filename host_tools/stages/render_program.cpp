@@ -10,6 +10,7 @@
 #include "host_tools/layout/stage_image.hpp"
 #include "host_tools/stages/load_phase.hpp"
 #include "host_tools/stages/read_phase.hpp"
+#include "host_tools/stages/report_phase.hpp"
 
 namespace torolux {
 
@@ -38,6 +39,7 @@ std::string_view RenderProgram::name_of(Step step) const {
     case Step::load_ray_tracing:
       return given_ ? "load" : "load_again";
     case Step::ray_tracing:
+    case Step::report:
       return "ray_tracing";
     case Step::finished:
       break;
@@ -54,7 +56,7 @@ void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t ki
 }
 
 void RenderProgram::enter(HostPort& port, Step step) {
-  if (step != step_ && step != Step::finished) port.begin_stage(name_of(step));
+  if (step != Step::finished && name_of(step) != name_of(step_)) port.begin_stage(name_of(step));
   step_ = step;
   phase_ = phase_for(port, step);
   if (!phase_) return;
@@ -87,6 +89,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
       return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);
+    case Step::report:
+      return std::make_unique<ReportPhase>(setup.placement.torus.pes());
     case Step::finished:
       break;
   }
@@ -124,6 +128,7 @@ void RenderProgram::leave(HostPort& port) {
       break;
     }
     case Step::read:
+      radiosity_visits_ = static_cast<const ReadPhase&>(*phase_).visits();
       job_.solution = static_cast<ReadPhase&>(*phase_).take_solution();
       job_.solution->emitted_shot = emitted_shot_;
       job_.solution->reflected_shot = reflected_shot_;
@@ -137,6 +142,10 @@ void RenderProgram::leave(HostPort& port) {
       break;
     case Step::ray_tracing:
       rays_ = static_cast<const RayTracingPhase&>(*phase_).sent();
+      enter(port, Step::report);
+      break;
+    case Step::report:
+      ray_visits_ = static_cast<const ReportPhase&>(*phase_).visits();
       times_.ray_tracing = now;
       enter(port, Step::finished);
       break;
@@ -199,7 +208,7 @@ RenderProgress RenderProgram::progress(Cycles now) const {
     progress.stage = RenderStage::ray_tracing;
     progress.unshot_fraction = 0;
     progress.fraction = static_cast<double>(rays.made()) / static_cast<double>(rays.count());
-  } else if (step_ == Step::finished) {
+  } else if (step_ == Step::report || step_ == Step::finished) {
     progress.stage = RenderStage::ray_tracing;
     progress.fraction = 1;
   }

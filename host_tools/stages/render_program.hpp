@@ -48,12 +48,15 @@ class RenderProgram : public HostProgram {
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given
   const StageTimes& times() const { return times_; }
   std::uint64_t shots() const { return shots_; }
+  /// By path segments of the stage; zeros before it has ended.
+  const VisitSums& radiosity_visits() const { return radiosity_visits_; }
+  const VisitSums& ray_visits() const { return ray_visits_; }
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< once the radiosity stage has ended
   std::uint64_t rays() const { return rays_; }
   std::uint64_t credits_home() const;
 
  private:
-  enum class Step { load_radiosity, radiosity, read, load_ray_tracing, ray_tracing, finished };
+  enum class Step { load_radiosity, radiosity, read, load_ray_tracing, ray_tracing, report, finished };
 
   /// Of the stage of the statistics.
   std::string_view name_of(Step step) const;
@@ -69,6 +72,7 @@ class RenderProgram : public HostProgram {
   Lattice lattice_;
   StageTimes times_;
   std::vector<RoundFigures> rounds_;
+  VisitSums radiosity_visits_{}, ray_visits_{};
   std::uint64_t shots_ = 0;
   std::uint64_t rays_ = 0;
   protocol::Flux emitted_shot_{};

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a round of the radiosity stage was, as the host saw it.
+// What a stage was, as the host saw it: rounds of the radiosity stage, subspaces visited by path segments.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "emulator/host/host_program.hpp"
+#include "firmware/protocol/records.hpp"
 
 namespace torolux {
 
@@ -19,5 +21,8 @@ struct RoundFigures {
 
   Cycles tail() const { return end - last_shot_done; }  ///< no more records are made, the last ones end
 };
+
+/// [n]: path segments that went through n subspaces; the last entry: or more.
+using VisitSums = std::array<std::uint64_t, protocol::kMostVisits + 1>;
 
 }  // namespace torolux

@@ -139,7 +139,19 @@ TEST(Statistics, AddUp) {
     std::uint64_t records = 0;
     for (const json& round : stats["rounds"]) records += number(round["records"]);
     EXPECT_EQ(records + number(stats["rays"]), number(stats["records"]["created"]));
+    EXPECT_GE(sum_of(stats["visits"]["radiosity"]), records) << "each record's light ends at least one segment";
+    EXPECT_GE(sum_of(stats["visits"]["ray_tracing"]), number(stats["rays"]));
+    EXPECT_EQ(stats["visits"]["radiosity"][0], 0) << "a segment is in a subspace";
+    EXPECT_EQ(stats["visits"]["ray_tracing"][0], 0);
   }
+}
+
+TEST(Statistics, CountVisitsOnAnyMachineAlike) {
+  // A segment is handed from PE to PE with its count.
+  const json one = statistics_of("cornell_box", {"--pes", "1x1", "--subspaces", "5x4x6"});
+  const json many = statistics_of("cornell_box", {"--pes", "3x4", "--subspaces", "5x4x6"});
+  EXPECT_GT(number(many["packets"]["sent"]), number(one["packets"]["sent"]));
+  EXPECT_EQ(one["visits"], many["visits"]);
 }
 
 std::string bounded_by(const json& stats, const std::string& stage_name) {

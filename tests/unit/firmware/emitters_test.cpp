@@ -210,7 +210,7 @@ RayRecord ray_to(const TestScene& scene, const glm::vec3& origin, const glm::vec
   r.subspace = local_subspace(scene, scene.cell_of({origin.x, origin.y, origin.z}));
   r.polygon = protocol::kNoPolygon;
   r.key = sample;
-  r.sample = sample;
+  r.sample = static_cast<std::uint16_t>(sample);
   r.flags = protocol::kFirst;
   return r;
 }

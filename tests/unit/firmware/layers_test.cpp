@@ -27,7 +27,7 @@ RayRecord ray_to(const TestScene& scene, const glm::vec3& origin, const glm::vec
   r.polygon = protocol::kNoPolygon;
   r.key = 7 * pixel + sample;
   r.pixel = pixel;
-  r.sample = sample;
+  r.sample = static_cast<std::uint16_t>(sample);
   r.flags = protocol::kFirst;
   return r;
 }

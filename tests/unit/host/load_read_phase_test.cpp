@@ -77,7 +77,7 @@ class LoadReadTest : public testing::Test {
       const Sent question = asked[at];
       asked.erase(asked.begin() + static_cast<std::ptrdiff_t>(at));
       if (question.is(MessageKind::report)) {
-        tell(phase, port, question.pe, MessageKind::tally, tally_of(question.pe));
+        tell(phase, port, question.pe, MessageKind::tally, protocol::StageReport{tally_of(question.pe), {}});
       } else {
         ASSERT_TRUE(question.is(MessageKind::read));
         const auto block = question.as<LoadBlock>();
