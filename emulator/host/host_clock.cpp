@@ -4,11 +4,16 @@
 
 #include <cmath>
 
+#include "emulator/errors.hpp"
+
 namespace torolux {
 
 namespace {
 __extension__ using Wide = unsigned __int128;
-}
+
+/// Far enough from the greatest number for whatever others add: events' delays, waits of PEs.
+constexpr Cycles kMostCycles = Cycles{1} << 62U;
+}  // namespace
 
 HostClock::HostClock(const MachineDescription& machine)
     : cost_{},
@@ -31,7 +36,13 @@ void HostClock::work(HostWork what, std::uint64_t items) {
   items_[kind] += items;
   own_cycles_[kind] += own;
   const Wide sum = Wide{own} * pe_hertz_ + part_;
-  cycles_ += static_cast<Cycles>(sum / host_hertz_);
+  const Wide whole = cycles_ + sum / host_hertz_;
+  if (whole > kMostCycles) {
+    throw MachineFailure(
+        "the host's work takes its clock beyond 2^62 cycles of the PEs: a faster host.clock_hertz, or "
+        "a smaller host.cost_factor, is needed");
+  }
+  cycles_ = static_cast<Cycles>(whole);
   part_ = static_cast<std::uint64_t>(sum % host_hertz_);
 }
 

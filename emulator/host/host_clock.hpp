@@ -19,6 +19,7 @@ class HostClock {
 
   /// Nothing to do until then, if that is later than the clock.
   void wait_until(Cycles time);
+  /// Throws MachineFailure if the clock would leave what virtual time can hold.
   void work(HostWork what, std::uint64_t items);
   /// All work so far has ended by then.
   Cycles now() const { return cycles_ + (part_ != 0 ? 1 : 0); }

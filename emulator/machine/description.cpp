@@ -130,9 +130,12 @@ class Reader {
   }
 
   [[noreturn]] void unknown(const std::string& name, const toml::source_position& at) const {
+    // Of the table that it stands in; where there is none, all.
+    const std::string table = name.substr(0, name.rfind('.') + 1);
+    const bool is_table = !table.empty() && is_table_name(table.substr(0, table.size() - 1));
     std::string known;
     for (const Key& key : keys_) {
-      known += (known.empty() ? "" : ", ") + key.name;
+      if (!is_table || key.name.starts_with(table)) known += (known.empty() ? "" : ", ") + key.name;
     }
     fail(file_, at, "unknown key '" + name + "'; a machine file may set " + known);
   }

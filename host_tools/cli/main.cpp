@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A command line enters, an exit code leaves; on the way the subcommand's work, or a message of what was wrong.
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -53,6 +55,17 @@ int run(CLI::App& app, const CommandAction& action, int argc, const char* const*
   return action();
 }
 
+/// What has been written is there, or the run has failed: nobody takes half a table for a whole one.
+int flushed(int result) {
+  errno = 0;
+  const bool failed_before = !std::cout;
+  std::cout.flush();
+  if (std::cout) return result;
+  const std::string why = failed_before || errno == 0 ? "" : std::string(": ") + std::strerror(errno);
+  std::cerr << "torolux: standard output could not be written" << why << std::endl;
+  return result == code(ExitCode::done) ? code(ExitCode::machine_failure) : result;
+}
+
 }  // namespace
 
 void add_commands(CLI::App& app, CommandAction& action) {
@@ -79,7 +92,8 @@ int torolux_main(int argc, const char* const* argv) {
       "`torolux COMMAND --help` tells the options of a command.");
   CommandAction action;
   add_commands(app, action);
-  const int result = guarded([&] { return run(app, action, argc, argv); });
+  std::cout.clear();
+  const int result = flushed(guarded([&] { return run(app, action, argc, argv); }));
   if (result == kInterrupted) std::cerr << "torolux: interrupted" << std::endl;
   return result;
 }

@@ -85,6 +85,7 @@ int run_network(const NetworkOptions& options) {
   const bool csv = options.format == "csv";
   print_line(csv, [](const Column& column) { return std::string(column.name); });
   for (const double rate : rates) {
+    if (!std::cout) break;  // nobody reads it; torolux_main says so
     setup.rate = rate;
     const TrafficFigures figures = run_traffic(setup, [] { return !interrupted(); });
     print_line(csv, [&](const Column& column) { return significant(figures.*column.value, 6); });

@@ -160,9 +160,9 @@ void TomlTable::finish() const {
     const std::string near = nearest_name(name, known_);
     std::string allowed;
     for (const std::string& k : known_) allowed += (allowed.empty() ? "" : ", ") + k;
-    refuse({file_, key.source().begin.line}, title_ + " has no key " + in_quotes(name) +
-                                                 (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                                                 " Allowed are: " + allowed);
+    refuse({file_, key.source().begin.line},
+           title_ + " has no key " + in_quotes(name) +
+               (near.empty() ? "; allowed are: " : "; did you mean '" + near + "'? Allowed are: ") + allowed);
   }
 }
 

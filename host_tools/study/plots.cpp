@@ -3,6 +3,7 @@
 #include "host_tools/study/plots.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <system_error>
 
@@ -13,10 +14,9 @@
 namespace torolux::study {
 namespace {
 
-constexpr const char* kHead = R"(set terminal svg size 900,600 font "sans,14" background "white"
-set encoding utf8
+constexpr const char* kHead = R"(set encoding utf8
 set grid
-set key outside right noenhanced
+set xrange [*:*] noextend
 set offsets graph 0.03, graph 0.03, 0, 0
 )";
 
@@ -43,7 +43,8 @@ std::string last_part(const std::string& name) {
   return dot == std::string::npos || !name.starts_with("machine.") ? name : name.substr(dot + 1);
 }
 
-/// Which curve a row belongs to: one for each value of the report's `by` and of all else that varies besides x.
+/// Which curve a row belongs to: one for each value of the report's `by` and of all else besides x of which there is
+/// more than one.
 std::string series_of(const Plan& plan, const Table& table, const std::vector<Json>& row, const std::string& x) {
   const std::string& by = plan.report.by;
   std::string name;
@@ -51,6 +52,8 @@ std::string series_of(const Plan& plan, const Table& table, const std::vector<Js
   for (std::size_t i = 0; i < table.varied; ++i) {
     const std::string& column = table.columns[i];
     if (column == x || column == by || (column == "pes" && x == "pe_count")) continue;
+    const auto is_the_same = [&](const auto& other) { return other[i] == table.rows.front()[i]; };
+    if (std::ranges::all_of(table.rows, is_the_same)) continue;
     if (const std::string cell = cell_text(row[i]); !cell.empty())
       name += (name.empty() ? "" : ", ") + (column == "varied" ? last_part(cell) : last_part(column) + " " + cell);
   }
@@ -107,9 +110,34 @@ bool powers_of_two(const std::vector<Series>& all) {
   });
 }
 
+/// Long names go below the curves, in two columns, and make the page longer; beside them they would leave no room.
+std::string page_text(const std::vector<Series>& all) {
+  constexpr std::size_t kLongName = 18;  // characters: a quarter of the page
+  const bool below = std::ranges::any_of(all, [](const Series& series) { return series.name.size() > kLongName; });
+  const std::size_t height = 600 + (below ? 18 * ((all.size() + 2) / 2) : 0);
+  return "set terminal svg size 900," + std::to_string(height) + " font \"sans,14\" background \"white\"\n" +
+         (below ? "set key below left Left reverse maxcols 2 noenhanced\n" : "set key outside right noenhanced\n");
+}
+
+/// Eight colours; then the same with other dots and dashes.
+std::string line_text(std::size_t series) {
+  constexpr std::array<int, 4> kDots = {7, 5, 9, 13};  // discs, squares, triangles, diamonds
+  const std::size_t round = series / 8;
+  return "linewidth 2 pointtype " + std::to_string(kDots[round % kDots.size()]) + " pointsize 0.6 dashtype " +
+         std::to_string(round % 5 + 1) + " ";
+}
+
+/// A logarithm needs numbers above 0.
+template <class Of>
+bool all_above_0(const std::vector<Series>& all, Of of) {
+  return std::ranges::all_of(all, [&](const Series& series) {
+    return std::ranges::all_of(series.dots, [&](const Dot& dot) { return of(dot) > 0; });
+  });
+}
+
 std::string axes_text(const Plan& plan, const Table& table, const std::string& x, const std::string& y,
                       const Places& places, const std::vector<Series>& all) {
-  std::string script = kHead;
+  std::string script = page_text(all) + kHead;
   const auto missing = std::ranges::count(table.there, false);
   std::string title = plan.report.title;
   if (missing > 0)
@@ -118,17 +146,20 @@ std::string axes_text(const Plan& plan, const Table& table, const std::string& x
   if (!title.empty()) script += "set title " + text(title) + " noenhanced\n";
   script += "set xlabel " + text(x == "pe_count" ? "PEs" : x) + " noenhanced\n";
   script += "set ylabel " + text(y) + " noenhanced\n";
+  const bool log_x = plan.report.log_x && all_above_0(all, [](const Dot& dot) { return dot.x; });
   if (!places.numbers) {
     script += "set xtics noenhanced (";
     for (std::size_t i = 0; i < places.names.size(); ++i)
       script += (i == 0 ? "" : ", ") + text(places.names[i]) + " " + std::to_string(i);
     script += ")\n";
-  } else if (plan.report.log_x) {
+  } else if (log_x) {
     script += powers_of_two(all) ? "set logscale x 2\n" : "set logscale x\n";
   }
   // So the ideal is a straight line.
-  const bool both = plan.report.log_x && y.starts_with("speed_up");
-  return script + (plan.report.log_y || both ? "set logscale y\n" : "set yrange [0:*]\n");
+  const bool both = log_x && y.starts_with("speed_up");
+  const bool log_y =
+      (plan.report.log_y || both) && all_above_0(all, [](const Dot& dot) { return dot.y.get<double>(); });
+  return script + (log_y ? "set logscale y\n" : "set yrange [0:*]\n");
 }
 
 }  // namespace
@@ -168,7 +199,7 @@ std::string plot_script(const Plan& plan, const Table& table, const std::string&
       if (i == 0 && !dot.ideal.is_null()) ideal += cell_text(dot.x) + " " + cell_text(dot.ideal) + "\n";
     }
     script += "END\n";
-    add(data, " using 1:2 with linespoints linewidth 2 pointtype 7 pointsize 0.6 " +
+    add(data, " using 1:2 with linespoints " + line_text(i) +
                   (all[i].name.empty() ? "notitle" : "title " + text(all[i].name) + " noenhanced"));
   }
   if (!ideal.empty()) {

@@ -13,8 +13,12 @@ Shard parse_shard(const std::string& text) {
   constexpr std::uint64_t kMostParts = 1'000'000;
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) throw UsageError("--shard: \"" + text + "\" is not a part like 2/5");
-  const std::uint64_t parts = parse_count(text.substr(slash + 1), 1, kMostParts);
-  return {parse_count(text.substr(0, slash), 1, parts), parts};
+  try {
+    const std::uint64_t parts = parse_count(text.substr(slash + 1), 1, kMostParts);
+    return {parse_count(text.substr(0, slash), 1, parts), parts};
+  } catch (const InputError& error) {
+    throw InputError(std::string("--shard: ") + error.what());
+  }
 }
 
 void keep_shard(std::vector<Work>& work, const std::vector<Work>& all, const Shard& shard) {

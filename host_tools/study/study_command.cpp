@@ -64,6 +64,7 @@ Study read_study(const StudyOptions& options) {
   ResultFolder folder(folder_of(options), plan.command);
   Study study{std::move(plan), std::move(folder), {}, {}, {}, {}};
   study.points = points_of(study.plan);
+  check_baseline(study.plan, study.points);
   const std::string program = program_digest();
   const std::vector<std::string> varied = varied_names(study.plan);
   std::map<std::string, bool> seen;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/errors.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/study/figures.hpp"
 
@@ -25,8 +26,8 @@ bool is_baseline_of(const Plan& plan, const Point& candidate, const Point& point
   });
 }
 
-/// By point: the position of the one to compare with. Without a baseline in the plan it is the first point, or, where
-/// values vary alone, the base that they vary from.
+/// By point: the position of the one to compare with; points.size(): there is none. Without a baseline in the plan it
+/// is the first point, or, where values vary alone, the base that they vary from.
 std::vector<std::size_t> baselines_of(const Plan& plan, const std::vector<Point>& points,
                                       const std::vector<std::string>& varied) {
   std::vector<std::size_t> baselines;
@@ -35,7 +36,7 @@ std::vector<std::size_t> baselines_of(const Plan& plan, const std::vector<Point>
     if (!plan.report.baseline.empty() || !plan.vary_one.empty()) {
       const auto it = std::ranges::find_if(
           points, [&](const Point& candidate) { return is_baseline_of(plan, candidate, point, varied); });
-      if (it != points.end()) found = static_cast<std::size_t>(it - points.begin());
+      found = static_cast<std::size_t>(it - points.begin());
     }
     baselines.push_back(found);
   }
@@ -70,6 +71,14 @@ std::string for_people(const Json& value) {
 
 }  // namespace
 
+void check_baseline(const Plan& plan, const std::vector<Point>& points) {
+  if (plan.report.baseline.empty()) return;
+  const std::vector<std::size_t> baselines = baselines_of(plan, points, varied_names(plan));
+  if (std::ranges::any_of(baselines, [&](std::size_t baseline) { return baseline < points.size(); })) return;
+  throw InputError(plan.file.string() + ": [report]: 'baseline' names no run of the plan: of what varies, it takes " +
+                   "values that stand in the lists");
+}
+
 std::size_t Table::column(const std::string& name) const {
   return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
 }
@@ -102,7 +111,7 @@ Table make_table(const Plan& plan, const std::vector<Point>& points, const std::
       row.push_back(plan_value(points[i].one_value));
     }
     const Json* result = result_at(results, keys[i]);
-    const Json* baseline = result_at(results, keys[baselines[i]]);
+    const Json* baseline = baselines[i] < keys.size() ? result_at(results, keys[baselines[i]]) : nullptr;
     for (const std::string& name : figures) row.push_back(result != nullptr ? figure(*result, baseline, name) : Json());
     table.rows.push_back(std::move(row));
     table.there.push_back(result != nullptr);

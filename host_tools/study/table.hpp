@@ -26,6 +26,9 @@ struct Table {
 Table make_table(const Plan& plan, const std::vector<Point>& points, const std::vector<std::string>& keys,
                  const std::map<std::string, Json>& results, const std::vector<std::string>& y);
 
+/// Throws InputError where the plan names a baseline that none of its points can be compared with.
+void check_baseline(const Plan& plan, const std::vector<Point>& points);
+
 /// RFC 4180, with a line end after each row; numbers exact.
 std::string csv_of(const Table& table);
 

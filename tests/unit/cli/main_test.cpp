@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Proves: every way to end a command has its exit code, messages name what was wrong, help is complete, compare works
 // from the command line.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <fstream>
+#include <iostream>
 
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/interruption.hpp"
@@ -161,6 +163,35 @@ TEST(Main, NetworkRefusesAndFails) {
   EXPECT_EQ(torolux({"network", "--pes", "2x3", "--traffic", "transpose"}).code, 2);
   EXPECT_EQ(torolux({"network", "--fault", "link:0.6"}).code, 2);
   EXPECT_EQ(torolux({"network", "--fault", "bus:0.1"}).code, 1);
+}
+
+/// The exit code of a command whose standard output is this descriptor, which is closed.
+int code_with_output(int descriptor, const std::vector<std::string>& arguments) {
+  std::cout.flush();
+  const int before = ::dup(STDOUT_FILENO);
+  ::dup2(descriptor, STDOUT_FILENO);
+  ::close(descriptor);
+  std::vector<const char*> argv = {"torolux"};
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  const int code = torolux_main(static_cast<int>(argv.size()), argv.data());
+  ::dup2(before, STDOUT_FILENO);
+  ::close(before);
+  std::cout.clear();
+  return code;
+}
+
+// A table that nobody got is no success; and nothing more is computed for it.
+TEST(Main, OutputThatIsLostIsAFailure) {
+  const std::vector<std::string> network = {"network", "--pes", "2x2", "--cycles", "1000", "--format", "csv"};
+  for (const std::vector<std::string>& arguments : {network, {"--help"}, {"--version"}}) {
+    EXPECT_EQ(code_with_output(::open("/dev/full", O_WRONLY), arguments), 3) << arguments[0];
+    EXPECT_EQ(code_with_output(::open("/dev/null", O_WRONLY), arguments), 0) << arguments[0];
+  }
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe(pipe.data()), 0);
+  ::close(pipe[0]);
+  // Hours, if it went on.
+  EXPECT_EQ(code_with_output(pipe[1], {"network", "--rate", "0.9,0.9", "--cycles", "1000000000"}), 3);
 }
 
 TEST(Main, MissingSceneIsBadInput) {

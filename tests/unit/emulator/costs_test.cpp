@@ -3,6 +3,7 @@
 // of them has as little room as there may be.
 #include <gtest/gtest.h>
 
+#include "emulator/errors.hpp"
 #include "emulator/host/host_clock.hpp"
 #include "emulator/machine/network_memory.hpp"
 #include "tests/unit/emulator/wanderers.hpp"
@@ -37,6 +38,20 @@ TEST(HostClock, KeepsWhatIsLeftOfACycle) {
   EXPECT_EQ(clock.busy(11), 3U);
   EXPECT_EQ(clock.busy(20), 3U) << "it has nothing to do after 11";
   EXPECT_EQ(clock.own_cycles()[static_cast<std::size_t>(HostWork::entry)], 7U);
+}
+
+// Not a clock that begins anew, and events in the past.
+TEST(HostClock, BeyondWhatTimeHoldsEndsTheRun) {
+  MachineDescription machine;
+  machine.host.clock_hertz = 1;
+  machine.host.cost_factor = 1000;
+  HostClock clock(machine);
+  const auto work = [&] { clock.work(HostWork::message, 1000); };
+  const auto until_it_ends = [&] {
+    for (Cycles before = 0; before <= clock.now(); work()) before = clock.now();
+  };
+  EXPECT_THROW(until_it_ends(), MachineFailure);
+  EXPECT_GT(clock.now(), Cycles{1} << 61U);
 }
 
 TEST(HostClock, ACostFactorMultipliesAndNoneIsIdeal) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves: figures follow from statistics as documented; tables are the same for the same results, and say what misses.
 #include "host_tools/study/figures.hpp"
+#include "emulator/errors.hpp"
 
 #include <gmock/gmock.h>
 
@@ -100,6 +101,56 @@ TEST(Plots, DrawACurveForEachSeriesAndTheSameBytesAlways) {
   EXPECT_EQ(draw(script), svg);
   EXPECT_EQ(plot_script(study.plan, study.table(), "pe_count", "nothing"), "");
   EXPECT_EQ(plot_file("torus.hops/mean"), "torus_hops_mean.svg");
+}
+
+/// A study of `network` with the results' latencies all 7.
+std::string script_of(const std::string& vary, const std::string& report) {
+  const Plan plan = parse_plan("[base]\ncommand = 'network'\n[vary]\n" + vary + "[report]\n" + report, "plan.toml");
+  const std::vector<Point> points = points_of(plan);
+  std::vector<std::string> keys;
+  std::map<std::string, Json> results;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    keys.push_back(std::to_string(i));
+    results[keys.back()] = {{"mean_latency", 7}};
+  }
+  const Table table = make_table(plan, points, keys, results, {"mean_latency"});
+  return plot_script(plan, table, axes_of(plan).x, "mean_latency");
+}
+
+// Ten curves in eight colours: the ninth looks like no other.
+TEST(Plots, NoTwoCurvesLookTheSame) {
+  const std::string script = script_of("rate = [0.1, 0.2]\nseed = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n", "x = 'rate'\n");
+  std::size_t seen = 0;
+  for (std::size_t at = 0; (at = script.find(" pointtype 7 ", at)) != std::string::npos; ++at) ++seen;
+  EXPECT_EQ(seen, 8U);
+  EXPECT_THAT(script, testing::HasSubstr("pointtype 5 pointsize 0.6 dashtype 2 title 'seed 9'"));
+}
+
+TEST(Plots, NameOnlyWhatDiffersAndPutLongNamesBelow) {
+  const std::string one = script_of("rate = [0.1, 0.2]\nseed = [1, 2]\npes = ['8x8']\n", "x = 'rate'\n");
+  EXPECT_THAT(one, testing::HasSubstr("title 'seed 1' "));
+  EXPECT_THAT(one, testing::HasSubstr("set key outside right"));
+  const std::string more = script_of("rate = [0.1]\nseed = [1, 2]\ntraffic = ['uniform', 'tornado']\n", "x = 'rate'\n");
+  EXPECT_THAT(more, testing::HasSubstr("title 'seed 1, traffic uniform' "));
+  EXPECT_THAT(more, testing::HasSubstr("set key below"));
+}
+
+// gnuplot leaves out a point at 0 of a logarithmic axis, and says nothing.
+TEST(Plots, AnAxisWithA0IsNotLogarithmic) {
+  const std::string report = "x = 'seed'\nlog_x = true\nlog_y = true\n";
+  EXPECT_THAT(script_of("seed = [0, 1, 2]\n", report), testing::Not(testing::HasSubstr("logscale x")));
+  EXPECT_THAT(script_of("seed = [0, 1, 2]\n", report), testing::HasSubstr("logscale y"));
+  EXPECT_THAT(script_of("seed = [1, 2]\n", report), testing::HasSubstr("logscale x 2"));
+}
+
+// What no point is compared with has no speed-up, rather than one against some other run.
+TEST(Tables, WithoutItsBaselineAPointHasNoSpeedUp) {
+  SmallStudy study;
+  study.plan.report.baseline["pes"] = "9x9";
+  EXPECT_THAT(csv_of(study.table()), testing::HasSubstr("\n2x2,skewed:zy,,4,1000,"));
+  EXPECT_THROW(check_baseline(study.plan, study.points), InputError);
+  study.plan.report.baseline["pes"] = "2x2";
+  EXPECT_NO_THROW(check_baseline(study.plan, study.points));
 }
 
 }  // namespace

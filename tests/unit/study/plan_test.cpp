@@ -71,7 +71,8 @@ TEST(Plan, WrongOnesAreRefusedWithFileAndLine) {
   EXPECT_THAT(refusal(kBase + "[vary]\npes = []\n"), StartsWith("plan.toml:5:"));
   EXPECT_THAT(refusal(kBase + "[vary]\npes = [['1x1']]\n"), StartsWith("plan.toml:5:"));
   EXPECT_THAT(refusal(kBase + "[vary]\npes = ['1x1']\n[vary_one]\npes = ['2x2']\n"), HasSubstr("[vary_one]"));
-  EXPECT_THAT(refusal(kBase + "[very]\n"), HasSubstr("did you mean 'vary'?"));
+  EXPECT_THAT(refusal(kBase + "[very]\n"), HasSubstr("did you mean 'vary'? Allowed are: base, "));
+  EXPECT_THAT(refusal(kBase + "[xx]\n"), HasSubstr("no key 'xx'; allowed are: base, "));
   EXPECT_THAT(refusal(kBase + "[report]\nz = 'pes'\n"), StartsWith("plan.toml:5: [report] has no key"));
   EXPECT_THAT(refusal(kBase + "[report]\ny = 3\n"), StartsWith("plan.toml:5:"));
   EXPECT_THAT(refusal(kBase + "[report]\ny = ['a', 3]\n"), StartsWith("plan.toml:5:"));

@@ -75,7 +75,14 @@ TEST(Shards, AreAPartition) {
   EXPECT_EQ(parse_shard("2/5").part, 2U);
   EXPECT_THROW(parse_shard("2"), UsageError);
   EXPECT_THROW(parse_shard("0/5"), InputError);
-  EXPECT_THROW(parse_shard("6/5"), InputError);
+  for (const char* wrong : {"6/5", "1/0"}) {
+    try {
+      parse_shard(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("--shard: ")) << error.what();
+    }
+  }
 }
 
 }  // namespace
