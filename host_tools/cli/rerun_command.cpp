@@ -2,6 +2,7 @@
 // `torolux rerun STATS.json`: the statistics of a run enter; the same run is done again, and whether it was the same
 // leaves.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -57,11 +58,46 @@ void say(const RerunOptions& options, const std::string& text) {
   if (!options.quiet) std::cerr << "torolux: " << text << "\n";
 }
 
+/// Where a file is no more, it may have moved.
+template <class Action>
+auto with_hint(const RerunOptions& options, Action action) {
+  try {
+    return action();
+  } catch (const UsageError& error) {
+    if (options.engine) throw;  // it may be that
+    throw InputError(options.statistics + ": the settings cannot be repeated: " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) +
+                     " (should the scene or image have moved, or the run have been started in another folder, name it "
+                     "with --scene)");
+  }
+}
+
+/// What is wrong in the settings is wrong in the file, not on this command line.
+template <class Action>
+auto from_settings(const RerunOptions& options, Action action) {
+  const auto refuse = [&](const std::string& why) -> InputError {
+    return InputError(options.statistics + ": the settings cannot be repeated: " + why);
+  };
+  try {
+    return action();
+  } catch (const UsageError& error) {
+    throw refuse(error.what());
+  } catch (const InputError& error) {
+    throw refuse(error.what());
+  } catch (const Json::exception& error) {
+    throw refuse(error.what());
+  }
+}
+
 /// Throws InputError where inputs have changed and that was not allowed; other changes are told.
 void check_settings(const Json& was, const Json& is, const RerunOptions& options) {
-  const std::vector<std::string> inputs = changed_inputs(was, is);
-  for (const std::string& line : changed_versions(was, is)) say(options, "note: " + line);
-  for (const std::string& line : changed_settings(was, is)) say(options, "note: settings." + line);
+  using Lines = std::vector<std::string>;
+  const auto [inputs, versions, settings] = from_settings(options, [&] {
+    return std::array<Lines, 3>{changed_inputs(was, is), changed_versions(was, is), changed_settings(was, is)};
+  });
+  for (const std::string& line : versions) say(options, "note: " + line);
+  for (const std::string& line : settings) say(options, "note: settings." + line);
   if (inputs.empty()) return;
   std::string text;
   for (const std::string& line : inputs) text += (text.empty() ? "" : "; ") + line;
@@ -70,37 +106,27 @@ void check_settings(const Json& was, const Json& is, const RerunOptions& options
   say(options, "note: " + text);
 }
 
-/// Where a file is no more, it may have moved.
-template <class Action>
-auto with_hint(Action action) {
-  try {
-    return action();
-  } catch (const InputError& error) {
-    throw InputError(std::string(error.what()) + " (should the scene or image have moved, name it with --scene)");
-  }
-}
-
 RunEnd run_render_again(const Json& was, const std::vector<std::string>& words, const RerunOptions& options) {
-  RenderOptions render = parse_render_options(words);
+  RenderOptions render = from_settings(options, [&] { return parse_render_options(words); });
   render.outputs = options.outputs;
   render.no_picture = options.outputs.empty();
   if (options.stats) render.stats = *options.stats;
   if (options.engine) render.engine = options.engine;
   if (options.threads != 0) render.threads = options.threads;
   render.quiet = true;
-  PreparedRender prepared = with_hint([&] { return prepare_render(render); });
+  PreparedRender prepared = with_hint(options, [&] { return prepare_render(render); });
   check_settings(was, settings_json(prepared.run, nullptr), options);
   return run_prepared(prepared, render);
 }
 
 RunEnd run_image_again(const Json& was, const std::vector<std::string>& words, const RerunOptions& options) {
-  RunOptions run = parse_run_options(words);
+  RunOptions run = from_settings(options, [&] { return parse_run_options(words); });
   if (!options.outputs.empty()) throw UsageError("--output: `torolux run` makes no picture");
   run.stats = options.stats;
   run.engine = options.engine.value_or(run.engine);
   run.threads = options.threads;
   run.quiet = true;
-  const InputFile image{"image", run.image, with_hint([&] { return sha256_of_file(run.image); })};
+  const InputFile image{"image", run.image, with_hint(options, [&] { return sha256_of_file(run.image); })};
   check_settings(was, settings_json(setup_from(run), image), options);
   return run_prepared(run);
 }
@@ -125,7 +151,8 @@ bool report(const Json& was, const Json& is, const RerunOptions& options) {
 
 int run_rerun(const RerunOptions& options) {
   const Json was = read_statistics(options.statistics);
-  std::vector<std::string> words = command_line_of(moved(was.at("settings"), options));
+  std::vector<std::string> words =
+      from_settings(options, [&] { return command_line_of(moved(was.at("settings"), options)); });
   const std::string command = words.front();
   words.erase(words.begin());
   const RunEnd end = command == "render" ? run_render_again(was.at("settings"), words, options)

@@ -17,7 +17,7 @@ constexpr double kLeastUnshotOption = 1e-9;
 
 std::string text(const Json& value) {
   if (value.is_number_float()) return text_of(MachineValue(value.get<double>()));
-  if (value.is_number()) return std::to_string(value.get<std::uint64_t>());
+  if (value.is_number()) return value.dump();
   return value.get<std::string>();
 }
 

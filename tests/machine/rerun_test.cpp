@@ -89,6 +89,20 @@ TEST_F(Rerun, FindsASceneThatHasMovedOnlyIfTold) {
   EXPECT_EQ(run_torolux({"rerun", stats_, "--scene", moved}).exit_code, 0);
 }
 
+// By hand, or by a disk: the file is named, and nothing is taken for something else.
+TEST_F(Rerun, OfSettingsThatAreWrongNamesTheFile) {
+  const std::vector<std::pair<const char*, nlohmann::json>> wrong = {
+      {"/settings/seed", -1},         {"/settings/exposure", -99},      {"/settings/pes", 3},
+      {"/settings/engine", "steam"},  {"/settings/automatic", -1},      {"/settings/camera", nullptr},
+      {"/settings/filter", "square"}, {"/settings/machine", {{"a", 1}}}};
+  for (const auto& [place, value] : wrong) {
+    const Finished run = run_torolux({"rerun", changed(nlohmann::json::json_pointer(place), value)});
+    EXPECT_EQ(run.exit_code, 2) << place << ": " << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr("changed.json: ")) << place;
+    EXPECT_THAT(run.errors, testing::Not(HasSubstr("\"18446744073709551"))) << place;
+  }
+}
+
 TEST(RerunOfAnImage, IsTheSameOnTheOtherEngine) {
   const TemporaryFolder folder;
   const std::string stats = folder.path() / "stats.json";
