@@ -32,6 +32,8 @@ class NativeNiu final : public pe::HintTarget {
     for (;;) {
       const auto result = side_.hint(immediate, clock_.cycles(), clock_.spent());
       if (result.outcome == NiuProcessorSide::Outcome::retry) continue;
+      // Markers come from destructors, too, on the way out: those must not throw.
+      if (result.outcome == NiuProcessorSide::Outcome::stop && marker) return;
       if (result.outcome == NiuProcessorSide::Outcome::stop) throw Stopped();
       clock_.set(result.clock);
       return;

@@ -46,12 +46,24 @@ class MachineDice {
     machine.records.niu_slots = chance(3) ? number(16, 24) : number(25, 600);
     machine.records.gather_cycles = chance(3) ? 0 : 1U << number(4, 20);
     machine.records.gather_records = chance(3) ? number(1, 40) : 4096;
-    if (chance(2)) machine.torus.link_error_rate = number(1, 200) * 1e-3;
+    if (chance(4)) take_least_of_all(machine);
+    if (chance(2)) machine.torus.link_error_rate = number(1, chance(2) ? 200 : 500) * 1e-3;
     if (chance(2)) machine.jitter = {.seed = number(1, 1'000'000), .cycles = number(1, 3000)};
     return machine;
   }
 
  private:
+  /// One place in each queue and buffer, or as few as are allowed: where a machine would lock first.
+  static void take_least_of_all(MachineDescription& machine) {
+    machine.torus.buffer_packets = 2;
+    machine.torus.send_queue_packets = 1;
+    machine.bus.send_queue_messages = 1;
+    machine.bus.control_buffers = 1;
+    machine.niu.receive_packets = 1;
+    machine.frame_buffer.queue_messages = 1;
+    machine.records.niu_slots = 16;
+  }
+
   std::mt19937 random_;
 };
 

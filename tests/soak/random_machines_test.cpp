@@ -53,9 +53,11 @@ TEST(RandomMachines, MakeOnePicture) {
   const std::vector<std::byte> picture = bytes_of(run_case(small_scene()).picture);
   std::uint64_t diverted = 0;
   std::uint64_t retries = 0;
+  unsigned least = 0;
   for (std::uint32_t seed = 1; seed <= 100; ++seed) {
     const RenderCase render_case = case_of(seed);
     const MachineChoice& machine = render_case.machine;
+    if (machine.description.records.niu_slots == 16 && machine.description.niu.receive_packets == 1) ++least;
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + to_text(machine.description, machine.columns, machine.rows) +
                  ", " + machine.allocation);
     const RenderResult result = run_case(render_case);
@@ -66,6 +68,7 @@ TEST(RandomMachines, MakeOnePicture) {
     if (seed % 5 != 0) continue;
     ASSERT_EQ(exact_figures(run_case(render_case).figures), exact_figures(result.figures));
   }
+  EXPECT_GT(least, 10U) << "some machines are to have the least of everything";
   EXPECT_GT(diverted, 1000U) << "the machines are to be forced to divert";
   EXPECT_GT(retries, 1000U) << "and to send again";
 }
