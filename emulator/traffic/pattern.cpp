@@ -79,11 +79,13 @@ class BitComplement final : public TrafficPattern {
 /// All to the one in the middle.
 class Hotspot final : public TrafficPattern {
  public:
-  explicit Hotspot(TorusShape shape) : spot_(shape.rows() / 2 * shape.columns() + shape.columns() / 2) {}
+  explicit Hotspot(TorusShape shape)
+      : spot_(shape.rows() / 2 * shape.columns() + shape.columns() / 2), senders_(shape.routers() - 1) {}
   unsigned destination(unsigned /*from*/, std::uint32_t /*random*/) const override { return spot_; }
+  unsigned senders_to_one() const override { return senders_; }
 
  private:
-  unsigned spot_;
+  unsigned spot_, senders_;
 };
 
 }  // namespace

@@ -17,6 +17,8 @@ class TrafficPattern {
   virtual ~TrafficPattern() = default;
   /// Where `from` sends to; `random`: uniform, 32 bits, for patterns by chance. May be `from` itself.
   virtual unsigned destination(unsigned from, std::uint32_t random) const = 0;
+  /// How many nodes send to the one that most send to, on average.
+  virtual unsigned senders_to_one() const { return 1; }
 };
 
 /// uniform, tornado, transpose, bit-complement, hotspot.

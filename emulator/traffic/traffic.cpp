@@ -29,7 +29,19 @@ void check(const TrafficSetup& setup) {
     throw InputError("packets of " + std::to_string(setup.packet_flits) + " flits: 1 to " +
                      std::to_string(kMostTrafficFlits) + " are allowed");
   }
-  if (setup.cycles == 0) throw InputError("0 cycles to measure in: at least 1 is needed");
+  if (setup.cycles == Cycles{0}) throw InputError("0 cycles to measure in: at least 1 is needed");
+}
+
+/// A node's least share of what the torus delivers is told from chance by so many packets.
+constexpr double kPacketsOfANode = 100;
+constexpr double kLeastCycles = 20'000, kMostCycles = 1e9;
+/// What every pattern gets through a torus of some size, per node [flits / cycle].
+constexpr double kServed = 0.25;
+
+Cycles cycles_to_measure(const TrafficSetup& setup, const TrafficPattern& pattern) {
+  if (setup.cycles) return *setup.cycles;
+  const double served = std::min({setup.rate, kServed, 1.0 / pattern.senders_to_one()});
+  return static_cast<Cycles>(std::clamp(kPacketsOfANode * setup.packet_flits / served, kLeastCycles, kMostCycles));
 }
 
 class Traffic final : private TorusClient {
@@ -38,9 +50,11 @@ class Traffic final : private TorusClient {
       : setup_(setup),
         shape_(setup.columns, setup.rows),
         pattern_(make_traffic_pattern(setup.pattern, shape_, setup.to_itself)),
+        cycles_(cycles_to_measure(setup, *pattern_)),
         begin_(setup.warm_up),
-        end_(setup.warm_up + setup.cycles),
-        last_made_(end_ + setup.cycles / 2),
+        end_(begin_ + cycles_),
+        last_made_(end_ + cycles_ / 2),
+        last_(end_ + 3 * cycles_),
         // Of the chance that a cycle makes no packet.
         log_idle_(std::log1p(-std::min(setup.rate / setup.packet_flits, 1 - 1e-12))),
         events_(3 * std::size_t{shape_.routers()}),
@@ -51,7 +65,7 @@ class Traffic final : private TorusClient {
   TrafficFigures run(const std::function<bool()>& keep_on) {
     for (unsigned node = 0; node < shape_.routers(); ++node) start(node);
     std::uint32_t until_ask = kAskEvents;
-    while (open_ != 0 || waited_for_ != 0) {
+    while ((open_ != 0 || waited_for_ != 0) && now_ < last_) {
       if (events_.empty()) {
         throw MachineFailure(
             "deadlock at cycle " + std::to_string(now_) + ": " + std::to_string(torus_.packets_inside()) +
@@ -175,7 +189,7 @@ class Traffic final : private TorusClient {
       flits += node.flits_delivered;
       least = std::min(least, node.flits_delivered);
     }
-    const auto cycles = static_cast<double>(setup_.cycles);
+    const auto cycles = static_cast<double>(cycles_);
     const double mean_flits = static_cast<double>(flits) / static_cast<double>(senders);
     result.accepted = mean_flits / cycles;
     result.fairness = mean_flits > 0 ? static_cast<double>(least) / mean_flits : 0;
@@ -203,7 +217,7 @@ class Traffic final : private TorusClient {
   const TrafficSetup& setup_;
   TorusShape shape_;
   std::unique_ptr<TrafficPattern> pattern_;
-  Cycles begin_, end_, last_made_;
+  Cycles cycles_, begin_, end_, last_made_, last_;
   double log_idle_;
   EventQueue events_;
   BlockPool pool_;

@@ -28,7 +28,7 @@ struct NetworkOptions {
   std::uint32_t packet_flits = 4;
   std::uint32_t seed = 1;
   std::uint64_t warm_up = 5000;
-  std::uint64_t cycles = 20000;
+  std::optional<std::uint64_t> cycles;
   bool to_itself = false;
   std::optional<std::string> machine;
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked
@@ -124,10 +124,9 @@ void add_network_command(CLI::App& app, CommandAction& action) {
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, kMostNetworkCycles))
       ->capture_default_str();
-  command->add_option("--cycles", options->cycles, "Cycles in which it is")
+  command->add_option("--cycles", options->cycles, "Cycles in which it is [enough for 100 packets of each node]")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, kMostNetworkCycles))
-      ->capture_default_str();
+      ->check(CLI::Range(std::uint64_t{1}, kMostNetworkCycles));
   command->add_option("--format", options->format, "table or csv")
       ->type_name("NAME")
       ->check(CLI::IsMember({"table", "csv"}))

@@ -54,7 +54,7 @@ TEST(Traffic, HopsAndLinkLoadsAreTheorys) {
     // Transpose: of each row only one packet in eight goes half a ring, and by its parity, all of it one way. So a link
     // carries 4 where theory, which halves such packets, has 3.5.
     const double load = setup.rate * (row.pattern == "transpose" ? 4 : 1 / row.ideal);
-    const double noise = 5 * std::sqrt(load / static_cast<double>(setup.cycles));
+    const double noise = 5 * std::sqrt(load / static_cast<double>(*setup.cycles));
     EXPECT_NEAR(figures.max_link_load, load, noise);
     EXPECT_NEAR(figures.accepted, setup.rate, 0.03 * setup.rate);
   }
