@@ -85,7 +85,10 @@ void Torus::arrive(const Event& event) {
 void Torus::tail(const Event& event) {
   Input& input = routers_[event.actor].inputs[event.port];
   if (input.queue.back() != event.block) return;  // nothing comes behind it before its tail
-  if (input.queue.size() == 1) withdraw(event.actor, event.port, input.output, event.time);
+  if (input.queue.size() == 1) {
+    withdraw(event.actor, event.port, input.output, event.time);
+    ask(event.actor, input.output, event.time);  // nobody may be left who starves
+  }
   input.queue.remove_back(pool_);
   if (pool_[event.block].copy == Copy::poisoned) free_slot(event.actor, event.port, event.time, event.time);
   pool_.give_back(event.block);
@@ -129,7 +132,7 @@ void Torus::request(unsigned router, std::size_t input, Cycles now) {
 /// An output has something to look at: at the end of this cycle, or when it is free.
 void Torus::ask(unsigned router, std::size_t output, Cycles now) {
   const Output& out = routers_[router].outputs[output];
-  if (out.waiting != 0) schedule(router, output, std::max(now, out.free_at));
+  if (out.waiting != 0 || out.starving != kNobody) schedule(router, output, std::max(now, out.free_at));
 }
 
 void Torus::schedule(unsigned router, std::size_t output, Cycles when) {

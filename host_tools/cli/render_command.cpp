@@ -59,7 +59,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
   std::string statistics = stats_json(prepared.run, result.figures);
   if (options.stats) write_file(*options.stats, statistics);
-  if (options.stats_csv) write_stats_tables(*options.stats_csv, result.figures.machine, result.figures.rounds);
+  if (options.stats_csv) write_stats_tables(*options.stats_csv, stats_tables(result.figures));
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
   return {0, std::move(statistics)};
 }

@@ -207,6 +207,28 @@ CsvTable rounds_table(const std::vector<RoundFigures>& rounds) {
   return table;
 }
 
+CsvTable visits_table(const RenderFigures& figures) {
+  CsvTable table{"visits", "stage,subspaces,segments", {}};
+  const auto add = [&](std::string_view stage, const VisitSums& segments) {
+    for (std::size_t n = 0; n < segments.size(); ++n) {
+      Line row;
+      if (segments[n] != 0) table.rows.push_back(row.add(stage).add(n).add(segments[n]).text());
+    }
+  };
+  add("radiosity", figures.radiosity_visits);
+  add("ray_tracing", figures.ray_visits);
+  return table;
+}
+
+/// rounds: for what bounds the stages.
+std::vector<CsvTable> machine_tables(const MachineFigures& machine, const std::vector<RoundFigures>& rounds) {
+  std::vector<CsvTable> tables = {stages_table(machine, rounds), pes_table(machine),   bus_table(machine),
+                                  host_table(machine),           links_table(machine), histograms_table(machine),
+                                  time_line_table(machine)};
+  if (!machine.record_kinds.empty()) tables.push_back(kinds_table(machine));
+  return tables;
+}
+
 }  // namespace
 
 std::string CsvTable::text() const {
@@ -215,12 +237,14 @@ std::string CsvTable::text() const {
   return text;
 }
 
-std::vector<CsvTable> stats_tables(const MachineFigures& machine, const std::vector<RoundFigures>& rounds) {
-  std::vector<CsvTable> tables = {stages_table(machine, rounds), pes_table(machine),   bus_table(machine),
-                                  host_table(machine),           links_table(machine), histograms_table(machine),
-                                  time_line_table(machine)};
-  if (!machine.record_kinds.empty()) tables.push_back(kinds_table(machine));
-  if (!rounds.empty()) tables.push_back(rounds_table(rounds));
+std::vector<CsvTable> stats_tables(const MachineFigures& machine) {
+  return machine_tables(machine, {});
+}
+
+std::vector<CsvTable> stats_tables(const RenderFigures& figures) {
+  std::vector<CsvTable> tables = machine_tables(figures.machine, figures.rounds);
+  if (!figures.rounds.empty()) tables.push_back(rounds_table(figures.rounds));
+  tables.push_back(visits_table(figures));
   return tables;
 }
 
@@ -231,9 +255,8 @@ void check_stats_folder(const std::filesystem::path& folder) {
   check_file_writable(folder / "stages.csv");
 }
 
-void write_stats_tables(const std::filesystem::path& folder, const MachineFigures& machine,
-                        const std::vector<RoundFigures>& rounds) {
-  for (const CsvTable& table : stats_tables(machine, rounds)) write_file(folder / (table.name + ".csv"), table.text());
+void write_stats_tables(const std::filesystem::path& folder, const std::vector<CsvTable>& tables) {
+  for (const CsvTable& table : tables) write_file(folder / (table.name + ".csv"), table.text());
 }
 
 }  // namespace torolux

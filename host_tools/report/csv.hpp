@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
-#include "host_tools/stages/rounds.hpp"
+#include "host_tools/render/render.hpp"
 
 namespace torolux {
 
@@ -19,12 +19,13 @@ struct CsvTable {
   std::string text() const;  ///< header and rows, each line ended
 };
 
-std::vector<CsvTable> stats_tables(const MachineFigures& machine, const std::vector<RoundFigures>& rounds);
+std::vector<CsvTable> stats_tables(const MachineFigures& machine);
+/// With what only a render has: rounds, visits.
+std::vector<CsvTable> stats_tables(const RenderFigures& figures);
 
 /// Makes the folder where it is not there, and checks that files can be written into it. Throws InputError.
 void check_stats_folder(const std::filesystem::path& folder);
 /// One file for each table, each written whole or not at all. Throws InputError.
-void write_stats_tables(const std::filesystem::path& folder, const MachineFigures& machine,
-                        const std::vector<RoundFigures>& rounds);
+void write_stats_tables(const std::filesystem::path& folder, const std::vector<CsvTable>& tables);
 
 }  // namespace torolux

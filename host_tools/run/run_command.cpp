@@ -50,7 +50,7 @@ RunEnd run_prepared(const RunOptions& options) {
     write_file(*options.stats, statistics);
   }
   if (options.stats_csv) {
-    write_stats_tables(*options.stats_csv, figures, {});
+    write_stats_tables(*options.stats_csv, stats_tables(figures));
   }
   if (!options.quiet) {
     print_summary(setup, figures, wall_seconds);

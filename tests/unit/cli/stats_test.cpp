@@ -149,9 +149,11 @@ TEST(Stats, AreThoseOfThePage) {
 }
 
 TEST(StatsTables, HaveTheirHeadersColumns) {
-  const RenderFigures figures = testing_support::whole_figures();
-  const std::vector<CsvTable> tables = stats_tables(figures.machine, figures.rounds);
-  EXPECT_EQ(tables.size(), 9U);
+  RenderFigures figures = testing_support::whole_figures();
+  figures.radiosity_visits[3] = 7;
+  const std::vector<CsvTable> tables = stats_tables(figures);
+  EXPECT_EQ(tables.size(), 10U);
+  EXPECT_EQ(tables.back().text(), "stage,subspaces,segments\nradiosity,3,7\n");
   for (const CsvTable& table : tables) {
     const auto commas = std::count(table.header.begin(), table.header.end(), ',');
     EXPECT_FALSE(table.rows.empty()) << table.name;
