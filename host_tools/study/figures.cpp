@@ -107,6 +107,16 @@ Json of_pes(const Json& result, std::string_view name) {
   return quotient(sums->busy, sums->busy + sums->idle);
 }
 
+/// Of the bytes that crossed a link, those that crossed one alone.
+Json adjacent_share(const Json& result) {
+  const Json::json_pointer key("/histograms/bytes_by_hops");
+  if (!result.contains(key) || !result.at(key).is_array()) return nullptr;
+  const Json& bytes = result.at(key);
+  double all = 0;
+  for (std::size_t hops = 1; hops < bytes.size(); ++hops) all += number(bytes[hops]).value_or(0);
+  return all > 0 ? Json(number(bytes[1]).value_or(0) / all) : Json();
+}
+
 }  // namespace
 
 Json figure(const Json& result, const Json* baseline, std::string_view name) {
@@ -118,6 +128,7 @@ Json figure(const Json& result, const Json* baseline, std::string_view name) {
   if (name == "pe_count") return pe_count(result);
   if (name == "balance" || name == "utilisation") return of_pes(result, name);
   if (name == "mean_hops" && result.contains("hops")) return at_key(result, "hops.mean");
+  if (name == "adjacent_share") return adjacent_share(result);
   if (name == "memory") return at_key(result, "settings.pe_memory");
   return at_key(result, name);
 }

@@ -14,6 +14,7 @@ namespace {
 Json statistics(unsigned columns, std::uint64_t radiosity) {
   return {{"virtual_cycles", {{"load", 100}, {"radiosity", radiosity}, {"ray_tracing", 300}}},
           {"hops", {{"mean", 1.25}}},
+          {"histograms", {{"bytes_by_hops", {1000, 60, 40}}}},
           {"settings", {{"pes", {columns, 2}}, {"pe_memory", 1048576}}},
           {"pes", {{{"busy_cycles", 10}, {"idle_cycles", 30}}, {{"busy_cycles", 20}, {"idle_cycles", 20}}}}};
 }
@@ -34,6 +35,7 @@ TEST(Figures, FollowFromTheStatistics) {
   EXPECT_EQ(of("balance"), 0.75);
   EXPECT_EQ(of("utilisation"), 30.0 / 80);
   EXPECT_EQ(of("mean_hops"), 1.25);
+  EXPECT_EQ(of("adjacent_share"), 0.6) << "what stays in a PE does not count";
   EXPECT_EQ(of("memory"), 1048576);
   EXPECT_EQ(of("pes.1.busy_cycles"), 20);
   for (const char* name : {"nothing", "hops.least", "pes.2.busy_cycles", "pes.x", "cycles.paint"})
