@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -D SOURCE=checkout -D OUTPUT=commit.hpp -P commit.cmake: writes the checkout's commit, where it has changed.
+# cmake -D SOURCE=checkout -D OUTPUT=commit.hpp -P commit.cmake: writes the checkout's commit.
 execute_process(
   COMMAND git -C ${SOURCE} describe --always --abbrev=40 --exclude=* --dirty
   OUTPUT_VARIABLE commit
@@ -9,3 +9,4 @@ if(NOT result EQUAL 0)
   set(commit "")
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "inline constexpr const char* kCommit = \"${commit}\";\n")
+file(TOUCH ${OUTPUT})
