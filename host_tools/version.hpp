@@ -6,8 +6,8 @@ namespace torolux {
 
 inline constexpr const char* kVersion = "0.1.0";
 
-/// The commit of the checkout that this program was built from, 40 digits, with "-dirty" where files were changed
-/// since; empty where it was not built from one.
+/// The commit of the checkout that this program was built from, 40 digits, with "-dirty" where files had been changed
+/// when the build looked it up; empty where it was not built from one.
 const char* program_commit();
 
 }  // namespace torolux
