@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// libFuzzer: any bytes as a study's plan in; no crash, and nothing but a refusal, out.
+#include "tests/fuzz/load_study.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  torolux::load_study_plan(std::string(data, data + size));
+  return 0;
+}
