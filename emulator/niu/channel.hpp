@@ -180,6 +180,7 @@ struct ProcessorState {
   std::uint32_t stage;          ///< of the last arrival taken
   std::uint32_t phase_depth;
   std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
+  std::uint64_t waited;                                ///< [cycles] of the clock, for all reasons together
   std::uint64_t busy_since;                            ///< clock at the end of the last wait
   Slices<std::uint64_t> busy;                          ///< busy cycles over time, up to that
   std::array<ProcessorMark, kMostStages> marks;        ///< when its first arrival of each stage had been taken
@@ -229,17 +230,11 @@ struct NiuChannel {
   ByteRing<Command, kMostRingBytes> commands;
   ByteRing<Arrival, kMostRingBytes> arrivals;
 };
+
 /// When the next command takes effect, if it is ready at this clock: commands stay in their order.
 inline std::uint64_t command_time(ProcessorState& state, std::uint64_t clock) {
   state.last_command = state.last_command > clock + kCommandCycles ? state.last_command : clock + kCommandCycles;
   return state.last_command;
-}
-
-/// Cycles of the processor's clock that it has waited in HINTs.
-inline std::uint64_t waited_cycles(const NiuChannel& channel) {
-  std::uint64_t sum = 0;
-  for (const auto& cycles : channel.waits) sum += cycles.load(std::memory_order_relaxed);
-  return sum;
 }
 static_assert(sizeof(NiuChannel) - 2 * (kMostRingBytes - kLeastRingBytes) <= 62U * 1024U);
 

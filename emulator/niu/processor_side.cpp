@@ -41,13 +41,14 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
     return {retry, clock};
   }
   if (run.clock() != clock) {
-    channel_.processor.busy.add_interval(channel_.processor.busy_since, clock, 1);
-    channel_.processor.busy_since = run.clock();
-  }
-  for (std::size_t i = 0; i < kWaitReasons; ++i) {
-    const std::uint64_t cycles = run.waited()[i];
-    if (cycles == 0) continue;
-    channel_.waits[i].store(channel_.waits[i].load(std::memory_order_relaxed) + cycles, std::memory_order_relaxed);
+    ProcessorState& state = channel_.processor;
+    state.busy.add_interval(state.busy_since, clock, 1);
+    state.busy_since = run.clock();
+    state.waited += run.clock() - clock;
+    for (std::size_t i = 0; i < kWaitReasons; ++i) {
+      channel_.waits[i].store(channel_.waits[i].load(std::memory_order_relaxed) + run.waited()[i],
+                              std::memory_order_relaxed);
+    }
   }
   channel_.clock.store(run.clock(), std::memory_order_relaxed);
   channel_.processor.last_hint = run.clock();

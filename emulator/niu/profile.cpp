@@ -16,7 +16,7 @@ constexpr auto kLeave = static_cast<std::int32_t>(Hint::leave_phase);
 
 void charge(NiuChannel& channel, std::uint64_t clock) {
   ProcessorState& state = channel.processor;
-  const std::uint64_t busy = clock - waited_cycles(channel);
+  const std::uint64_t busy = clock - state.waited;
   if (state.phase_depth != 0) {
     auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];
     cycles.store(cycles.load(std::memory_order_relaxed) + busy - state.phase_begin, std::memory_order_relaxed);
@@ -61,7 +61,7 @@ ProcessorMark mark_of(const NiuChannel& channel) {
   for (std::size_t i = 0; i < protocol::kPhases; ++i) mark.phase_cycles[i] = channel.phase_cycles[i].load(relaxed);
   const ProcessorState& state = channel.processor;
   if (state.phase_depth != 0) {  // what the open phase has had since the last marker
-    const std::uint64_t busy = mark.clock - waited_cycles(channel);
+    const std::uint64_t busy = mark.clock - state.waited;
     mark.phase_cycles[state.phases[state.phase_depth - 1]] += busy - state.phase_begin;
   }
   return mark;
