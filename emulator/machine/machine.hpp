@@ -79,7 +79,6 @@ struct MachineFigures {
   std::vector<PeFigures> pes;
   std::vector<RouterFigures> routers;  ///< of each PE
   PacketFigures packets;               ///< that have left the torus
-  std::uint64_t hops = 0;              ///< links crossed by all delivered packets
   std::uint64_t link_retries = 0;
   std::vector<KindFigures> record_kinds;  ///< as the host program has them; empty: it has none
   BusFigures bus;

@@ -99,7 +99,6 @@ void subtract(MachineFigures& from, const MachineFigures& before) {
   }
   subtract_each(from.routers, before.routers);
   subtract(from.packets, before.packets);
-  from.hops -= before.hops;
   from.link_retries -= before.link_retries;
   subtract_each(from.record_kinds, before.record_kinds);
   subtract(from.bus, before.bus);
@@ -165,7 +164,6 @@ MachineFigures Emulation::network_figures(Cycles now) const {
   }
   figures.routers = torus_.router_figures(now_);
   figures.packets = torus_.packet_figures();
-  figures.hops = torus_.packet_figures().hops;
   figures.link_retries = torus_.link_retries();
   figures.record_kinds = kinds_;
   figures.bus = bus_.figures();

@@ -83,7 +83,7 @@ CsvTable stages_table(const MachineFigures& machine, const std::vector<RoundFigu
     const Limits limits = limits_of(stage, rounds);
     Line row;
     row.add(stage.name).add(stage.begin).add(figures.now).add(sums.busy).add_all(sums.waits, kWaitReasons);
-    row.add(sums.idle_at_end).add(sums.delivered).add(figures.hops).add(sums.diverted);
+    row.add(sums.idle_at_end).add(sums.delivered).add(figures.packets.hops).add(sums.diverted);
     row.add(figures.bus.busy_cycles()).add(figures.frame_buffer_busy_cycles).add(figures.host.busy_cycles);
     row.add(kLimitNames[static_cast<std::size_t>(limits.by)]).add(limits.share()).add_all(limits.shares, kLimits);
     table.rows.push_back(row.text());

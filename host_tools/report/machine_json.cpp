@@ -111,7 +111,7 @@ Json limits_json(const Limits& limits) {
 Json machine_json(const MachineFigures& machine) {
   const PeSums sums = sums_of(machine.pes);
   const double mean_hops =
-      sums.delivered > 0 ? static_cast<double>(machine.hops) / static_cast<double>(sums.delivered) : 0;
+      sums.delivered > 0 ? static_cast<double>(machine.packets.hops) / static_cast<double>(sums.delivered) : 0;
   Json json;
   const PacketFigures& packets = machine.packets;
   const double mean_latency =
@@ -125,7 +125,7 @@ Json machine_json(const MachineFigures& machine) {
   for (const KindFigures& kind : machine.record_kinds) {
     json["kinds"][kind.name] = {{"packets", kind.packets}, {"records", kind.records}, {"bytes", kind.bytes}};
   }
-  json["hops"] = {{"mean", mean_hops}, {"total", machine.hops}, {"wasted", packets.wasted_hops}};
+  json["hops"] = {{"mean", mean_hops}, {"total", machine.packets.hops}, {"wasted", packets.wasted_hops}};
   json["torus"] = torus_json(machine);
   json["histograms"] = histograms_json(packets);
   json["bus"] = bus_json(machine);

@@ -96,7 +96,8 @@ std::string traffic(const RenderFigures& figures) {
     delivered += pe.packets_delivered;
     diverted += pe.records_diverted;
   }
-  const double hops = delivered > 0 ? static_cast<double>(figures.machine.hops) / static_cast<double>(delivered) : 0;
+  const double hops =
+      delivered > 0 ? static_cast<double>(figures.machine.packets.hops) / static_cast<double>(delivered) : 0;
   return left("packets", kLabel) + "  " + grouped(sent) + " sent, " + grouped(delivered) + " delivered, " +
          fixed(hops, 2) + " hops on average\n" + left("records", kLabel) + "  " + grouped(figures.radiosity_records) +
          " from " + grouped(figures.shots) + " shots, " + grouped(figures.rays) + " rays; " + grouped(diverted) +

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "emulator/machine/machine.hpp"
+#include "tests/support/least_queues.hpp"
 
 namespace torolux::test {
 
@@ -53,14 +54,8 @@ class MachineDice {
   }
 
  private:
-  /// One place in each queue and buffer, or as few as are allowed: where a machine would lock first.
   static void take_least_of_all(MachineDescription& machine) {
-    machine.torus.buffer_packets = 2;
-    machine.torus.send_queue_packets = 1;
-    machine.bus.send_queue_messages = 1;
-    machine.bus.control_buffers = 1;
-    machine.niu.receive_packets = 1;
-    machine.frame_buffer.queue_messages = 1;
+    take_least_queues(machine);
     machine.records.niu_slots = 16;
   }
 

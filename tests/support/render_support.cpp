@@ -52,10 +52,10 @@ std::string exact_figures(const RenderFigures& figures) {
   std::ostringstream text;
   text << "cycles " << figures.load_cycles << ' ' << figures.radiosity_cycles << ' ' << figures.ray_tracing_cycles
        << "\nshots " << figures.shots << " records " << figures.radiosity_records << " rays " << figures.rays
-       << "\ncredits " << figures.credits_home << '/' << figures.credits_total << " hops " << figures.machine.hops
-       << " bus " << figures.machine.bus.busy_cycles() << ' ' << figures.machine.bus.transfers << " fbc "
-       << figures.machine.frame_buffer_busy_cycles << ' ' << figures.machine.pixels_added << " trace "
-       << figures.machine.trace_hash << '\n';
+       << "\ncredits " << figures.credits_home << '/' << figures.credits_total << " hops "
+       << figures.machine.packets.hops << " bus " << figures.machine.bus.busy_cycles() << ' '
+       << figures.machine.bus.transfers << " fbc " << figures.machine.frame_buffer_busy_cycles << ' '
+       << figures.machine.pixels_added << " trace " << figures.machine.trace_hash << '\n';
   for (const PeFigures& pe : figures.machine.pes) {
     text << pe.busy_cycles << ' ' << pe.idle_cycles() << ' ' << pe.instructions << ' ' << pe.packets_sent << ' '
          << pe.packets_delivered << ' ' << pe.records_diverted << ' ' << pe.record_slots_high_water;

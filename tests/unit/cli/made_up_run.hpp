@@ -36,7 +36,7 @@ inline RenderFigures made_up_figures() {
   MachineFigures& machine = figures.machine;
   machine.now = 27'457'289;
   machine.trace_hash = 0xABCD;
-  machine.hops = 2500;
+  machine.packets.hops = 2500;
   machine.link_retries = 3;
   machine.bus.data_cycles = 77;
   machine.bus.transfers = 78;

@@ -6,6 +6,7 @@
 #include "emulator/errors.hpp"
 #include "emulator/host/host_clock.hpp"
 #include "emulator/machine/network_memory.hpp"
+#include "tests/support/least_queues.hpp"
 #include "tests/unit/emulator/wanderers.hpp"
 
 namespace torolux::test {
@@ -292,13 +293,7 @@ TEST(Costs, AFullFrameBufferControllerIsSeenToBeFreeLater) {
 
 MachineSetup smallest_machine() {
   MachineSetup setup = small_machine(4, 3);
-  MachineDescription& machine = setup.description;
-  machine.torus.buffer_packets = 2;
-  machine.torus.send_queue_packets = 1;
-  machine.bus.send_queue_messages = 1;
-  machine.bus.control_buffers = 1;
-  machine.niu.receive_packets = 1;
-  machine.frame_buffer.queue_messages = 1;
+  take_least_queues(setup.description);
   return setup;
 }
 

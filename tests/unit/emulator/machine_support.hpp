@@ -65,7 +65,7 @@ inline MachineSetup small_machine(unsigned columns, unsigned rows) {
 
 /// Everything of the figures that must repeat exactly.
 inline std::string exact(const MachineFigures& figures) {
-  std::string text = std::to_string(figures.now) + " hops " + std::to_string(figures.hops) + " retries " +
+  std::string text = std::to_string(figures.now) + " hops " + std::to_string(figures.packets.hops) + " retries " +
                      std::to_string(figures.link_retries) + " bus " + std::to_string(figures.bus.busy_cycles()) + "/" +
                      std::to_string(figures.bus.transfers) + " pixels " + std::to_string(figures.pixels_added) +
                      " trace " + std::to_string(figures.trace_hash) + "\n";
