@@ -225,6 +225,37 @@ TEST(Broadcast, AmidWanderersOfTheSmallestMachineIsTheSameWhateverTheThreadsDo) 
   EXPECT_GT(told, 20U) << "some broadcasts";
 }
 
+// A processor that is behind by the computer's time, not by its clock: what the ring between the two sides cannot hold
+// waits on the network's side.
+TEST(Broadcast, IsWholeWhereTheRingToTheProcessorIsFull) {
+  static constexpr std::uint32_t kPackets = kMostRingBytes / protocol::kMostPacketBytes + 10;
+  ListeningHost host(1);
+  host.at_start = [](HostPort& port) {
+    const std::array<TestRecord, 16> records{};
+    for (std::uint32_t i = 0; i < kPackets; ++i) {
+      port.send_records(0, std::as_bytes(std::span(records)), sizeof(TestRecord));
+    }
+    broadcast_number(port, 77);
+  };
+  const Outcome outcome = run(small_machine(1, 1), host, [](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, 16 * kPackets);
+    clock.spend(1'000'000);
+    niu.clock();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the network goes on up to that cycle
+    for (std::uint32_t packets = 0; packets <= kPackets; ++packets) {
+      const auto& arrival = niu.receive();
+      if (arrival.kind != ArrivalKind::message) continue;
+      EXPECT_GE(packets, kPackets - 1) << "records are copied longer, so the last may come behind it";
+      EXPECT_EQ(arrival.source, protocol::kHost);
+      EXPECT_EQ(niu.message().kind, kGo);
+      EXPECT_EQ(niu.message_bytes().size(), 100U);
+      niu.send(static_cast<MessageKind>(kDone), niu.message_as<std::uint32_t>());
+    }
+    sleep_for_ever(niu);
+  });
+  EXPECT_EQ(outcome.heard.at(0).as<std::uint32_t>(), 77U);
+}
+
 TEST(Broadcast, ThatNobodyTakesIsADeadlock) {
   ListeningHost host(0);
   host.at_start = [](HostPort& port) {
