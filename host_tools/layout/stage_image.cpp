@@ -60,10 +60,9 @@ class ImageWriter {
   }
 
   std::uint32_t local_polygon(std::uint32_t triangle) const {
-    const auto& polygons = placement_.polygons_of_pe[pe_];
-    const auto found = std::lower_bound(polygons.begin(), polygons.end(), triangle);
-    if (found == polygons.end() || *found != triangle) throw MachineFailure("a patch lies outside its polygon");
-    return static_cast<std::uint32_t>(found - polygons.begin());
+    const auto local = placement_.local_polygon(pe_, triangle);
+    if (!local) throw MachineFailure("a patch lies outside its polygon");
+    return *local;
   }
 
   void write_subspaces() {

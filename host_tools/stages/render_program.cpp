@@ -88,7 +88,7 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       port.work(HostWork::irradiance_fit, lattice_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
-      return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);
+      return std::make_unique<RayTracingPhase>(setup.ray_placement, job_.rays, job_.ray_tracing);
     case Step::report:
       return std::make_unique<ReportPhase>(setup.placement.torus.pes());
     case Step::finished:
@@ -100,11 +100,11 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
 std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
   return std::make_unique<LoadPhase>(job_.setup.placement.torus.pes(), [this, stage](PeNumber pe) {
     const RenderSetup& setup = job_.setup;
-    const PeLayout layout = lay_out(setup.mesh, setup.placement, pe, stage, setup.parameters, setup.map);
+    const PeLayout layout = lay_out(setup.mesh, setup.placement_of(stage), pe, stage, setup.parameters, setup.map);
     std::vector<std::byte> image =
         stage == Stage::radiosity
             ? radiosity_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, layout)
-            : ray_tracing_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, lattice_, layout);
+            : ray_tracing_image(job_.scene, setup.mesh, setup.ray_placement, pe, setup.units, lattice_, layout);
     return PeLoad{layout.layout, std::move(image)};
   });
 }
