@@ -19,7 +19,7 @@ Grid grid_of(std::array<std::uint32_t, 3> cells) {
 
 std::vector<CellCost> costs_of(const Grid& grid) {
   std::vector<CellCost> costs;
-  for (CellIndex cell = 0; cell < grid.count(); ++cell) costs.push_back({100 + cell % 7 * 50, 1000 + cell % 11 * 400});
+  for (CellIndex cell = 0; cell < grid.count(); ++cell) costs.push_back({100 + cell % 7 * 50, 1000.0 + cell % 11 * 400});
   return costs;
 }
 

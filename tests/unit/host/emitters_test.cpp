@@ -80,7 +80,7 @@ TEST(Emitters, EmitFromBothSidesWhereAsked) {
 
 TEST(Emitters, StandInEveryImageOrInNone) {
   const Chosen of = chosen(2, false);
-  const Placement placement = make_placement(of.mesh, {{2, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  const Placement placement = make_placement(of.mesh, {{2, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
   const Lattice lattice = make_lattice(of.mesh, std::vector<protocol::Flux>(of.mesh.elements), 1, 1);
   StageParameters parameters;
   const MemoryMap map{protocol::kLocalMemoryBase + 100'000, 64};

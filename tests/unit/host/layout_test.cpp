@@ -45,7 +45,7 @@ class LayoutTest : public testing::Test {
   Scene scene_ = test::room_with_box();
   Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.4, .element_length = 0.2});
   LightUnits units_ = light_units(scene_, mesh_, false);
-  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
   std::vector<Loaded> pes_;
 };
 
@@ -177,7 +177,7 @@ TEST_F(LayoutTest, RayTracingImageHoldsTheLatticeOfEachPolygon) {
 }
 
 TEST_F(LayoutTest, MemoryIsChosenOrRefusedWithTheNumbers) {
-  const MemoryNeed need = memory_need(mesh_, placement_, {}, kMap);
+  const MemoryNeed need = memory_need(mesh_, placement_, placement_, {}, kMap);
   EXPECT_EQ(choose_memory(need, {}), protocol::kDefaultLocalMemory);
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most())), need.most());
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most() - 1)), std::nullopt);

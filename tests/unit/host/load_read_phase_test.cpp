@@ -94,7 +94,7 @@ class LoadReadTest : public testing::Test {
   Scene scene_ = room_with_box();
   Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.4, .element_length = 0.1});
   LightUnits units_ = light_units(scene_, mesh_, false);
-  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
   std::vector<PeLoad> loads_;
 };
 
