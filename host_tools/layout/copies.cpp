@@ -15,6 +15,7 @@ using protocol::Stage;
 /// Something that stands in a PE's stores once, whichever of its cells need it: a polygon, material or texture.
 struct Item {
   std::uint64_t bytes = 0;
+  double lacking = 1;            ///< share of the PEs that would not have it anyway
   std::vector<CellIndex> cells;  ///< that need it
   bool taken = false;
 };
@@ -22,14 +23,18 @@ struct Item {
 /// Polygons, then materials, then textures.
 class Items {
  public:
-  Items(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage)
+  Items(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage,
+        std::span<const double> lacking)
       : of_cell_(polygons_of_cell.size()) {
     std::uint32_t materials = 0;
     for (const MeshTriangle& triangle : mesh.triangles) materials = std::max(materials, triangle.material + 1);
     const auto first_material = static_cast<std::uint32_t>(mesh.triangles.size());
     const std::uint32_t first_texture = first_material + materials;
     items_.resize(first_texture + (stage == Stage::ray_tracing ? mesh.textures.size() : 0));
-    for (std::uint32_t t = 0; t < first_material; ++t) items_[t].bytes = polygon_bytes(mesh.triangles[t], stage);
+    for (std::uint32_t t = 0; t < first_material; ++t) {
+      items_[t].bytes = polygon_bytes(mesh.triangles[t], stage);
+      if (!lacking.empty()) items_[t].lacking = lacking[t];
+    }
     for (std::uint32_t m = first_material; m < first_texture; ++m) items_[m].bytes = sizeof(protocol::Material);
     for (std::size_t i = first_texture; i < items_.size(); ++i) {
       const auto& texels = mesh.textures[i - first_texture].texels;
@@ -54,7 +59,8 @@ class Items {
   Item& operator[](std::uint32_t item) { return items_[item]; }
   /// What each cell has of an item's bytes while nobody has taken it.
   double part(std::uint32_t item) const {
-    return static_cast<double>(items_[item].bytes) / static_cast<double>(items_[item].cells.size());
+    return items_[item].lacking * static_cast<double>(items_[item].bytes) /
+           static_cast<double>(items_[item].cells.size());
   }
 
  private:
@@ -102,8 +108,8 @@ std::size_t CopyOrder::within(std::uint64_t most) const {
 }
 
 CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage,
-                     std::span<const double> heat) {
-  Items items(mesh, polygons_of_cell, stage);
+                     std::span<const double> heat, std::span<const double> lacking) {
+  Items items(mesh, polygons_of_cell, stage, lacking);
   std::vector<double> bytes(polygons_of_cell.size());
   std::vector<bool> taken(polygons_of_cell.size());
   std::priority_queue<Offer> offers;

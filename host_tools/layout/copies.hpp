@@ -30,8 +30,9 @@ struct CopyOrder {
 };
 
 /// Takes the cell of the greatest heat per byte, again and again. What a cell shares with others that are not taken yet
-/// counts in equal parts; what is already there, nothing. heat: by cell, > 0 where there are polygons.
+/// counts in equal parts; what is already there, nothing. heat: by cell, > 0 where there are polygons. lacking: by
+/// polygon, the share of the PEs that would not have it without copies, and for which alone it counts; empty: all.
 CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell,
-                     protocol::Stage stage, std::span<const double> heat);
+                     protocol::Stage stage, std::span<const double> heat, std::span<const double> lacking = {});
 
 }  // namespace torolux

@@ -81,10 +81,20 @@ class Chooser {
     result.memory = choose_memory(result.need, result.memory ? result.memory : machine_.pe_memory);
   }
 
+  /// By polygon, the share of the PEs that do not have it.
+  std::vector<double> lacking(const Placement& placement) const {
+    std::vector<double> share(mesh_.triangles.size(), placement.torus.pes());
+    for (const auto& polygons : placement.polygons_of_pe) {
+      for (const std::uint32_t t : polygons) share[t] -= 1;
+    }
+    for (double& of_polygon : share) of_polygon /= placement.torus.pes();
+    return share;
+  }
+
   /// Puts as many copies into `placement` as fit.
   void copy(Stage stage, std::uint32_t memory, double most_memory, Placement& placement, StageCopies& copies) const {
     if (choice_.torus.pes() == 1 || heat(stage).empty()) return;
-    const CopyOrder order = copy_order(mesh_, lists_, stage, heat_of_cells(heat(stage)));
+    const CopyOrder order = copy_order(mesh_, lists_, stage, heat_of_cells(heat(stage)), lacking(placement));
     const auto try_with = [&](std::size_t count) {
       Placement with = place(stage, order.first(count, grid_.count()), most_memory);
       MemoryNeed need;

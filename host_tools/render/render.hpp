@@ -51,6 +51,11 @@ struct Quality {
   std::uint64_t seed = 1;
 };
 
+/// What a scheme has where nothing is said.
+constexpr const char* allocation_of(Scheme scheme) {
+  return scheme == Scheme::paper ? "skewed" : "balanced";
+}
+
 /// The machine that makes it.
 struct MachineChoice {
   MachineDescription description;
@@ -58,7 +63,7 @@ struct MachineChoice {
   std::optional<std::uint32_t> pe_memory;                 ///< bytes; absent: smallest power of two from 1 MiB that fits
   std::optional<std::array<std::uint32_t, 3>> subspaces;  ///< absent: auto
   Scheme scheme = Scheme::paper;
-  std::string allocation = "skewed";
+  std::string allocation = allocation_of(Scheme::paper);
   std::optional<double> replicate;   ///< most of a PE's memory for copies of subspaces, 0..1; absent: what fits
   bool skip_empty_subspaces = true;  ///< camera rays begin in the first subspace on their way with anything in it
   std::string engine = kDefaultEngine;
