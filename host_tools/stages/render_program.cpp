@@ -24,7 +24,7 @@ RenderProgram::~RenderProgram() = default;
 
 void RenderProgram::start(HostPort& port) {
   port.begin_stage(name_of(step_));
-  port.work(HostWork::filter_entry, job_.rays.table_entries());
+  port.work(HostWork::filter_entry, job_.rays.samples().distances().size());
   enter(port, step_);
 }
 
