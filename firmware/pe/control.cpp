@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Messages of the host: set up a stage, start shots, read stores back, stop.
+#include <cstddef>
 #include <cstring>
 
 #include "firmware/pe/pe.hpp"
@@ -14,6 +15,16 @@ void require(Pe& pe, Niu& niu, bool holds) {
   if (!holds) {
     niu.fail(FaultCode::unexpected_message, niu.message().kind, static_cast<std::uint32_t>(pe.state));
   }
+}
+
+/// Only as many entries are sent as there are.
+const protocol::Deal& deal_of(Niu& niu) {
+  const auto& deal = *reinterpret_cast<const protocol::Deal*>(niu.message_bytes().data());
+  const std::uint32_t bytes = niu.message().bytes;
+  const bool whole = bytes >= offsetof(protocol::Deal, pe) && deal.count > 0 && deal.count <= protocol::Deal::kMost &&
+                     bytes >= offsetof(protocol::Deal, pe) + deal.count * sizeof(PeNumber);
+  if (!whole) niu.fail(FaultCode::short_message, niu.message().kind, bytes, sizeof(protocol::Deal));
+  return deal;
 }
 
 bool is_radiosity(const Pe& pe) {
@@ -31,8 +42,12 @@ void begin(Pe& pe, Niu& niu) {
   verify_stores(niu, pe.scene);
   const protocol::StageLayout& layout = pe.scene.layout;
   pe.slots.set(niu.memory(), layout);
-  pe.outbox.set(layout.stage);
+  pe.outbox.set(layout);
   pe.shot = {};
+  pe.points = {};
+  pe.expansion = {};
+  pe.done = {};
+  pe.credits = {};
   pe.tally = {};
   pe.visits = {};
   niu.set_slots(layout.record_slots.address, protocol::slot_bytes(layout.stage), layout.own_slots,
@@ -101,9 +116,14 @@ bool handle_message(Pe& pe, Niu& niu) {
       require(pe, niu, is_radiosity(pe) && !pe.shot.active);
       begin_shot(pe, niu, niu.message_as<protocol::Shoot>());
       return true;
+    case MessageKind::deal:
+      require(pe, niu, is_radiosity(pe) && pe.shot.active);
+      deal_points(pe, niu, deal_of(niu));
+      return true;
     case MessageKind::grant:
-      require(pe, niu, is_radiosity(pe));
-      grant_credits(pe, niu, niu.message_as<protocol::Grant>().credits);
+      require(pe, niu, pe.state == State::running);
+      pe.credits.in_hand += niu.message_as<protocol::Grant>().credits;
+      pe.credits.asked = false;
       return true;
     case MessageKind::read:
       read(pe, niu);

@@ -15,6 +15,8 @@ using protocol::Store;
 
 /// First detail of FaultCode::bad_layout: the stores in their order in StageLayout, then its other fields.
 enum class LayoutField : std::uint32_t {
+  cell_words,
+  cell_entries,
   subspaces,
   polygon_list,
   polygons,
@@ -36,6 +38,7 @@ enum class LayoutField : std::uint32_t {
   stage,
   cells,
   own_slots,
+  open_batches,
   bounces,
   hemicube_size,
   shot_points,
@@ -50,10 +53,12 @@ struct Extent {
   Store store;
   std::uint32_t element_bytes;
 };
-constexpr std::uint32_t kStores = 18;
+constexpr std::uint32_t kStores = 20;
 
 std::array<Extent, kStores> extents(const StageLayout& l) {
   return {{
+      {l.cell_words, sizeof(protocol::CellWord)},
+      {l.cell_entries, sizeof(protocol::CellEntry)},
       {l.subspaces, sizeof(protocol::Subspace)},
       {l.polygon_list, sizeof(std::uint32_t)},
       {l.polygons, sizeof(protocol::Polygon)},
@@ -121,12 +126,14 @@ void check_layout(Niu& niu, const StageLayout& l) {
   const bool known = l.stage == Stage::radiosity || l.stage == Stage::ray_tracing;
   require(niu, known, LayoutField::stage, static_cast<std::uint32_t>(l.stage));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    require(niu, l.cells[axis] >= 1 && l.cells[axis] <= 0xFFFFU, LayoutField::cells, l.cells[axis]);
+    require(niu, l.cells[axis] >= 1 && l.cells[axis] <= protocol::kMostCellsPerAxis, LayoutField::cells, l.cells[axis]);
     require(niu, finite_positive(l.cell_size[axis]), LayoutField::cell_size, static_cast<std::uint32_t>(axis));
   }
   check_stores(niu, extents(l));
   const std::uint32_t slots = l.record_slots.count;
-  require(niu, l.own_slots >= protocol::own_slots(l.stage) && l.own_slots < slots && slots <= 0xFFFFU,
+  const bool power = l.open_batches != 0 && (l.open_batches & (l.open_batches - 1U)) == 0;
+  require(niu, power && l.open_batches <= protocol::kMostOpenBatches, LayoutField::open_batches, l.open_batches);
+  require(niu, l.own_slots == protocol::own_slots(l.stage, l.open_batches) && l.own_slots < slots && slots <= 0xFFFFU,
           LayoutField::own_slots, l.own_slots, slots);
   require(niu, l.bounces >= 1 && l.bounces <= protocol::kMostBounces, LayoutField::bounces, l.bounces);
   if (l.stage == Stage::radiosity) {

@@ -6,12 +6,14 @@
 #include <span>
 
 #include "firmware/niu/memory.hpp"
+#include "firmware/pe/cell_map.hpp"
 #include "firmware/protocol/stores.hpp"
 
 namespace torolux::pe {
 
 struct Scene {
   protocol::StageLayout layout{};
+  CellMap map;
   std::span<const protocol::Subspace> subspaces;
   std::span<const std::uint32_t> polygon_list;
   std::span<const protocol::Polygon> polygons;
@@ -34,6 +36,8 @@ struct Scene {
 
   void set(const Memory& memory, const protocol::StageLayout& from) {
     layout = from;
+    map = {memory.store<const protocol::CellWord>(layout.cell_words),
+           memory.store<const protocol::CellEntry>(layout.cell_entries)};
     subspaces = memory.store<const protocol::Subspace>(layout.subspaces);
     polygon_list = memory.store<const std::uint32_t>(layout.polygon_list);
     polygons = memory.store<const protocol::Polygon>(layout.polygons);

@@ -17,15 +17,17 @@ enum class MessageKind : std::uint16_t {
   load,                              ///< LoadBlock, then its bytes
   begin,                             ///< nothing follows; answer: ready
   select,                            ///< Select; answer: candidates, one or more messages
-  shoot,                             ///< Shoot; answer, when its last record has been created: shot_done
-  grant,                             ///< Grant: credits for the shot in progress
+  shoot,                             ///< Shoot: what the points that are dealt next are of
+  deal,                              ///< Deal: who gets the shot's next points
+  grant,                             ///< Grant: credits for the records that this PE makes
   read,                              ///< Read; answer: data
   report,                            ///< nothing follows; answer: tally
   stop,                              ///< nothing follows; the PE halts
   // PE -> host
   ready,       ///< nothing follows
   candidates,  ///< Candidates
-  shot_done,   ///< ShotDone; grants not used up come back in a `credits` message before it
+  work_done,   ///< WorkDone: points that this PE has made into records
+  need,        ///< nothing follows: it has work, and no credits; answer: grant, as soon as there are any
   credits,     ///< Credits that have come home
   data,        ///< LoadBlock, then its bytes
   tally,       ///< StageReport
@@ -84,12 +86,21 @@ struct Shoot {
 };
 static_assert(sizeof(Shoot) == 40);
 
+/// The shot's next points go to these PEs, one to each, in this order. When all its points have been dealt, the shot is
+/// over for its owner.
+struct Deal {
+  static constexpr std::uint32_t kMost = 64;
+  std::uint32_t count;  ///< 1..kMost; only so many are sent
+  std::array<PeNumber, kMost> pe;
+};
+
 struct Grant {
   std::uint32_t credits;
 };
 
-struct ShotDone {
-  std::uint32_t records;  ///< that the shot has made
+struct WorkDone {
+  std::uint32_t points;   ///< finished since the last such message
+  std::uint32_t records;  ///< made since
 };
 
 struct Credits {

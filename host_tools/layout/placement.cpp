@@ -54,19 +54,22 @@ std::vector<CellCost> predict(const Mesh& mesh, const Placement& placement, cons
   return costs;
 }
 
-void spread(const Mesh& mesh, const std::vector<CellIndex>& patch_cell, Placement& placement) {
+void spread(const Mesh& mesh, const std::vector<CellIndex>& patch_cell, bool stop_everywhere, Placement& placement) {
   const unsigned pes = placement.torus.pes();
   placement.cells_of_pe.resize(pes);
   placement.polygons_of_pe.resize(pes);
   placement.patches_of_pe.resize(pes);
-  placement.local_of_cell.resize(placement.grid.count());
   for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
-    const PeNumber pe = placement.pe_of_cell[cell];
-    placement.local_of_cell[cell] = static_cast<std::uint32_t>(placement.cells_of_pe[pe].size());
-    placement.cells_of_pe[pe].push_back(cell);
     const auto& polygons = placement.polygons_of_cell[cell];
     if (!polygons.empty()) ++placement.filled_cells;
-    placement.polygons_of_pe[pe].insert(placement.polygons_of_pe[pe].end(), polygons.begin(), polygons.end());
+    placement.stop_cell.push_back(stop_everywhere || !polygons.empty());
+    if (!placement.stop_cell.back()) continue;
+    ++placement.stops;
+    for (unsigned pe = 0; pe < pes; ++pe) {
+      if (!placement.common_cell[cell] && placement.pe_of_cell[cell] != pe) continue;
+      placement.cells_of_pe[pe].push_back(cell);
+      placement.polygons_of_pe[pe].insert(placement.polygons_of_pe[pe].end(), polygons.begin(), polygons.end());
+    }
   }
   for (std::uint32_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const CellIndex cell = patch_cell[patch];
@@ -94,7 +97,8 @@ Placement make_placement(const Mesh& mesh, const PlacementChoice& choice) {
   const std::vector<CellIndex> patch_cell = cells_of_patches(mesh, placement.grid);
   const std::vector<CellCost> costs = predict(mesh, placement, patch_cell, choice.records_per_patch);
   placement.pe_of_cell = allocate(choice.allocation, placement.grid, placement.torus, costs);
-  spread(mesh, patch_cell, placement);
+  placement.common_cell.assign(placement.grid.count(), choice.copy_all);
+  spread(mesh, patch_cell, choice.stop_everywhere, placement);
   return placement;
 }
 

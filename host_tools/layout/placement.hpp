@@ -24,8 +24,10 @@ struct Placement {
   Grid grid;
   std::vector<std::vector<std::uint32_t>> polygons_of_cell;  ///< ascending
   std::vector<protocol::PeNumber> pe_of_cell;
-  std::vector<std::uint32_t> local_of_cell;
-  std::vector<std::vector<CellIndex>> cells_of_pe;         ///< ascending: local number -> cell
+  std::vector<bool> stop_cell;                             ///< where a ray must stop: by cell
+  std::uint32_t stops = 0;                                 ///< of those
+  std::vector<bool> common_cell;                           ///< that stand on every PE: by cell
+  std::vector<std::vector<CellIndex>> cells_of_pe;         ///< ascending, those at which rays stop: local number -> cell
   std::vector<std::vector<std::uint32_t>> polygons_of_pe;  ///< ascending: local number -> triangle
   std::vector<std::vector<std::uint32_t>> patches_of_pe;   ///< ascending: local number -> global patch
   std::vector<PatchHome> patch_home;                       ///< by global patch
@@ -36,6 +38,8 @@ struct PlacementChoice {
   TorusSize torus;
   std::optional<std::array<std::uint32_t, 3>> subspaces;
   std::string allocation = "skewed";
+  bool copy_all = false;
+  bool stop_everywhere = false;    ///< rays stop in empty subspaces, too: every face crossed is a hand-over
   double records_per_patch = 12288;  ///< expected in the radiosity stage; for `balanced` only
 };
 

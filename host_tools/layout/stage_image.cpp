@@ -26,7 +26,7 @@ class ImageWriter {
         pe_(pe),
         units_(units),
         layout_(layout.layout),
-        bytes_((layout.load_end - layout.layout.subspaces.address + 3) / 4 * 4) {}
+        bytes_((layout.load_end - layout.layout.cell_words.address + 3) / 4 * 4) {}
 
   std::vector<std::byte> radiosity() {
     write_subspaces();
@@ -50,7 +50,7 @@ class ImageWriter {
   template <typename T>
   void put(const Store& store, std::size_t index, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const std::size_t at = store.address - layout_.subspaces.address + index * sizeof(T);
+    const std::size_t at = store.address - layout_.cell_words.address + index * sizeof(T);
     if (index >= store.count || at + sizeof(T) > bytes_.size()) throw MachineFailure("a store was laid out too small");
     std::memcpy(bytes_.data() + at, &value, sizeof(T));
   }
@@ -67,29 +67,29 @@ class ImageWriter {
   }
 
   void write_subspaces() {
-    const Grid& grid = placement_.grid;
     std::uint32_t first = 0;
     for (std::size_t local = 0; local < placement_.cells_of_pe[pe_].size(); ++local) {
-      const CellIndex index = placement_.cells_of_pe[pe_][local];
-      const auto cell = grid.cell(index);
-      protocol::Subspace subspace{};
-      for (std::uint32_t face = 0; face < protocol::kFaces; ++face) {
-        const std::uint32_t axis = face / 2;
-        const bool upper = face % 2 == 1;
-        subspace.neighbour_pe[face] = protocol::kNobody;
-        if (upper ? cell[axis] + 1 == grid.cells[axis] : cell[axis] == 0) continue;
-        auto next = cell;
-        next[axis] = upper ? cell[axis] + 1 : cell[axis] - 1;
-        subspace.neighbour[face] = placement_.local_of_cell[grid.index(next)];
-        subspace.neighbour_pe[face] = placement_.pe_of_cell[grid.index(next)];
-      }
-      for (std::size_t axis = 0; axis < 3; ++axis) subspace.cell[axis] = static_cast<std::uint16_t>(cell[axis]);
-      const auto& polygons = placement_.polygons_of_cell[index];
-      subspace.first_polygon = first;
-      subspace.polygon_count = static_cast<std::uint32_t>(polygons.size());
+      const auto& polygons = placement_.polygons_of_cell[placement_.cells_of_pe[pe_][local]];
+      put(layout_.subspaces, local, protocol::Subspace{first, static_cast<std::uint32_t>(polygons.size())});
       for (const std::uint32_t t : polygons) put(layout_.polygon_list, first++, local_polygon(t));
-      put(layout_.subspaces, local, subspace);
     }
+    write_cell_map();
+  }
+
+  void write_cell_map() {
+    std::vector<protocol::CellWord> words(layout_.cell_words.count);
+    std::uint32_t entries = 0;
+    std::uint32_t held = 0;
+    for (CellIndex cell = 0; cell < placement_.grid.count(); ++cell) {
+      if (cell % 32 == 0) words[cell / 32].before = entries;
+      if (!placement_.stop_cell[cell]) continue;
+      words[cell / 32].stops |= 1U << (cell % 32);
+      const bool here = placement_.common_cell[cell] || placement_.pe_of_cell[cell] == pe_;
+      const protocol::CellEntry entry =
+          here ? protocol::held_as(held++) : protocol::CellEntry{placement_.pe_of_cell[cell]};
+      put(layout_.cell_entries, entries++, entry);
+    }
+    put_all(layout_.cell_words, words);
   }
 
   /// Materials that this PE's polygons use, ascending.
@@ -223,7 +223,6 @@ class ImageWriter {
       patch.facets = from.facets;
       patch.elements = from.elements;
       patch.reflectance = from.reflectance;
-      patch.subspace = placement_.local_of_cell[placement_.patch_home[number].cell];
       for (std::uint32_t f = 0; f < from.facets; ++f) write_facet(from, mesh_.facets[from.first_facet + f], facets++);
       for (std::uint32_t side = 0; side < 2; ++side) {
         patch.side[side] = protocol::kNoSide;

@@ -12,7 +12,7 @@
 
 namespace torolux {
 
-/// Bytes from layout.subspaces.address up to PeLayout::load_end; a multiple of 4.
+/// Bytes from layout.cell_words.address up to PeLayout::load_end; a multiple of 4.
 std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, const Placement& placement,
                                        protocol::PeNumber pe, const LightUnits& units, const PeLayout& layout);
 std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement,

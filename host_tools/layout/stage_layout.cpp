@@ -3,6 +3,7 @@
 #include "host_tools/layout/stage_layout.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "firmware/protocol/triangle_grid.hpp"
@@ -15,7 +16,7 @@ using protocol::StageLayout;
 using protocol::Store;
 
 struct Counts {
-  std::uint64_t subspaces = 0, polygon_list = 0, polygons = 0, materials = 0, normals = 0;
+  std::uint64_t cell_words = 0, cell_entries = 0, subspaces = 0, polygon_list = 0, polygons = 0, materials = 0, normals = 0;
   std::uint64_t nodes = 0, patch_references = 0, patches = 0, patch_sides = 0, elements = 0, facets = 0, hemicube = 0,
                 lattice = 0;
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
@@ -23,6 +24,8 @@ struct Counts {
 
 Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Stage stage, std::uint32_t hemicube) {
   Counts counts;
+  counts.cell_words = protocol::cell_words(placement.grid.count());
+  counts.cell_entries = placement.stops;
   counts.subspaces = placement.cells_of_pe[pe].size();
   for (const CellIndex cell : placement.cells_of_pe[pe]) {
     counts.polygon_list += placement.polygons_of_cell[cell].size();
@@ -88,6 +91,11 @@ class Allocator {
   PeLayout& pe_layout_;
 };
 
+/// One for each PE, as far as there are so many.
+std::uint32_t open_batches(unsigned pes) {
+  return std::min(std::bit_ceil(pes), protocol::kMostOpenBatches);
+}
+
 const char* name_of(Stage stage) {
   return stage == Stage::radiosity ? "radiosity" : "ray tracing";
 }
@@ -115,6 +123,8 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.cell_size = placement.grid.cell_size;
   layout.bounces = parameters.bounces;
   Allocator allocator(map.stores_begin, result);
+  layout.cell_words = allocator.place("cell map", counts.cell_words, sizeof(protocol::CellWord));
+  layout.cell_entries = allocator.place("cell entries", counts.cell_entries, sizeof(protocol::CellEntry));
   layout.subspaces = allocator.place("subspaces", counts.subspaces, sizeof(protocol::Subspace));
   layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(std::uint32_t));
   layout.polygons = allocator.place("polygons", counts.polygons, sizeof(protocol::Polygon));
@@ -135,10 +145,12 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   const std::uint32_t emitters = stage == Stage::ray_tracing ? parameters.emitters : 0;
   layout.emitters = allocator.place("emitters", emitters, sizeof(protocol::Emitter));
   result.load_end = allocator.next();
-  layout.own_slots = protocol::own_slots(stage);
+  layout.open_batches = open_batches(placement.torus.pes());
+  layout.own_slots = protocol::own_slots(stage, layout.open_batches);
   layout.record_slots =
       allocator.place("record slots", std::uint64_t{layout.own_slots} + map.niu_slots, protocol::slot_bytes(stage));
   result.end = allocator.next();
+  layout.credits_kept = map.credits_per_pe;
   layout.gather_cycles = map.gather_cycles;
   layout.gather_records = map.gather_records;
   if (stage == Stage::radiosity) {

@@ -31,6 +31,7 @@ struct StageParameters {
 struct MemoryMap {
   std::uint32_t stores_begin = 0;  ///< first byte that the image leaves free
   std::uint32_t niu_slots = 0;
+  std::uint32_t credits_per_pe = 0;
   std::uint32_t gather_cycles = 0, gather_records = 0;  ///< see protocol::NiuWindow::Gather
 };
 

@@ -99,12 +99,14 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
   placement.torus = {machine.columns, machine.rows};
   placement.subspaces = machine.subspaces;
   placement.allocation = machine.allocation;
+  placement.copy_all = getenv("TX_COPY") != nullptr;
+  placement.stop_everywhere = getenv("TX_PAPER") != nullptr;
   // Some four shots of each patch.
   placement.records_per_patch =
       4.0 * quality.shot_points * quality.shot_points * protocol::hemicube_pixels(quality.hemicube);
   setup.placement = make_placement(setup.mesh, placement);
   const MachineDescription::Records& records = machine.description.records;
-  setup.map = {image.stores_begin, records.niu_slots, records.gather_cycles, records.gather_records};
+  setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles, records.gather_records};
   setup.need = memory_need(setup.mesh, setup.placement, setup.parameters, setup.map);
   setup.memory = choose_memory(setup.need, machine.pe_memory);
   setup.credits = std::uint64_t{machine.description.records.credits_per_pe} * setup.placement.torus.pes();
@@ -138,6 +140,10 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
       }
     }
   }
+  settings.shot_points = setup.parameters.shot_points;
+  settings.emission_points = setup.parameters.emission_points;
+  settings.points_per_quantum = setup.parameters.points_per_quantum;
+  settings.points_travel = getenv("TX_STAY") == nullptr;
   settings.emitted = emitted;
   settings.enough_unshot = static_cast<std::int64_t>(emitted * quality.unshot);
   // Where no side has more than this, emitted or reflected, all of them together have no more than `enough_unshot`.

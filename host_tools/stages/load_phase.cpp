@@ -33,7 +33,7 @@ void LoadPhase::load(HostPort& port, PeNumber pe) const {
   std::array<std::byte, protocol::kMostMessageBytes> message{};
   for (std::size_t at = 0; at < load.image.size(); at += protocol::kMostLoadBytes) {
     const std::size_t bytes = std::min<std::size_t>(protocol::kMostLoadBytes, load.image.size() - at);
-    const protocol::LoadBlock block{load.layout.subspaces.address + static_cast<std::uint32_t>(at),
+    const protocol::LoadBlock block{load.layout.cell_words.address + static_cast<std::uint32_t>(at),
                                     static_cast<std::uint32_t>(bytes)};
     std::memcpy(message.data(), &block, sizeof block);
     std::memcpy(message.data() + sizeof block, load.image.data() + at, bytes);

@@ -12,7 +12,7 @@ namespace torolux {
 
 struct PeLoad {
   protocol::StageLayout layout;
-  std::vector<std::byte> image;  ///< from layout.subspaces.address on
+  std::vector<std::byte> image;  ///< from layout.cell_words.address on
 };
 
 class LoadPhase : public Phase {

@@ -72,7 +72,8 @@ void RayTracingPhase::make_ray(HostPort& port) {
   record.direction = ray.direction;
   const float weight = 1.0F / static_cast<float>(settings_.samples);
   record.weight = {weight, weight, weight};
-  record.subspace = placement_.local_of_cell[start->cell];
+  const auto cell = placement_.grid.cell(start->cell);
+  record.place = protocol::cell_code(cell[0], cell[1], cell[2]);
   record.polygon = protocol::kNoPolygon;
   record.key = ray.key;
   record.pixel = pixel;

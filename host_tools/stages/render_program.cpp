@@ -156,8 +156,7 @@ void RenderProgram::leave(HostPort& port) {
 
 /// In the order of record_kind: those of the radiosity stage, then those of the ray tracing stage.
 std::span<const std::string_view> RenderProgram::record_kinds() const {
-  static constexpr std::array<std::string_view, 6> kNames = {"light", "light_seeking", "deposit",
-                                                             "ray",   "shadow_ray",    "branch"};
+  static constexpr std::array<std::string_view, 5> kNames = {"light", "point", "deposit", "ray", "shadow_ray"};
   return kNames;
 }
 
@@ -165,11 +164,9 @@ std::size_t RenderProgram::record_kind(std::span<const std::byte> record) const 
   using protocol::RecordKind;
   if (record.size() == sizeof(protocol::RadiosityRecord)) {
     const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RadiosityRecord, kind)]);
-    return kind == RecordKind::deposit ? 2 : kind == RecordKind::seek ? 1 : 0;
+    return kind == RecordKind::deposit ? 2 : kind == RecordKind::point ? 1 : 0;
   }
   if (record.size() != sizeof(protocol::RayRecord)) throw MachineFailure("a PE sends records of another size");
-  const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RayRecord, kind)]);
-  if (kind == RecordKind::branch) return 5;
   const auto flags = std::to_integer<std::uint8_t>(record[offsetof(protocol::RayRecord, flags)]);
   return (flags & protocol::kShadow) != 0 ? 4 : 3;
 }
