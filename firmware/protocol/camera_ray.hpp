@@ -12,15 +12,19 @@
 
 namespace torolux::protocol {
 
+inline constexpr std::uint32_t kMostPictureEdge = 32768;   ///< [pixels]
+inline constexpr std::uint32_t kMostPixelSamples = 65536;  ///< counted in 16 bits
+inline constexpr std::uint32_t kMostFilterBits = 16;
+
 /// What all rays of a picture share. The host computes it in double and rounds each number once.
 struct CameraView {
   Vec3f eye;                    ///< normalised scene space
   Vec3f forward;                ///< unit length
   Vec3f right, down;            ///< a pixel's width and height at distance 1 from the eye
-  std::uint32_t width, height;  ///< of the picture [pixels], 1..32768
-  std::uint32_t samples;        ///< of a pixel, from 1
+  std::uint32_t width, height;  ///< of the picture [pixels], 1..kMostPictureEdge
+  std::uint32_t samples;        ///< of a pixel, 1..kMostPixelSamples
   std::uint32_t seed;
-  std::uint32_t filter_bits;  ///< 1..24: the filter's table has 2^filter_bits + 1 entries
+  std::uint32_t filter_bits;  ///< 1..kMostFilterBits: the filter's table has 2^filter_bits + 1 entries
 };
 static_assert(sizeof(CameraView) == 68);
 

@@ -94,6 +94,10 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
   if (quality.shadow_rays) {
     setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
   }
+  if (getenv("TX_PAPER") == nullptr) {
+    setup.parameters.pixel_samples = quality.samples;
+    setup.parameters.filter_entries = PixelSamples::entries(quality.filter, quality.samples);
+  }
   setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.samples);
   PlacementChoice placement;
   placement.torus = {machine.columns, machine.rows};
@@ -106,7 +110,8 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
       4.0 * quality.shot_points * quality.shot_points * protocol::hemicube_pixels(quality.hemicube);
   setup.placement = make_placement(setup.mesh, placement);
   const MachineDescription::Records& records = machine.description.records;
-  setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles, records.gather_records};
+  setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,
+               records.gather_records};
   setup.need = memory_need(setup.mesh, setup.placement, setup.parameters, setup.map);
   setup.memory = choose_memory(setup.need, machine.pe_memory);
   setup.credits = std::uint64_t{machine.description.records.credits_per_pe} * setup.placement.torus.pes();

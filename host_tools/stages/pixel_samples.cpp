@@ -36,6 +36,10 @@ double gaussian_distance(double u) {
   return (low + high) / 2;
 }
 
+std::uint32_t bits_of(PixelFilter filter, std::uint32_t samples) {
+  return filter == PixelFilter::box || samples == 1 ? kStepBitsOfBox : kStepBits;
+}
+
 }  // namespace
 
 std::string_view name_of(PixelFilter filter) {
@@ -76,8 +80,12 @@ double filter_distance(PixelFilter filter, double u) {
   return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
 }
 
+std::uint32_t PixelSamples::entries(PixelFilter filter, std::uint32_t samples) {
+  return (1U << bits_of(filter, samples)) + 1U;
+}
+
 PixelSamples::PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint32_t seed)
-    : filter_bits_(filter == PixelFilter::box || samples == 1 ? kStepBitsOfBox : kStepBits) {
+    : filter_bits_(bits_of(filter, samples)) {
   const auto of_turn = [](double part) { return static_cast<std::uint32_t>(part * 0x1p32); };
   for (std::uint32_t sample = 0; sample < samples; ++sample) {
     const PixelPlace place = pixel_place(sample, samples, protocol::hash_combine(seed, sample));

@@ -51,6 +51,9 @@ class PixelSamples {
  public:
   PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint32_t seed);
 
+  /// Of the filter's table.
+  static std::uint32_t entries(PixelFilter filter, std::uint32_t samples);
+
   std::uint32_t count() const { return static_cast<std::uint32_t>(places_.size()); }
   std::span<const protocol::SamplePlace> places() const { return places_; }  ///< by sample
   std::uint32_t filter_bits() const { return filter_bits_; }

@@ -11,6 +11,7 @@
 #include "host_tools/stages/load_phase.hpp"
 #include "host_tools/stages/read_phase.hpp"
 #include "host_tools/stages/report_phase.hpp"
+#include "host_tools/stages/tile_phase.hpp"
 
 namespace torolux {
 
@@ -88,6 +89,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       port.work(HostWork::irradiance_fit, lattice_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
+      if (setup.parameters.pixel_samples > 0)
+        return std::make_unique<TilePhase>(setup.placement.torus.pes(), job_.ray_tracing);
       return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);
     case Step::report:
       return std::make_unique<ReportPhase>(setup.placement.torus.pes());
@@ -100,11 +103,13 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
 std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
   return std::make_unique<LoadPhase>(job_.setup.placement.torus.pes(), [this, stage](PeNumber pe) {
     const RenderSetup& setup = job_.setup;
-    const PeLayout layout = lay_out(setup.mesh, setup.placement, pe, stage, setup.parameters, setup.map);
+    PeLayout layout = lay_out(setup.mesh, setup.placement, pe, stage, setup.parameters, setup.map);
+    layout.layout.view = job_.rays.view();
+    const CameraTables camera{job_.rays.samples().places(), job_.rays.samples().distances()};
     std::vector<std::byte> image =
         stage == Stage::radiosity
             ? radiosity_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, layout)
-            : ray_tracing_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, lattice_, layout);
+            : ray_tracing_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, lattice_, layout, camera);
     return PeLoad{layout.layout, std::move(image)};
   });
 }
@@ -141,7 +146,7 @@ void RenderProgram::leave(HostPort& port) {
       enter(port, Step::ray_tracing);
       break;
     case Step::ray_tracing:
-      rays_ = static_cast<const RayTracingPhase&>(*phase_).sent();
+      rays_ = static_cast<const RayPhase&>(*phase_).sent();
       enter(port, Step::report);
       break;
     case Step::report:
@@ -177,7 +182,7 @@ const char* RenderProgram::waiting_for() const {
 
 std::uint64_t RenderProgram::credits_home() const {
   if (step_ == Step::radiosity) return static_cast<const RadiosityPhase&>(*phase_).credits_home();
-  if (step_ == Step::ray_tracing) return static_cast<const RayTracingPhase&>(*phase_).credits_home();
+  if (step_ == Step::ray_tracing) return static_cast<const RayPhase&>(*phase_).credits_home();
   return job_.setup.credits;
 }
 
@@ -201,7 +206,7 @@ RenderProgress RenderProgram::progress(Cycles now) const {
     // Unshot flux falls about exponentially.
     progress.fraction = start > target ? std::log(start / now_unshot) / std::log(start / target) : 0;
   } else if (step_ == Step::ray_tracing) {
-    const auto& rays = static_cast<const RayTracingPhase&>(*phase_);
+    const auto& rays = static_cast<const RayPhase&>(*phase_);
     progress.stage = RenderStage::ray_tracing;
     progress.unshot_fraction = 0;
     progress.fraction = static_cast<double>(rays.made()) / static_cast<double>(rays.count());
