@@ -28,6 +28,10 @@ const protocol::Deal& deal_of(Niu& niu) {
   return deal;
 }
 
+bool makes_rays(const Pe& pe) {
+  return pe.state == State::running && !pe.scene.sample_places.empty();
+}
+
 bool is_radiosity(const Pe& pe) {
   return pe.state == State::running && pe.scene.layout.stage == protocol::Stage::radiosity;
 }
@@ -48,6 +52,7 @@ void begin(Pe& pe, Niu& niu) {
   pe.shot = {};
   pe.points = {};
   pe.expansion = {};
+  pe.tiles.set(layout);
   pe.done = {};
   pe.credits = {};
   pe.tally = {};
@@ -145,6 +150,10 @@ bool handle_message(Pe& pe, Niu& niu) {
     case MessageKind::deal:
       require(pe, niu, is_radiosity(pe) && pe.shot.active);
       deal_points(pe, niu, deal_of(niu));
+      return true;
+    case MessageKind::tile:
+      require(pe, niu, makes_rays(pe));
+      take_tile(pe, niu, niu.message_as<protocol::Tile>());
       return true;
     case MessageKind::grant:
       require(pe, niu, pe.state == State::running);

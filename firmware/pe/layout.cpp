@@ -28,6 +28,7 @@ enum class LayoutField : std::uint32_t {
   cell_size,
   pixel_scale,
   layers,
+  view,
 };
 
 using Extents = std::array<protocol::StoreExtent, protocol::kStores>;
@@ -69,6 +70,19 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
           static_cast<std::uint32_t>(bits(l.points_per_quantum)));
 }
 
+/// Of the camera rays that the PE makes.
+void check_view(Niu& niu, const StageLayout& l) {
+  const protocol::CameraView& view = l.view;
+  require(niu, view.samples == l.sample_places.count && view.samples <= protocol::kMostPixelSamples,
+          LayoutField::sample_places, view.samples, l.sample_places.count);
+  require(niu, view.filter_bits >= 1 && view.filter_bits <= protocol::kMostFilterBits, LayoutField::view,
+          view.filter_bits);
+  require(niu, l.filter.count == (1U << view.filter_bits) + 1U, LayoutField::filter, l.filter.address, l.filter.count);
+  for (const std::uint32_t edge : {view.width, view.height}) {
+    require(niu, edge >= 1 && edge <= protocol::kMostPictureEdge, LayoutField::view, edge);
+  }
+}
+
 }  // namespace
 
 void check_layout(Niu& niu, const StageLayout& l) {
@@ -90,6 +104,7 @@ void check_layout(Niu& niu, const StageLayout& l) {
   } else {
     require(niu, finite_positive(l.pixel_scale), LayoutField::pixel_scale, 0);
     require(niu, l.layers >> protocol::kPlanes == 0, LayoutField::layers, l.layers);
+    if (l.sample_places.count > 0) check_view(niu, l);
   }
 }
 

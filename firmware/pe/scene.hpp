@@ -32,6 +32,8 @@ struct Scene {
   std::span<const protocol::Texture> textures;
   std::span<const protocol::Texel> texels;
   std::span<const protocol::TexturePoint> texture_points;
+  std::span<const protocol::SamplePlace> sample_places;
+  std::span<const float> filter;
   std::span<const protocol::Emitter> emitters;
 
   void set(const Memory& memory, const protocol::StageLayout& from) {
@@ -54,6 +56,8 @@ struct Scene {
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);
     texture_points = memory.store<const protocol::TexturePoint>(layout.texture_points);
+    sample_places = memory.store<const protocol::SamplePlace>(layout.sample_places);
+    filter = memory.store<const float>(layout.filter);
     emitters = memory.store<const protocol::Emitter>(layout.emitters);
   }
 };

@@ -20,6 +20,7 @@ enum class MessageKind : std::uint16_t {
   select,                            ///< Select; answer: candidates, one or more messages
   shoot,                             ///< Shoot: what the points that are dealt next are of
   deal,                              ///< Deal: who gets the shot's next points
+  tile,                              ///< Tile: pixels whose rays this PE makes; answer, when it has: work_done
   grant,                             ///< Grant: credits for the records that this PE makes
   read,                              ///< Read; answer: data
   report,                            ///< nothing follows; answer: tally
@@ -27,7 +28,7 @@ enum class MessageKind : std::uint16_t {
   // PE -> host
   ready,       ///< nothing follows
   candidates,  ///< Candidates
-  work_done,   ///< WorkDone: points that this PE has made into records
+  work_done,   ///< WorkDone: points, or tiles, that this PE has made into records
   need,        ///< nothing follows: it has work, and no credits; answer: grant, as soon as there are any
   credits,     ///< Credits that have come home
   data,        ///< LoadBlock, then its bytes
@@ -103,12 +104,19 @@ struct Deal {
   std::array<PeNumber, kMost> pe;
 };
 
+/// A rectangle of the picture.
+struct Tile {
+  std::uint16_t column, row;    ///< of its first pixel; row 0 on top
+  std::uint16_t columns, rows;  ///< 1 or more
+};
+static_assert(sizeof(Tile) == 8);
+
 struct Grant {
   std::uint32_t credits;
 };
 
 struct WorkDone {
-  std::uint32_t points;   ///< finished since the last such message
+  std::uint32_t points;   ///< finished since the last such message; ray tracing stage: tiles
   std::uint32_t records;  ///< made since
 };
 

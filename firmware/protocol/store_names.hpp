@@ -30,6 +30,8 @@ enum class StoreName : std::uint32_t {
   textures,
   texels,
   texture_points,
+  sample_places,
+  filter,
   emitters,
   count
 };
@@ -65,6 +67,8 @@ constexpr std::array<StoreExtent, kStores> store_extents(const StageLayout& l) {
       {l.textures, sizeof(Texture)},
       {l.texels, sizeof(Texel)},
       {l.texture_points, sizeof(TexturePoint)},
+      {l.sample_places, sizeof(SamplePlace)},
+      {l.filter, sizeof(float)},
       {l.emitters, sizeof(Emitter)},
   }};
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/protocol/camera_ray.hpp"
 #include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/machine.hpp"
@@ -200,6 +201,8 @@ inline constexpr std::uint32_t kMostOwnSlots = own_slots(Stage::radiosity, kMost
 static_assert(own_slots(Stage::ray_tracing, kMostOpenBatches) <= kMostOwnSlots);
 /// Points that wait at a PE to be expanded, the current one included: the host deals no PE more.
 inline constexpr std::uint32_t kPointPlaces = 4;
+/// Tiles of the picture likewise.
+inline constexpr std::uint32_t kTilePlaces = 2;
 
 /// Path segments are counted in a byte of the record.
 inline constexpr std::uint32_t kMostBounces = 255;
@@ -245,11 +248,14 @@ struct StageLayout {
   Store textures;        ///< Texture[]
   Store texels;          ///< Texel[]
   Store texture_points;  ///< TexturePoint[]
+  Store sample_places;   ///< SamplePlace[view.samples]; empty: the host makes the camera rays
+  Store filter;          ///< float[2^view.filter_bits + 1], or empty likewise
+  CameraView view;
   Store emitters;        ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
   float pixel_scale;     ///< quanta per unit of radiance
   float least_weight;    ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 244);
+static_assert(sizeof(StageLayout) == 328);
 
 }  // namespace torolux::protocol

@@ -34,15 +34,19 @@ class ImageWriter {
     write_patch_references();
     write_patches();
     const std::vector<std::uint32_t> weights = make_hemicube_weights(layout_.hemicube_size);
-    put_all(layout_.hemicube, weights);
+    put_all<std::uint32_t>(layout_.hemicube, weights);
     return std::move(bytes_);
   }
 
-  std::vector<std::byte> ray_tracing(const Lattice& lattice) {
+  std::vector<std::byte> ray_tracing(const Lattice& lattice, const CameraTables& camera) {
     write_subspaces();
     write_textures();
     write_polygons(&lattice);
-    if (layout_.emitters.count > 0) put_all(layout_.emitters, emitters(scene_, mesh_, units_));
+    if (layout_.emitters.count > 0) put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
+    if (layout_.sample_places.count > 0) {
+      put_all<protocol::SamplePlace>(layout_.sample_places, camera.sample_places);
+      put_all<float>(layout_.filter, camera.filter);
+    }
     return std::move(bytes_);
   }
 
@@ -55,7 +59,7 @@ class ImageWriter {
     std::memcpy(bytes_.data() + at, &value, sizeof(T));
   }
   template <typename T>
-  void put_all(const Store& store, const std::vector<T>& values) {
+  void put_all(const Store& store, std::span<const T> values) {
     for (std::size_t i = 0; i < values.size(); ++i) put(store, i, values[i]);
   }
 
@@ -87,7 +91,7 @@ class ImageWriter {
           here ? protocol::held_as(placement_.local_of_cell[cell]) : protocol::CellEntry{placement_.pe_of_cell[cell]};
       put(layout_.cell_entries, entries++, entry);
     }
-    put_all(layout_.cell_words, words);
+    put_all<protocol::CellWord>(layout_.cell_words, words);
   }
 
   /// lattice: null in the radiosity stage.
@@ -256,8 +260,9 @@ std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, con
 }
 
 std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe,
-                                         const LightUnits& units, const Lattice& lattice, const PeLayout& layout) {
-  return ImageWriter(scene, mesh, placement, pe, units, layout).ray_tracing(lattice);
+                                         const LightUnits& units, const Lattice& lattice, const PeLayout& layout,
+                                         const CameraTables& camera) {
+  return ImageWriter(scene, mesh, placement, pe, units, layout).ray_tracing(lattice, camera);
 }
 
 }  // namespace torolux

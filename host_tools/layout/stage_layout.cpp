@@ -16,7 +16,8 @@ using protocol::StageLayout;
 using protocol::Store;
 
 struct Counts {
-  std::uint64_t cell_words = 0, cell_entries = 0, subspaces = 0, polygon_list = 0, polygons = 0, materials = 0, normals = 0;
+  std::uint64_t cell_words = 0, cell_entries = 0, subspaces = 0, polygon_list = 0, polygons = 0, materials = 0,
+                normals = 0;
   std::uint64_t nodes = 0, patch_references = 0, patches = 0, patch_sides = 0, elements = 0, facets = 0, hemicube = 0,
                 lattice = 0;
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
@@ -140,6 +141,10 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));
   layout.texture_points = allocator.place("texture points", counts.texture_points, sizeof(protocol::TexturePoint));
   const std::uint32_t emitters = stage == Stage::ray_tracing ? parameters.emitters : 0;
+  const std::uint32_t samples = stage == Stage::ray_tracing ? parameters.pixel_samples : 0;
+  const std::uint32_t filter = stage == Stage::ray_tracing ? parameters.filter_entries : 0;
+  layout.sample_places = allocator.place("sample places", samples, sizeof(protocol::SamplePlace));
+  layout.filter = allocator.place("filter", filter, sizeof(float));
   layout.emitters = allocator.place("emitters", emitters, sizeof(protocol::Emitter));
   result.load_end = allocator.next();
   layout.open_batches = open_batches(placement.torus.pes());

@@ -23,8 +23,9 @@ struct StageParameters {
   float points_per_quantum = 1;
   float pixel_scale = 0x1p40F;
   float least_weight = 1e-4F;
-  std::uint32_t emitters = 0;  ///< that shadow rays aim at; 0: no shadow rays
-  std::uint32_t layers = 0;    ///< as protocol::StageLayout
+  std::uint32_t emitters = 0;                           ///< that shadow rays aim at; 0: no shadow rays
+  std::uint32_t layers = 0;                             ///< as protocol::StageLayout
+  std::uint32_t pixel_samples = 0, filter_entries = 0;  ///< of the camera rays that PEs make; 0: the host makes them
 };
 
 /// The machine's side of the layout.

@@ -98,8 +98,13 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   }
   setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.samples);
   const MachineDescription::Records& records = machine.description.records;
-  setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles, records.gather_records};
+  setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,
+               records.gather_records};
   setup.paper = machine.scheme == Scheme::paper;
+  if (!setup.paper) {
+    setup.parameters.pixel_samples = quality.samples;
+    setup.parameters.filter_entries = PixelSamples::entries(quality.filter, quality.samples);
+  }
   Placements placements = choose_placements(scene, camera, quality, machine, setup.mesh, setup.parameters, setup.map);
   setup.placement = std::move(placements.radiosity);
   setup.ray_placement = std::move(placements.ray_tracing);

@@ -58,11 +58,7 @@ void check(const std::array<std::uint32_t, 3>& cells) {
 
 std::array<std::uint32_t, 3> Grid::cell_of(const protocol::Vec3f& point) const {
   std::array<std::uint32_t, 3> cell{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::uint32_t i = 0;
-    while (i + 1 < cells[axis] && plane(axis, i + 1) <= point[axis]) ++i;
-    cell[axis] = i;
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] = protocol::cell_on_axis(shape(), axis, point[axis]);
   return cell;
 }
 

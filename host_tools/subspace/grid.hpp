@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "firmware/protocol/first_cell.hpp"
 #include "firmware/protocol/records.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
@@ -19,6 +20,7 @@ struct Grid {
   std::array<std::uint32_t, 3> cells{1, 1, 1};
   protocol::Vec3f cell_size{1, 1, 1};  ///< plane i of an axis lies at float(i) * cell_size
 
+  protocol::GridShape shape() const { return {cells, cell_size}; }
   std::uint32_t count() const { return cells[0] * cells[1] * cells[2]; }
   CellIndex index(const std::array<std::uint32_t, 3>& cell) const {
     return cell[0] + cells[0] * (cell[1] + cells[1] * cell[2]);

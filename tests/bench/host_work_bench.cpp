@@ -204,7 +204,7 @@ BENCHMARK(hemicube_table);
 
 void filter_table(benchmark::State& state) {
   std::size_t entries = 0;
-  for (auto _ : state) entries = PixelSamples(PixelFilter::gaussian, 4, 1).table_entries();
+  for (auto _ : state) entries = PixelSamples(PixelFilter::gaussian, 4, 1).distances().size();
   per_item(state, static_cast<double>(entries));
 }
 BENCHMARK(filter_table);
