@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Proves: the triangle test's hand cases, edges and vertices inclusive, sides by winding; and the walk's: the intervals
-// of the subspaces along a ray meet exactly, whoever computes them, and a seeking record finds its origin's subspace.
+// of the subspaces along a ray meet exactly, whoever computes them and wherever it stops; a point's cell is the one
+// between whose planes it lies; and the map of cells knows what stands where.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cmath>
 #include <limits>
 
 #include "firmware/pe/intersect.hpp"
@@ -117,45 +119,37 @@ GridCase random_grid_case() {
   return g;
 }
 
-std::array<std::uint16_t, 3> cell_of(const GridCase& g) {
-  std::array<std::uint16_t, 3> cell{};
-  for (std::uint32_t guard = 0;; ++guard) {
-    RC_ASSERT(guard < 200U);
-    const std::uint32_t face = pe::seek_face(g.layout, g.segment.origin, cell);
-    if (face == protocol::kFaces) return cell;
-    cell[face / 2] = static_cast<std::uint16_t>(cell[face / 2] + (face % 2 == 1 ? 1 : -1));
-  }
-}
-
 // The partition: each interval begins at the very float at which the last one ended, also when it is computed afresh
-// from the entry axis alone, as at a hand-over; ends never fall; the walk leaves the grid.
+// from the entry axis alone, as at a hand-over; ends never fall; the walk leaves the grid. So a walk over many cells,
+// as over empty ones, is the walk that stops in each, bit for bit.
 TEST(Walk, IntervalsOfTheSubspacesMeetExactly) {
   const bool holds = rc::check([] {
     GridCase g = random_grid_case();
-    protocol::Subspace here{};
-    here.cell = cell_of(g);
-    pe::Walk walk(g.layout, g.segment, here);
-    float last = walk.t_out();
-    RC_ASSERT(last >= 0.0F);
-    for (std::uint32_t step = 0;; ++step) {
-      RC_ASSERT(step < 130U);
-      const std::uint32_t axis = walk.exit_axis();
-      const bool up = walk.exit_face() % 2 == 1;
-      RC_ASSERT(walk.exit_face() / 2 == axis);
-      if (up ? here.cell[axis] + 1U == g.layout.cells[axis] : here.cell[axis] == 0) break;
-      here.cell[axis] = static_cast<std::uint16_t>(here.cell[axis] + (up ? 1 : -1));
-      walk.cross(here);
-      RC_ASSERT(walk.t_in() == last);
+    g.segment.place = pe::cell_of(g.layout, g.segment.origin);
+    pe::Walk walk(g.layout, g.segment);
+    RC_ASSERT(walk.first());
+    RC_ASSERT(walk.index() == pe::cell_index(g.layout, g.segment.place));
+    RC_ASSERT(walk.t_out() >= 0.0F);
+    std::uint32_t steps = 0;
+    for (float last = walk.t_out(); walk.cross(); last = walk.t_out(), ++steps) {
+      RC_ASSERT(steps < 120U);
+      RC_ASSERT(pe::bits(walk.t_in()) == pe::bits(last));
       RC_ASSERT(walk.t_out() >= last);
       Segment handed = g.segment;
-      handed.first = false;
-      handed.entry_axis = static_cast<std::uint8_t>(axis);
-      const pe::Walk fresh(g.layout, handed, here);
-      RC_ASSERT(fresh.t_in() == walk.t_in());
-      RC_ASSERT(fresh.t_out() == walk.t_out());
-      RC_ASSERT(fresh.exit_face() == walk.exit_face());
-      last = walk.t_out();
+      handed.place = walk.place();
+      handed.first = walk.first();
+      handed.entry_axis = walk.entry_axis();
+      RC_ASSERT(!handed.first);
+      RC_ASSERT(walk.index() == pe::cell_index(g.layout, handed.place));
+      const pe::Walk fresh(g.layout, handed);
+      RC_ASSERT(pe::bits(fresh.t_in()) == pe::bits(walk.t_in()));
+      RC_ASSERT(pe::bits(fresh.t_out()) == pe::bits(walk.t_out()));
+      RC_ASSERT(fresh.index() == walk.index());
+      RC_ASSERT(fresh.place() == walk.place());
+      RC_ASSERT(fresh.leaves_the_grid() == walk.leaves_the_grid());
+      RC_ASSERT(fresh.entered_from_outside() == walk.entered_from_outside());
     }
+    RC_ASSERT(walk.leaves_the_grid());
   });
   EXPECT_TRUE(holds);
 }
@@ -166,24 +160,96 @@ TEST(Walk, CornersAreCrossedXBeforeYBeforeZ) {
   layout.cells = {2, 2, 2};
   layout.cell_size = {0.5F, 0.5F, 0.5F};
   const float d = 1.0F / std::sqrt(3.0F);
-  const Segment s{{0.25F, 0.25F, 0.25F}, {d, d, d}, 0, protocol::kNoPolygon, false, true, 0};
-  protocol::Subspace here{};
-  pe::Walk walk(layout, s, here);
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    ASSERT_EQ(walk.exit_face(), 2 * axis + 1);
-    here.cell[axis] = 1;
-    walk.cross(here);
+  const Segment s{{0.25F, 0.25F, 0.25F}, {d, d, d}, 0, protocol::kNoPolygon, true, 0};
+  pe::Walk walk(layout, s);
+  for (std::uint8_t axis = 0; axis < 3; ++axis) {
+    ASSERT_TRUE(walk.cross());
+    ASSERT_EQ(walk.entry_axis(), axis);
+  }
+  EXPECT_EQ(walk.place(), protocol::cell_code(1, 1, 1));
+  EXPECT_FALSE(walk.cross());
+}
+
+/// Number of the planes 1 .. last along an axis at or below x: found one by one.
+std::uint32_t planes_below(const protocol::StageLayout& layout, std::uint32_t axis, float x) {
+  std::uint32_t cell = 0;
+  while (cell + 1U < layout.cells[axis] && x >= pe::plane(layout, axis, cell + 1U)) ++cell;
+  return cell;
+}
+
+TEST(Cells, APointsCellLiesBetweenItsPlanes) {
+  const bool holds = rc::check([] {
+    GridCase g = random_grid_case();
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      float& x = g.segment.origin[static_cast<int>(a)];
+      const float at = pe::plane(g.layout, a, *rc::gen::inRange<std::uint32_t>(0, g.layout.cells[a] + 1U));
+      switch (*rc::gen::inRange(0, 6)) {  // on a plane, the floats beside it, outside
+        case 0:
+          x = at;
+          break;
+        case 1:
+          x = std::nextafter(at, 2.0F);
+          break;
+        case 2:
+          x = std::nextafter(at, -2.0F);
+          break;
+        case 3:
+          x = x * 4.0F - 1.5F;
+          break;
+        default:
+          break;
+      }
+    }
+    const protocol::CellCode code = pe::cell_of(g.layout, g.segment.origin);
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      RC_ASSERT(protocol::cell_along(code, a) == planes_below(g.layout, a, g.segment.origin[static_cast<int>(a)]));
+    }
+  });
+  EXPECT_TRUE(holds);
+}
+
+TEST(Cells, WhatIsNoNumberOrFarAwayHasACell) {
+  protocol::StageLayout layout{};
+  layout.cells = {7, 1, 1024};
+  layout.cell_size = {0.125F, 1.0F, 0x1p-10F};
+  const float huge = std::numeric_limits<float>::max();
+  const float infinite = std::numeric_limits<float>::infinity();
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(pe::cell_of(layout, {huge, huge, huge}), protocol::cell_code(6, 0, 1023));
+  EXPECT_EQ(pe::cell_of(layout, {infinite, infinite, infinite}), protocol::cell_code(6, 0, 1023));
+  EXPECT_EQ(pe::cell_of(layout, {-huge, -infinite, -infinite}), 0U);
+  EXPECT_EQ(pe::cell_of(layout, {none, none, none}), 0U);
+}
+
+TEST(Cells, CodesKeepTheirPartsApart) {
+  for (const auto& [x, y, z] :
+       {std::array{0U, 0U, 0U}, {1023U, 0U, 0U}, {0U, 1023U, 0U}, {0U, 0U, 1023U}, {5U, 6U, 7U}}) {
+    const protocol::CellCode code = protocol::cell_code(x, y, z);
+    EXPECT_EQ((std::array{protocol::cell_along(code, 0), protocol::cell_along(code, 1), protocol::cell_along(code, 2)}),
+              (std::array{x, y, z}));
   }
 }
 
-TEST(Walk, SeekFindsTheCellThatHoldsTheOrigin) {
+// The map against a list: which cells stop a ray, and the entry of each.
+TEST(Cells, TheMapKnowsWhatStandsWhere) {
   const bool holds = rc::check([] {
-    GridCase g = random_grid_case();
-    const auto cell = cell_of(g);
-    for (std::uint32_t a = 0; a < 3; ++a) {
-      const float x = g.segment.origin[static_cast<int>(a)];
-      RC_ASSERT(cell[a] == 0 || pe::plane(g.layout, a, cell[a]) <= x);
-      RC_ASSERT(cell[a] + 1U == g.layout.cells[a] || x < pe::plane(g.layout, a, cell[a] + 1U));
+    const auto cells = *rc::gen::inRange<std::uint32_t>(1, 200);
+    std::vector<protocol::CellWord> words(protocol::cell_words(cells));
+    std::vector<protocol::CellEntry> entries;
+    std::vector<bool> stops;
+    std::vector<protocol::CellEntry> expected;
+    for (std::uint32_t c = 0; c < cells; ++c) {
+      if (c % 32 == 0) words[c / 32].before = static_cast<std::uint32_t>(entries.size());
+      stops.push_back(*rc::gen::inRange(0, 3) == 0);
+      expected.push_back(stops.back() ? *rc::gen::inRange<std::uint32_t>(0, 1000) : 0);
+      if (!stops.back()) continue;
+      words[c / 32].stops |= 1U << (c % 32);
+      entries.push_back(expected.back());
+    }
+    const pe::CellMap map{words, entries};
+    for (std::uint32_t c = 0; c < cells; ++c) {
+      RC_ASSERT(map.stops(c) == stops[c]);
+      RC_ASSERT(!stops[c] || map.entry(c) == expected[c]);
     }
   });
   EXPECT_TRUE(holds);
