@@ -311,7 +311,7 @@ struct Lamp {
 };
 
 TEST(Credits, APeWithoutWorkSendsAllHome) {
-  Lamp lamp;
+  Lamp lamp(2, 1'000'000);
   for (std::uint16_t p = 0; p < 3; ++p) lamp.grant(p, 17);
   EXPECT_EQ(lamp.machine.take_credits(), 3 * 17U);
   lamp.deal({1});
@@ -359,10 +359,10 @@ TEST(Credits, OneCreditIsEnoughAndIsNeverLost) {
 // While a PE has work it keeps what it is told to, and sends home what is far beyond, before it works on.
 TEST(Credits, SurplusGoesHome) {
   for (const std::uint32_t surplus : {63U, 64U, 900U}) {
-    Lamp lamp(2, 100);
+    Lamp lamp(2, 1'000);
     lamp.deal({1});
     lamp.machine.to_host.clear();
-    lamp.grant(1, 100 + surplus);
+    lamp.grant(1, 1'000 + surplus);
     const auto& heard = lamp.machine.to_host;
     const auto kind_is = [](MessageKind kind) { return [kind](const HostMessage& m) { return m.kind == kind; }; };
     const auto done = std::find_if(heard.begin(), heard.end(), kind_is(MessageKind::work_done));
@@ -373,7 +373,7 @@ TEST(Credits, SurplusGoesHome) {
     if (home < done) {
       EXPECT_EQ(home->as<protocol::Credits>().count, surplus);
     }
-    EXPECT_EQ(lamp.machine.take_credits(), 100 + surplus);
+    EXPECT_EQ(lamp.machine.take_credits(), 1'000 + surplus);
   }
 }
 
