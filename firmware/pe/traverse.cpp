@@ -37,8 +37,8 @@ void find_nearest(const Scene& scene, const Subspace& here, const Segment& segme
   reach.set_interval(t_in, walk.t_out());
   // The outer faces of the object space end no interval: walls often lie in them, and rounding puts their hits on
   // either side.
-  const bool open_begin = walk.first() || walk.entered_from_outside();
-  const float t_out = walk.leaves_the_grid() ? std::numeric_limits<float>::infinity() : walk.t_out();
+  const bool open_begin = walk.first() || walk.came_from_outside();
+  const float t_out = walk.goes_outside() ? std::numeric_limits<float>::infinity() : walk.t_out();
   const std::uint32_t* index = scene.polygon_list.data() + here.first_polygon;
   const std::uint32_t* const end = index + here.polygon_count;
   for (; index != end; ++index) {
@@ -62,15 +62,10 @@ Hit hit_of(const Nearest& nearest) {
           nearest.crossing.sum > 0.0F};
 }
 
-/// On to the next subspace that holds anything: nullptr where the way ends before, and `way` says how.
+/// From a cell at which it stops: the subspace there, or the next one that holds anything. nullptr where the way ends
+/// before, and `way` says how.
 inline const Subspace* next_full(const Scene& scene, Walk& walk, Way& way) {
-  for (;;) {
-    while (!scene.map.stops(walk.index())) {
-      if (!walk.cross()) {
-        way.end = WayEnd::escaped;
-        return nullptr;
-      }
-    }
+  do {
     const protocol::CellEntry entry = scene.map.entry(walk.index());
     if ((entry & protocol::kHeld) == 0) {
       way.end = WayEnd::handed_on;
@@ -80,22 +75,22 @@ inline const Subspace* next_full(const Scene& scene, Walk& walk, Way& way) {
     ++way.visited;
     const Subspace& here = scene.subspaces[entry & ~protocol::kHeld];
     if (here.polygon_count != 0) return &here;
-    if (!walk.cross()) {
-      way.end = WayEnd::escaped;
-      return nullptr;
-    }
-  }
+  } while (walk.advance(scene.map));
+  way.end = WayEnd::escaped;
+  return nullptr;
 }
 
 /// The first hit in this PE's subspaces, if there is one before the way ends otherwise.
 Way look_along(const Scene& scene, const Segment& segment, Walk& walk) {
   Way way{};
+  way.end = WayEnd::escaped;
+  if (!scene.map.stops(walk.index()) && !walk.advance(scene.map)) return way;
   const Subspace* here = next_full(scene, walk, way);
   if (here == nullptr) return way;
   // Only who looks into a subspace needs this of the ray.
   const Shear shear(segment.origin, segment.direction, walk.inverse());
   Reach reach(segment.origin, segment.direction, walk.inverse());
-  for (;;) {
+  do {
     Nearest nearest;
     find_nearest(scene, *here, segment, walk, shear, reach, nearest);
     if (nearest.polygon != protocol::kNoPolygon) {
@@ -103,13 +98,13 @@ Way look_along(const Scene& scene, const Segment& segment, Walk& walk) {
       way.hit = hit_of(nearest);
       return way;
     }
-    if (!walk.cross()) {
+    if (!walk.advance(scene.map)) {
       way.end = WayEnd::escaped;
       return way;
     }
     here = next_full(scene, walk, way);
-    if (here == nullptr) return way;
-  }
+  } while (here != nullptr);
+  return way;
 }
 
 }  // namespace

@@ -50,14 +50,10 @@ class Walk {
       axis.stride = upward ? stride : 0U - stride;
       axis.step = upward ? 1.0F : -1.0F;
       axis.plane = static_cast<float>(cell + (upward ? 1U : 0U));
+      axis.exit = distance(axis, axis.plane);
       stride *= layout.cells[a];
-      aim(axis);
     }
-    if (!first_) {
-      const Axis& axis = axis_[entry_axis_];
-      entered_ = distance(axis, axis.plane - axis.step);
-    }
-    choose();
+    if (!first_) entered_ = distance(axis_[entry_axis_], axis_[entry_axis_].plane - axis_[entry_axis_].step);
   }
 
   /// Of the cell, in the map.
@@ -72,28 +68,51 @@ class Walk {
   /// Still in the cell where the segment began: then no face was entered.
   bool first() const { return first_; }
   std::uint8_t entry_axis() const { return entry_axis_; }
-  /// The face entered, or the one that comes next, is one of the object space's own.
-  bool entered_from_outside() const {
-    return axis_[entry_axis_].left == layout_.cells[entry_axis_] - 1U;
-  }
-  bool leaves_the_grid() const { return axis_[exit_axis_].left == 0; }
+  /// The face through which it came, or goes next, is one of the object space's own.
+  bool came_from_outside() const { return axis_[entry_axis_].left == layout_.cells[entry_axis_] - 1U; }
+  bool goes_outside() const { return axis_[exit_axis()].left == 0; }
   /// The interval of the subspace is (t_in, t_out]. t_in means nothing in the first one.
   float t_in() const { return entered_; }
-  float t_out() const { return axis_[exit_axis_].exit; }
+  float t_out() const { return axis_[exit_axis()].exit; }
   const Inverse& inverse() const { return inverse_; }
 
-  /// Goes through the face whose plane is met first, x before y before z. False: that leads outside.
-  bool cross() {
-    Axis& axis = axis_[exit_axis_];
-    if (axis.left == 0) return false;
-    --axis.left;
-    index_ += axis.stride;
-    entered_ = axis.exit;
-    entry_axis_ = exit_axis_;
+  /// Goes on to the next cell at which it must stop, through the faces whose planes are met first, x before y before z.
+  /// False: it has left the object space.
+  bool advance(const CellMap& map) {
+    // Copies: the loop is where a ray in wide rooms spends its time, and all of it fits the registers.
+    Axis x = axis_[0];
+    Axis y = axis_[1];
+    Axis z = axis_[2];
+    const protocol::CellWord* const words = map.words.data();
+    std::uint32_t index = index_;
+    float entered = 0.0F;
+    std::uint8_t crossed = 0;
+    bool inside = true;
+    do {
+      if (y.exit < x.exit) {
+        if (z.exit < y.exit) {
+          inside = cross(z, index, entered);
+          crossed = 2;
+        } else {
+          inside = cross(y, index, entered);
+          crossed = 1;
+        }
+      } else if (z.exit < x.exit) {
+        inside = cross(z, index, entered);
+        crossed = 2;
+      } else {
+        inside = cross(x, index, entered);
+        crossed = 0;
+      }
+      if (!inside) return false;
+    } while (((words[index >> 5U].stops >> (index & 31U)) & 1U) == 0);
+    keep(axis_[0], x);
+    keep(axis_[1], y);
+    keep(axis_[2], z);
+    index_ = index;
+    entered_ = entered;
+    entry_axis_ = crossed;
     first_ = false;
-    axis.plane += axis.step;
-    aim(axis);
-    choose();
     return true;
   }
 
@@ -112,10 +131,25 @@ class Walk {
     if (bits(axis.inverse) == 0) return std::numeric_limits<float>::infinity();
     return (plane * axis.size - axis.origin) * axis.inverse;
   }
-  static void aim(Axis& axis) { axis.exit = distance(axis, axis.plane); }
-  void choose() {
-    exit_axis_ = axis_[1].exit < axis_[0].exit ? 1U : 0U;
-    if (axis_[2].exit < axis_[exit_axis_].exit) exit_axis_ = 2U;
+  /// Through a plane that is met, so `inverse` is not 0.
+  [[gnu::always_inline]] static bool cross(Axis& axis, std::uint32_t& index, float& entered) {
+    if (axis.left == 0) return false;
+    --axis.left;
+    index += axis.stride;
+    entered = axis.exit;
+    axis.plane += axis.step;
+    axis.exit = (axis.plane * axis.size - axis.origin) * axis.inverse;
+    return true;
+  }
+  /// What changes on the way.
+  [[gnu::always_inline]] static void keep(Axis& axis, const Axis& now) {
+    axis.plane = now.plane;
+    axis.exit = now.exit;
+    axis.left = now.left;
+  }
+  std::uint32_t exit_axis() const {
+    const std::uint32_t axis = axis_[1].exit < axis_[0].exit ? 1U : 0U;
+    return axis_[2].exit < axis_[axis].exit ? 2U : axis;
   }
 
   const protocol::StageLayout& layout_;
@@ -125,7 +159,6 @@ class Walk {
   std::uint32_t index_;
   bool first_;
   std::uint8_t entry_axis_;
-  std::uint8_t exit_axis_ = 0;
 };
 
 }  // namespace torolux::pe

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/render/frame_layers.hpp"
 #include "host_tools/render/setup.hpp"
 #include "host_tools/stages/render_program.hpp"
 #include "tests/support/render_support.hpp"

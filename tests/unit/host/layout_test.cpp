@@ -45,7 +45,7 @@ class LayoutTest : public testing::Test {
   Scene scene_ = test::room_with_box();
   Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.4, .element_length = 0.2});
   LightUnits units_ = light_units(scene_, mesh_, false);
-  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{6, 5, 7}, "skewed"});
   std::vector<Loaded> pes_;
 };
 
@@ -128,19 +128,19 @@ TEST_F(LayoutTest, MapsNameWhoHoldsWhatStandsInEachCell) {
 }
 
 TEST_F(LayoutTest, CellsMayStopRaysEverywhereAndStandOnAllPes) {
-  PlacementChoice choice{{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"};
+  PlacementChoice choice{{3, 2}, std::array<std::uint32_t, 3>{6, 5, 7}, "skewed"};
   for (const auto& [copy_all, stop_everywhere] : {std::pair{true, false}, {false, true}, {true, true}}) {
     choice.copy_all = copy_all;
     choice.stop_everywhere = stop_everywhere;
     const Placement placement = make_placement(mesh_, choice);
-    EXPECT_EQ(placement.stops, stop_everywhere ? 64U : placement.filled_cells);
+    EXPECT_EQ(placement.stops, stop_everywhere ? placement.grid.count() : placement.filled_cells);
     for (protocol::PeNumber pe = 0; pe < 6; ++pe) {
       Loaded loaded;
       loaded.layout = lay_out(mesh_, placement, pe, Stage::radiosity, {}, kMap);
       loaded.image = radiosity_image(scene_, mesh_, placement, pe, units_, loaded.layout);
       const auto map = map_of(loaded, placement.grid.count());
       std::uint32_t held = 0;
-      for (CellIndex cell = 0; cell < 64; ++cell) {
+      for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
         ASSERT_EQ(map[cell].has_value(), stop_everywhere || !placement.polygons_of_cell[cell].empty());
         if (!map[cell]) continue;
         const bool here = copy_all || placement.pe_of_cell[cell] == pe;

@@ -71,9 +71,9 @@ std::vector<PeNumber> deals_in(const std::vector<Sent>& sent, std::optional<PeNu
   std::vector<PeNumber> to;
   for (const Sent& one : sent) {
     if (!one.is(MessageKind::deal) || (owner && one.pe != *owner)) continue;
-    const auto deal = one.as<protocol::Deal>();
+    const auto count = one.as<std::uint32_t>();
     const std::size_t head = offsetof(protocol::Deal, pe);
-    EXPECT_EQ(one.bytes.size(), head + deal.count * sizeof(PeNumber)) << "only what is used is sent";
+    EXPECT_EQ(one.bytes.size(), head + count * sizeof(PeNumber)) << "only what is used is sent";
     protocol::Deal whole{};
     std::memcpy(&whole, one.bytes.data(), one.bytes.size());
     to.insert(to.end(), whole.pe.begin(), whole.pe.begin() + whole.count);
