@@ -7,10 +7,12 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "firmware/pe/intersect.hpp"
 #include "firmware/pe/traverse.hpp"
 #include "firmware/pe/walk.hpp"
+#include "firmware/protocol/random.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "tests/unit/firmware/test_scene.hpp"
 
@@ -119,37 +121,82 @@ GridCase random_grid_case() {
   return g;
 }
 
+/// A map of so many cells, of which a ray stops in those that `stops` says.
+struct TestMap {
+  std::vector<protocol::CellWord> words;
+  template <class Stops>
+  TestMap(std::uint32_t cells, const Stops& stops) : words(protocol::cell_words(cells)) {
+    for (std::uint32_t c = 0; c < cells; ++c) words[c / 32].stops |= stops(c) ? 1U << (c % 32) : 0U;
+  }
+  pe::CellMap view() const { return {words, {}}; }
+};
+
+std::uint32_t cells_of(const protocol::StageLayout& layout) {
+  return layout.cells[0] * layout.cells[1] * layout.cells[2];
+}
+
+void assert_same(const pe::Walk& walk, const pe::Walk& other) {
+  RC_ASSERT(pe::bits(walk.t_in()) == pe::bits(other.t_in()));
+  RC_ASSERT(pe::bits(walk.t_out()) == pe::bits(other.t_out()));
+  RC_ASSERT(walk.index() == other.index());
+  RC_ASSERT(walk.place() == other.place());
+  RC_ASSERT(walk.entry_axis() == other.entry_axis());
+  RC_ASSERT(walk.goes_outside() == other.goes_outside());
+  RC_ASSERT(walk.came_from_outside() == other.came_from_outside());
+}
+
+Segment handed_over(const Segment& segment, const pe::Walk& walk) {
+  Segment handed = segment;
+  handed.place = walk.place();
+  handed.first = walk.first();
+  handed.entry_axis = walk.entry_axis();
+  return handed;
+}
+
 // The partition: each interval begins at the very float at which the last one ended, also when it is computed afresh
-// from the entry axis alone, as at a hand-over; ends never fall; the walk leaves the grid. So a walk over many cells,
-// as over empty ones, is the walk that stops in each, bit for bit.
+// from the entry axis alone, as at a hand-over; ends never fall; the walk leaves the grid.
 TEST(Walk, IntervalsOfTheSubspacesMeetExactly) {
   const bool holds = rc::check([] {
     GridCase g = random_grid_case();
+    const TestMap all(cells_of(g.layout), [](std::uint32_t) { return true; });
     g.segment.place = pe::cell_of(g.layout, g.segment.origin);
     pe::Walk walk(g.layout, g.segment);
     RC_ASSERT(walk.first());
     RC_ASSERT(walk.index() == pe::cell_index(g.layout, g.segment.place));
     RC_ASSERT(walk.t_out() >= 0.0F);
     std::uint32_t steps = 0;
-    for (float last = walk.t_out(); walk.cross(); last = walk.t_out(), ++steps) {
+    for (float last = walk.t_out(); walk.advance(all.view()); last = walk.t_out(), ++steps) {
       RC_ASSERT(steps < 120U);
+      RC_ASSERT(!walk.first());
       RC_ASSERT(pe::bits(walk.t_in()) == pe::bits(last));
       RC_ASSERT(walk.t_out() >= last);
-      Segment handed = g.segment;
-      handed.place = walk.place();
-      handed.first = walk.first();
-      handed.entry_axis = walk.entry_axis();
-      RC_ASSERT(!handed.first);
-      RC_ASSERT(walk.index() == pe::cell_index(g.layout, handed.place));
-      const pe::Walk fresh(g.layout, handed);
-      RC_ASSERT(pe::bits(fresh.t_in()) == pe::bits(walk.t_in()));
-      RC_ASSERT(pe::bits(fresh.t_out()) == pe::bits(walk.t_out()));
-      RC_ASSERT(fresh.index() == walk.index());
-      RC_ASSERT(fresh.place() == walk.place());
-      RC_ASSERT(fresh.leaves_the_grid() == walk.leaves_the_grid());
-      RC_ASSERT(fresh.entered_from_outside() == walk.entered_from_outside());
+      RC_ASSERT(walk.index() == pe::cell_index(g.layout, walk.place()));
+      assert_same(pe::Walk(g.layout, handed_over(g.segment, walk)), walk);
     }
-    RC_ASSERT(walk.leaves_the_grid());
+    RC_ASSERT(walk.goes_outside());
+  });
+  EXPECT_TRUE(holds);
+}
+
+// Stepping over cells changes nothing, to the bit: whoever stops in few of them comes to those as who stops in all.
+TEST(Walk, StepsOverCellsAsIfItStopped) {
+  const bool holds = rc::check([] {
+    GridCase g = random_grid_case();
+    const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+    const auto often = *rc::gen::inRange<std::uint32_t>(1, 12);
+    const auto stops = [=](std::uint32_t c) { return protocol::hash_combine(seed, c) % often == 0; };
+    const TestMap all(cells_of(g.layout), [](std::uint32_t) { return true; });
+    const TestMap some(cells_of(g.layout), stops);
+    g.segment.place = pe::cell_of(g.layout, g.segment.origin);
+    pe::Walk walk(g.layout, g.segment);
+    std::optional<pe::Walk> leaping(std::in_place, g.layout, g.segment);
+    while (walk.advance(all.view())) {
+      if (!stops(walk.index())) continue;
+      RC_ASSERT(leaping->advance(some.view()));
+      assert_same(*leaping, walk);
+      leaping.emplace(g.layout, handed_over(g.segment, *leaping));  // at another PE
+    }
+    RC_ASSERT(!leaping->advance(some.view()));
   });
   EXPECT_TRUE(holds);
 }
@@ -162,12 +209,13 @@ TEST(Walk, CornersAreCrossedXBeforeYBeforeZ) {
   const float d = 1.0F / std::sqrt(3.0F);
   const Segment s{{0.25F, 0.25F, 0.25F}, {d, d, d}, 0, protocol::kNoPolygon, true, 0};
   pe::Walk walk(layout, s);
+  const TestMap all(8, [](std::uint32_t) { return true; });
   for (std::uint8_t axis = 0; axis < 3; ++axis) {
-    ASSERT_TRUE(walk.cross());
+    ASSERT_TRUE(walk.advance(all.view()));
     ASSERT_EQ(walk.entry_axis(), axis);
   }
   EXPECT_EQ(walk.place(), protocol::cell_code(1, 1, 1));
-  EXPECT_FALSE(walk.cross());
+  EXPECT_FALSE(walk.advance(all.view()));
 }
 
 /// Number of the planes 1 .. last along an axis at or below x: found one by one.
