@@ -20,6 +20,7 @@ enum class LayoutField : std::uint32_t {
   cells,
   own_slots,
   open_batches,
+  credits_kept,
   bounces,
   hemicube_size,
   shot_points,
@@ -98,6 +99,8 @@ void check_layout(Niu& niu, const StageLayout& l) {
   require(niu, power && l.open_batches <= protocol::kMostOpenBatches, LayoutField::open_batches, l.open_batches);
   require(niu, l.own_slots == protocol::own_slots(l.stage, l.open_batches) && l.own_slots < slots && slots <= 0xFFFFU,
           LayoutField::own_slots, l.own_slots, slots);
+  // With none it would send home what it has just asked for.
+  require(niu, l.credits_kept >= 1, LayoutField::credits_kept, l.credits_kept);
   require(niu, l.bounces >= 1 && l.bounces <= protocol::kMostBounces, LayoutField::bounces, l.bounces);
   if (l.stage == Stage::radiosity) {
     check_radiosity(niu, l);

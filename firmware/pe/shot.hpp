@@ -24,14 +24,14 @@ struct FacetWalk {
 struct Shot {
   bool active = false;  ///< points are left to be dealt
   protocol::Shoot command{};
-  protocol::Flux flux{};       ///< of the whole shot [quanta]
-  std::uint32_t points = 0;    ///< in all
-  std::uint32_t key = 0;       ///< of its random numbers
-  std::uint32_t point = 0;     ///< the next one
-  bool by_area = false;        ///< facets send by their area alone
-  glm::vec3 all{};             ///< what all of them would send
-  FacetWalk walk{};            ///< at the end of the last point's part: each has an equal part of what facets send
-  protocol::Flux given{};      ///< of the flux, to the points before
+  protocol::Flux flux{};     ///< of the whole shot [quanta]
+  std::uint32_t points = 0;  ///< in all
+  std::uint32_t key = 0;     ///< of its random numbers
+  std::uint32_t point = 0;   ///< the next one
+  bool by_area = false;      ///< facets send by their area alone
+  glm::vec3 all{};           ///< what all of them would send
+  FacetWalk walk{};          ///< at the end of the last point's part: each has an equal part of what facets send
+  protocol::Flux given{};    ///< of the flux, to the points before
 };
 
 /// Where in a point's hemi-cube the next record is, and what it divides.

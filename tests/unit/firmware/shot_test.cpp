@@ -151,18 +151,18 @@ struct PointsOfAPatch {
     for (std::size_t e = 0; e < 4; ++e) view.elements[e].unshot = unshot[e];
     shot.command.kind = kind;
     shot.flux = {1'000'003, 600'011, 7};
-    shot.grid = k;
+    shot.points = k * k;
+    shot.key = 77;
     pe::begin_points(view, shot);
   }
 
-  void place(std::uint32_t point) {
-    shot.point = point;
-    shot.key = protocol::hash_combine(77, point);
-    pe::place_point(view, shot);
+  protocol::PointRecord next() { return pe::make_point(view, shot); }
+  static protocol::Weights weights(const protocol::PointRecord& point) {
+    return {1.0F - point.origin[0] - point.origin[1], point.origin[0], point.origin[1]};
   }
   /// Which element the point lies on.
-  std::uint32_t element() const {
-    protocol::Weights at{1.0F - shot.origin.x - shot.origin.y, shot.origin.x, shot.origin.y};
+  static std::uint32_t element(const protocol::PointRecord& point) {
+    protocol::Weights at = weights(point);
     return protocol::enter_level(at, 1);
   }
 };
@@ -174,13 +174,12 @@ TEST(ShotPoints, EmittedLightLeavesFromEqualParts) {
     std::vector<std::uint32_t> seen;
     protocol::Flux sum{};
     for (std::uint32_t p = 0; p < k * k; ++p) {
-      points.place(p);
-      protocol::Weights at{1.0F - points.shot.origin.x - points.shot.origin.y, points.shot.origin.x,
-                           points.shot.origin.y};
+      const protocol::PointRecord point = points.next();
+      protocol::Weights at = PointsOfAPatch::weights(point);
       ASSERT_GT(std::min({at.b0, at.b1, at.b2}), 0.0F);
       seen.push_back(protocol::enter_level(at, static_cast<std::uint32_t>(std::bit_width(k)) - 1U));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += points.shot.share[c];
-      EXPECT_NEAR(static_cast<double>(points.shot.share[0]), 1'000'003.0 / (k * k), 2.0);
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += point.flux[c];
+      EXPECT_NEAR(static_cast<double>(point.flux[0]), 1'000'003.0 / (k * k), 2.0);
     }
     std::sort(seen.begin(), seen.end());
     EXPECT_EQ(std::unique(seen.begin(), seen.end()), seen.end()) << k;
@@ -196,13 +195,14 @@ TEST(ShotPoints, ReflectedLightLeavesWhereItCame) {
   protocol::Flux sum{};
   std::array<int, 4> count{};
   for (std::uint32_t p = 0; p < 64; ++p) {
-    points.place(p);
+    const protocol::PointRecord point = points.next();
+    const std::uint32_t element = PointsOfAPatch::element(point);
     for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_GE(points.shot.share[c], 0);
-      by_element[points.element()][c] += points.shot.share[c];
-      sum[c] += points.shot.share[c];
+      EXPECT_GE(point.flux[c], 0);
+      by_element[element][c] += point.flux[c];
+      sum[c] += point.flux[c];
     }
-    ++count[points.element()];
+    ++count[element];
   }
   EXPECT_EQ(sum, points.shot.flux);
   EXPECT_EQ(count, (std::array{16, 0, 48, 0}));
@@ -217,8 +217,8 @@ TEST(ShotPoints, WhatNoElementKnowsOfLeavesByArea) {
   PointsOfAPatch points(3, {}, protocol::ShotKind::reflected);
   protocol::Flux sum{};
   for (std::uint32_t p = 0; p < 9; ++p) {
-    points.place(p);
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += points.shot.share[c];
+    const protocol::PointRecord point = points.next();
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += point.flux[c];
   }
   EXPECT_EQ(sum, points.shot.flux);
 }

@@ -94,7 +94,7 @@ TEST(Emitters, StandInEveryImageOrInNone) {
       const PeLayout rays = layout(protocol::Stage::ray_tracing);
       ASSERT_EQ(rays.layout.emitters.count, count);
       const auto image = ray_tracing_image(of.scene, of.mesh, placement, pe, of.units, lattice, rays);
-      const std::size_t at = rays.layout.emitters.address - rays.layout.subspaces.address;
+      const std::size_t at = rays.layout.emitters.address - rays.layout.cell_words.address;
       ASSERT_LE(at + count * sizeof(Emitter), image.size());
       EXPECT_EQ(std::memcmp(image.data() + at, of.list.data(), count * sizeof(Emitter)), 0);
     }

@@ -143,7 +143,7 @@ TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {
     const protocol::StageLayout& l = layout.layout;
     const std::vector<std::byte> bytes = ray_tracing_image(scene, mesh, placement, pe, units, lattice, layout);
     const auto at = [&]<class T>(const protocol::Store& store, std::size_t index, T value) {
-      std::memcpy(&value, bytes.data() + store.address - l.subspaces.address + index * sizeof(T), sizeof(T));
+      std::memcpy(&value, bytes.data() + store.address - l.cell_words.address + index * sizeof(T), sizeof(T));
       return value;
     };
     std::uint32_t shown = 0;
