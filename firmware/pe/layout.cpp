@@ -66,7 +66,7 @@ std::array<Extent, kStores> extents(const StageLayout& l) {
       {l.patch_sides, sizeof(protocol::PatchSide)},
       {l.elements, sizeof(protocol::Element)},
       {l.facets, sizeof(protocol::Facet)},
-      {l.hemicube, sizeof(std::uint32_t)},
+      {l.hemicube, sizeof(protocol::HemicubeEntry)},
       {l.lattice, sizeof(protocol::LatticeTriangle)},
       {l.textures, sizeof(protocol::Texture)},
       {l.texels, sizeof(protocol::Texel)},

@@ -70,11 +70,11 @@ std::uint32_t key_of(const Scene& scene, const Shoot& shoot) {
 /// Sets up the current point: its share of the flux, its place.
 void begin_point(Pe& pe) {
   Shot& shot = pe.shot;
-  shot.passed = {};
-  shot.weight = 0;
+  shot.rest = {};
   shot.next_pixel = 0;
   const Patch& patch = pe.scene.patches[shot.command.patch];
   shot.point_key = protocol::hash_combine(shot.key, shot.point);
+  shot.within = protocol::stratified_pair(shot.point, shot.key);
   place_point(pe.scene, shot);
   shot.seeks = seek_face(pe.scene.layout, shot.origin, pe.scene.subspaces[patch.subspace].cell) != protocol::kFaces;
 
@@ -85,26 +85,23 @@ void begin_point(Pe& pe) {
   shot.frame = spun({across, glm::cross(away, across), away}, protocol::uniform(shot.key, Dimension::spin));
 }
 
-/// Moves on to the next pixel that gets any flux. False: the shot is over. Differences of one rising sum, so that
-/// nothing of the flux is lost.
+/// Moves on to the next pixel that gets any flux. False: the shot is over.
 bool next_pixel(Pe& pe) {
   Shot& shot = pe.shot;
-  const std::uint32_t n = pe.scene.layout.hemicube_size;
+  const HemicubeGrid& grid = pe.scene.hemicube_grid;
   for (;;) {
-    if (shot.next_pixel == protocol::hemicube_pixels(n)) {
+    if (shot.next_pixel == protocol::hemicube_pixels(grid.n)) {
       if (++shot.point == shot.grid * shot.grid) return false;
       begin_point(pe);
     }
     shot.pixel = shot.next_pixel++;
-    shot.weight += pe.scene.hemicube[weight_of(n, hemicube_pixel(n, shot.pixel))];
-    bool any = false;
+    const std::uint32_t weight = pe.scene.hemicube[entry_of(grid.n, hemicube_pixel(grid, shot.pixel))].weight;
+    std::int64_t any = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::int64_t passed = protocol::scale_down(shot.share[c], shot.weight);
-      shot.pixel_flux[c] = passed - shot.passed[c];
-      shot.passed[c] = passed;
-      any = any || shot.pixel_flux[c] != 0;
+      shot.pixel_flux[c] = protocol::next_part(shot.share[c], weight, shot.rest[c]);
+      any |= shot.pixel_flux[c];
     }
-    if (any) return true;
+    if (any != 0) return true;
   }
 }
 
@@ -113,12 +110,15 @@ void create_record(Pe& pe, Niu& niu) {
   const Patch& patch = pe.scene.patches[shot.command.patch];
   // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
   // hemi-cubes there are. The shot's points share the pixel out among themselves: to what is far away they are one
-  // hemi-cube of so many times the pixels.
-  const protocol::StratifiedPair at =
-      protocol::stratified_pair(shot.point, protocol::hash_combine(shot.key, shot.pixel));
-  const std::uint32_t n = pe.scene.layout.hemicube_size;
-  const glm::vec3 direction = pixel_direction(shot.frame, n, hemicube_pixel(n, shot.pixel),
-                                              {protocol::uniform_float(at.x), protocol::uniform_float(at.y)});
+  // hemi-cube of so many times the pixels. In each pixel the points' places are shifted (by exclusive or) by numbers of
+  // its own: they keep as far apart, and pixels have nothing to do with each other.
+  const HemicubeGrid& grid = pe.scene.hemicube_grid;
+  const std::uint32_t shift = protocol::hash_combine(shot.key, shot.pixel);
+  const HemicubePixel pixel = hemicube_pixel(grid, shot.pixel);
+  const glm::vec3 direction =
+      pixel_direction(shot.frame, grid, pixel, pe.scene.hemicube[entry_of(grid.n, pixel)],
+                      {protocol::uniform_float(shot.within.x ^ shift),
+                       protocol::uniform_float(shot.within.y ^ protocol::hash_combine(shift, 1))});
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
   record.origin = to_array(shot.origin);
@@ -126,7 +126,7 @@ void create_record(Pe& pe, Niu& niu) {
   record.flux = shot.pixel_flux;
   record.subspace = patch.subspace;
   record.polygon = pe.scene.polygons[shot.polygon].number;
-  record.key = protocol::hash_combine(shot.point_key, shot.pixel);
+  record.key = shot.point_key ^ shift;
   record.kind = shot.seeks ? protocol::RecordKind::seek : protocol::RecordKind::light;
   record.bounce = 0;
   record.flags =

@@ -2,11 +2,13 @@
 // A shot in progress: where in the patch's points and the hemi-cube's pixels it is, and what it divides.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/pe/vectors.hpp"
 #include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/stratified.hpp"
 
 namespace torolux::pe {
 
@@ -41,13 +43,13 @@ struct Shot {
   bool seeks = false;  ///< the point lies outside the subspace that holds the patch's centre
   Frame frame{};       ///< spun, by the same turn at all points
   std::uint32_t point_key = 0;
-  protocol::Flux share{};  ///< of the flux
+  protocol::StratifiedPair within{};  ///< where in the pixels it goes through them; each has a shift of its own
+  protocol::Flux share{};             ///< of the flux
   // Of the current pixel: the next record to create.
   std::uint32_t pixel = 0;
   std::uint32_t next_pixel = 0;
   protocol::Flux pixel_flux{};
-  protocol::Flux passed{};   ///< of the share, to the pixels up to this one
-  std::uint64_t weight = 0;  ///< of the pixels up to this one; 2^32 is all
+  std::array<std::uint32_t, 3> rest{};  ///< of the share: less than a quantum, for the next pixel (next_part)
 };
 
 }  // namespace torolux::pe
