@@ -62,7 +62,7 @@ constexpr std::array<StoreExtent, kStores> store_extents(const StageLayout& l) {
       {l.patch_sides, sizeof(PatchSide)},
       {l.elements, sizeof(Element)},
       {l.facets, sizeof(Facet)},
-      {l.hemicube, sizeof(std::uint32_t)},
+      {l.hemicube, sizeof(HemicubeEntry)},
       {l.lattice, sizeof(LatticeTriangle)},
       {l.textures, sizeof(Texture)},
       {l.texels, sizeof(Texel)},

@@ -135,7 +135,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.patch_sides = allocator.place("patch sides", counts.patch_sides, sizeof(protocol::PatchSide));
   layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));
   layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
-  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(std::uint32_t));
+  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(protocol::HemicubeEntry));
   layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
   layout.textures = allocator.place("textures", counts.textures, sizeof(protocol::Texture));
   layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));

@@ -68,7 +68,7 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
     add(l.patches, sizeof(protocol::Patch));
     add(l.patch_sides, sizeof(protocol::PatchSide));
     add(l.elements, sizeof(protocol::Element));
-    add(l.hemicube, 4);
+    add(l.hemicube, sizeof(protocol::HemicubeEntry));
     add(l.record_slots, sizeof(protocol::RadiosityRecord));
     std::uint64_t last = kMap.stores_begin;
     for (const auto& [begin, end] : ranges) {
