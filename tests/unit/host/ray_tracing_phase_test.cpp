@@ -128,8 +128,8 @@ TEST_F(RayTracingPhaseTest, EachRayGoesToThePeThatHoldsItsFirstSubspace) {
     pes.insert(one.pe);
     // The eye stands in a subspace with walls, so no empty one is stepped over.
     EXPECT_EQ(one.pe, placement_.pe_of_cell[first->cell]);
-    EXPECT_EQ(one.record.subspace, placement_.local_of_cell[first->cell]);
-    EXPECT_EQ(placement_.cells_of_pe[one.pe][one.record.subspace], first->cell);
+    const auto cell = placement_.grid.cell(first->cell);
+    EXPECT_EQ(one.record.place, protocol::cell_code(cell[0], cell[1], cell[2]));
   }
   EXPECT_EQ(pes.size(), 1U) << "one eye";
   RayTracingPhase outside = phase(64, {0.5, 0.5, -2});
