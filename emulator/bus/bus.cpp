@@ -18,6 +18,7 @@ BusKind kind_of(BusRequester requester, const Block& block) {
   const auto is = [&block](auto kind) { return block.message_kind == static_cast<std::uint16_t>(kind); };
   if (requester.is_divert()) return BusKind::diverted;
   if (block.records != 0) return BusKind::records;
+  if (block.is_broadcast()) return BusKind::broadcast;
   if (requester.is_host()) return is(protocol::MessageKind::load) ? BusKind::load : BusKind::control;
   if (block.destination == protocol::kFrameBuffer) return BusKind::pixels;
   if (is(protocol::MachineMessage::text)) return BusKind::text;
@@ -124,7 +125,11 @@ Cycles Bus::count(BusRequester requester, const Block& block) {
   const auto add = [&](BusTraffic& traffic) { traffic.add(bytes, arbitration + data); };
   add(figures_.users[static_cast<std::size_t>(user_of(requester))]);
   add(figures_.kinds[static_cast<std::size_t>(kind_of(requester, block))]);
-  add(requester.is_host() ? figures_.to_pe[block.destination] : figures_.from_pe[requester.pe()]);
+  if (!requester.is_host()) {
+    add(figures_.from_pe[requester.pe()]);
+  } else if (!block.is_broadcast()) {
+    add(figures_.to_pe[block.destination]);
+  }
   return arbitration + data;
 }
 

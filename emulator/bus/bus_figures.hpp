@@ -14,21 +14,22 @@ namespace torolux {
 
 enum class BusUser : std::uint8_t { host, queue, divert, count };  ///< queue: a PE's outgoing one
 enum class BusKind : std::uint8_t {
-  load,      ///< host to PE: stores
-  control,   ///< host to PE: all other messages
-  records,   ///< host to PE: new or diverted ones
-  credits,   ///< PE to host
-  answers,   ///< PE to host: all other messages
-  text,      ///< PE to host
-  pixels,    ///< PE to the frame buffer controller
-  diverted,  ///< divert buffer to host memory
+  load,       ///< host to PE: stores
+  control,    ///< host to PE: all other messages
+  broadcast,  ///< host to every PE at once, whatever it says
+  records,    ///< host to PE: new or diverted ones
+  credits,    ///< PE to host
+  answers,    ///< PE to host: all other messages
+  text,       ///< PE to host
+  pixels,     ///< PE to the frame buffer controller
+  diverted,   ///< divert buffer to host memory
   count
 };
 inline constexpr std::size_t kBusUsers = static_cast<std::size_t>(BusUser::count);
 inline constexpr std::size_t kBusKinds = static_cast<std::size_t>(BusKind::count);
 inline constexpr std::array<std::string_view, kBusUsers> kBusUserNames = {"host", "queues", "divert_buffers"};
-inline constexpr std::array<std::string_view, kBusKinds> kBusKindNames = {"load",    "control", "records", "credits",
-                                                                          "answers", "text",    "pixels",  "diverted"};
+inline constexpr std::array<std::string_view, kBusKinds> kBusKindNames = {
+    "load", "control", "broadcast", "records", "credits", "answers", "text", "pixels", "diverted"};
 
 struct BusTraffic {
   std::uint64_t transfers = 0;
@@ -49,7 +50,7 @@ struct BusFigures {
   std::array<BusTraffic, kBusUsers> users;
   std::array<BusTraffic, kBusKinds> kinds;
   std::vector<BusTraffic> from_pe;  ///< its queue and its divert buffer
-  std::vector<BusTraffic> to_pe;    ///< from the host
+  std::vector<BusTraffic> to_pe;    ///< from the host, broadcasts apart
 
   Cycles busy_cycles() const { return arbitration_cycles + data_cycles; }
 };

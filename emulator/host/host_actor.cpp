@@ -23,15 +23,30 @@ HostActor::HostActor(const MachineDescription& machine, HostProgram& program, un
 }
 
 void HostActor::send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) {
-  if (pe >= lines_.size() || contents.size() > protocol::kMostMessageBytes) {
-    throw MachineFailure("the host program sends PE " + std::to_string(pe) + " of " + std::to_string(lines_.size()) +
+  if (pe >= lines_.size()) {
+    throw MachineFailure("the host program sends a message to PE " + std::to_string(pe) + " of " +
+                         std::to_string(lines_.size()));
+  }
+  queue_for(pe, make_message(pe, kind, contents));
+  ++lines_[pe].made;
+}
+
+void HostActor::broadcast(std::uint16_t kind, std::span<const std::byte> contents) {
+  queue_for(kEveryPe, make_message(kEveryPe, kind, contents));
+  ++broadcasts_made_;
+}
+
+BlockIndex HostActor::make_message(std::uint16_t destination, std::uint16_t kind, std::span<const std::byte> contents) {
+  if (contents.size() > protocol::kMostMessageBytes) {
+    throw MachineFailure("the host program sends " +
+                         (destination == kEveryPe ? std::string("all PEs") : "PE " + std::to_string(destination)) +
                          " a message of " + std::to_string(contents.size()) + " bytes; the most is " +
                          std::to_string(protocol::kMostMessageBytes));
   }
   const BlockIndex block = pool_.take();
   pool_[block].message_kind = kind;
   pool_[block].set_payload(contents);
-  queue_for(pe, block);
+  return block;
 }
 
 void HostActor::send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) {
@@ -47,17 +62,17 @@ void HostActor::send_records(PeNumber pe, std::span<const std::byte> records, st
   pool_[block].records = static_cast<std::uint16_t>(count);
   pool_[block].set_payload(records);
   queue_for(pe, block);
+  ++lines_[pe].made;
 }
 
-void HostActor::queue_for(PeNumber pe, BlockIndex index) {
+void HostActor::queue_for(std::uint16_t destination, BlockIndex index) {
   Block& block = pool_[index];
   block.number = (std::uint64_t{protocol::kHost} << 32U) | numbers_++;
   block.source = protocol::kHost;
-  block.destination = pe;
+  block.destination = destination;
   clock_.work(HostWork::message, 1);
   clock_.work(HostWork::copy, host_lines(block.bytes));
-  ++lines_[pe].made;
-  events_.push(clock_.now(), source_, EventKind::host_queue, pe, 0, index);
+  events_.push(clock_.now(), source_, EventKind::host_queue, destination, 0, index);
 }
 
 void HostActor::start(HostClient& client) {
@@ -98,9 +113,27 @@ void HostActor::step() {
 
 HostQueue HostActor::enqueue(unsigned pe, BlockIndex block) {
   const HostQueue queue = pool_[block].source == protocol::kHost ? HostQueue::program : HostQueue::resend;
-  lines_[pe].queues[index_of(queue)].push(pool_, block);
-  update(pe);
+  const bool waits = pool_[block].is_broadcast() || !behind_.empty();
+  if (queue == HostQueue::program && waits) {
+    behind_.push(pool_, block);
+  } else {
+    put(pe, queue, block);
+  }
   return queue;
+}
+
+void HostActor::put(unsigned pe, HostQueue queue, BlockIndex block) {
+  lines_[pe].queues[index_of(queue)].push(pool_, block);
+  if (queue == HostQueue::program) ++ahead_;
+  update(pe);
+}
+
+std::optional<unsigned> HostActor::let_through() {
+  if (behind_.empty() || pool_[behind_.front()].is_broadcast()) return std::nullopt;
+  const BlockIndex block = behind_.pop(pool_);
+  const unsigned pe = pool_[block].destination;
+  put(pe, HostQueue::program, block);
+  return pe;
 }
 
 std::uint32_t HostActor::ask_for_slots(unsigned pe, HostQueue queue) {
@@ -119,7 +152,7 @@ void HostActor::slots_granted(unsigned pe, HostQueue queue) {
 }
 
 void HostActor::control_buffer_free(unsigned pe) {
-  ++lines_[pe].control_buffers;
+  if (++lines_[pe].control_buffers == 1) --full_;
   update(pe);
 }
 
@@ -136,17 +169,32 @@ void HostActor::update(unsigned pe) {
   ready_.set(pe, fits(pe, HostQueue::program) || fits(pe, HostQueue::resend));
 }
 
+void HostActor::use_control_buffer(Line& line) {
+  if (--line.control_buffers == 0) ++full_;
+}
+
+BlockIndex HostActor::take_broadcast() {
+  --broadcasts_made_;
+  for (Line& line : lines_) use_control_buffer(line);
+  return behind_.pop(pool_);
+}
+
+/// Diverted records before a broadcast, as before all else.
 HostActor::Taken HostActor::take() {
+  if (ready_.empty()) return {take_broadcast(), 0, HostQueue::program};
   const auto pe = static_cast<unsigned>(ready_.next(next_pe_));
   next_pe_ = (pe + 1) % static_cast<unsigned>(lines_.size());
   Line& line = lines_[pe];
   const HostQueue queue = fits(pe, HostQueue::resend) ? HostQueue::resend : HostQueue::program;
   const BlockIndex block = line.queues[index_of(queue)].pop(pool_);
-  if (queue == HostQueue::program) --line.made;
+  if (queue == HostQueue::program) {
+    --line.made;
+    --ahead_;
+  }
   if (pool_[block].records != 0) {
     line.slots[index_of(queue)] = Slots::none;
   } else {
-    --line.control_buffers;
+    use_control_buffer(line);
   }
   update(pe);
   return {block, pe, queue};

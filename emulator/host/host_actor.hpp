@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,10 +39,11 @@ class HostActor final : public HostPort {
   unsigned pes() const override { return static_cast<unsigned>(lines_.size()); }
   void work(HostWork what, std::uint64_t items) override { clock_.work(what, items); }
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override;
+  void broadcast(std::uint16_t kind, std::span<const std::byte> contents) override;
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override;
   void begin_stage(std::string_view name) override { client_->begin_stage(name); }
   void note(HostGauge gauge, double value) override { client_->note(gauge, value); }
-  std::size_t queued(PeNumber pe) const override { return lines_[pe].made; }
+  std::size_t queued(PeNumber pe) const override { return lines_[pe].made + broadcasts_made_; }
 
   // ---- The machine's side ----
   void start(HostClient& client);
@@ -49,7 +51,7 @@ class HostActor final : public HostPort {
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
   void step();
-  /// Event host_queue: something made earlier waits for room. What it is put behind.
+  /// Event host_queue: something made earlier waits for room, in this queue or for a broadcast made before it.
   HostQueue enqueue(unsigned pe, BlockIndex block);
   /// Records for which slots must be asked for now; 0: none, or it has been done. Then they are asked for.
   std::uint32_t ask_for_slots(unsigned pe, HostQueue queue);
@@ -58,18 +60,23 @@ class HostActor final : public HostPort {
   /// A control buffer that the host had used is free again.
   void control_buffer_free(unsigned pe);
   /// Whether something is ready for which there is room.
-  bool ready() const { return !ready_.empty(); }
-  /// What goes over the bus next, and the queue that it stood in.
+  bool ready() const { return !ready_.empty() || broadcast_fits(); }
+  /// What goes over the bus next, and the queue that it stood in; pe, queue: of a broadcast, any.
   struct Taken {
     BlockIndex block;
     unsigned pe;
     HostQueue queue;
   };
   Taken take();
+  /// A broadcast has been taken: the next that waited for it stands in the line of this PE. To be called until there is
+  /// none.
+  std::optional<unsigned> let_through();
 
   bool idle() const { return inbox_.empty() && !stepping_; }
   std::size_t inbox() const { return inbox_.size(); }
   std::size_t waiting(unsigned pe) const { return lines_[pe].queues[0].size() + lines_[pe].queues[1].size(); }
+  /// Broadcasts, and what waits for them.
+  std::size_t waiting_for_all() const { return behind_.size(); }
   const HostClock& clock() const { return clock_; }
   std::uint64_t records_diverted(unsigned pe) const { return lines_[pe].diverted; }
 
@@ -84,8 +91,13 @@ class HostActor final : public HostPort {
     std::uint64_t diverted = 0;
   };
 
-  void queue_for(PeNumber pe, BlockIndex block);
+  BlockIndex make_message(std::uint16_t destination, std::uint16_t kind, std::span<const std::byte> contents);
+  void queue_for(std::uint16_t destination, BlockIndex block);
+  void put(unsigned pe, HostQueue queue, BlockIndex block);
   bool fits(unsigned pe, HostQueue queue) const;
+  bool broadcast_fits() const { return ahead_ == 0 && full_ == 0 && !behind_.empty(); }
+  BlockIndex take_broadcast();
+  void use_control_buffer(Line& line);
   void update(unsigned pe);
   void schedule_step(Cycles now);
 
@@ -97,6 +109,11 @@ class HostActor final : public HostPort {
   BlockPool& pool_;
   std::vector<Line> lines_;
   ReadySet ready_;  // PEs for which there is something, and room
+  // A broadcast is a barrier: first it waits until the program's queues are empty, then for its control buffers.
+  BlockQueue behind_;                // the first broadcast, and all that the program has made since
+  std::size_t ahead_ = 0;            // of the program, in the PEs' lines
+  unsigned full_ = 0;                // PEs without a free control buffer, as far as the host knows
+  std::size_t broadcasts_made_ = 0;  // not yet taken by the bus
   std::deque<BlockIndex> inbox_;
   bool stepping_ = false;  // a host_step is scheduled
   std::uint32_t numbers_ = 0;

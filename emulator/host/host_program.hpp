@@ -44,9 +44,12 @@ class HostPort {
   virtual void work(HostWork what, std::uint64_t items) = 0;
   /// kind: MessageKind. contents: up to kMostMessageBytes, copied.
   virtual void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) = 0;
+  /// The same to every PE, as one message that all hear at once: it waits for all sends made earlier, to whatever PE,
+  /// and for a free control buffer at each; what is made later waits for it.
+  virtual void broadcast(std::uint16_t kind, std::span<const std::byte> contents) = 0;
   /// records: count * record_bytes, count 1..kMostRecordsPerPacket. The NIU puts them into its slots.
   virtual void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) = 0;
-  /// Messages and record packets not yet taken by the bus, to this PE.
+  /// Messages and record packets not yet taken by the bus, to this PE, broadcasts included.
   virtual std::size_t queued(PeNumber pe) const = 0;
 };
 

@@ -71,8 +71,7 @@ void Emulation::handle(const Event& event) {
       bus_done(event.block);
       break;
     case EventKind::host_queue:
-      ask_for_slots(event.actor, host_.enqueue(event.actor, event.block));
-      update_host();
+      host_queue(event.actor, event.block);
       break;
     case EventKind::slots_asked:
       slots_asked(event.actor, static_cast<HostQueue>(event.port), event.block);
@@ -253,6 +252,13 @@ void Emulation::drop(unsigned pe, BlockIndex block) {
 
 // ---- Bus ----
 
+/// Of the host's program or its diverted records; what waits for a broadcast asks for slots once that has gone.
+void Emulation::host_queue(unsigned pe, BlockIndex block) {
+  const HostQueue queue = host_.enqueue(pe, block);
+  if (pe != kEveryPe) ask_for_slots(pe, queue);
+  update_host();
+}
+
 /// What the first message of a PE's queue needs.
 BusRequest Emulation::first_request(unsigned pe) const {
   const BlockQueue& queue = parts_[pe].outgoing;
@@ -268,6 +274,7 @@ BusSend Emulation::take(BusRequester requester) {
   if (requester.is_host()) {
     const HostActor::Taken taken = host_.take();
     ask_for_slots(taken.pe, taken.queue);
+    while (const auto pe = host_.let_through()) ask_for_slots(*pe, HostQueue::program);
     return {taken.block, host_.ready() ? BusRequest::room : BusRequest::none};
   }
   const unsigned pe = requester.pe();
@@ -291,7 +298,7 @@ void Emulation::bus_done(BlockIndex index) {
   } else if (block.records != 0) {
     copy_in(to, index, true);
   } else if (from_host_queue) {
-    nius_[to].deliver(index, now_, pool_, times_);
+    host_message(index);
   } else {
     nius_[from].left_bus_queue(now_, times_);
     if (to == protocol::kFrameBuffer) {
@@ -301,6 +308,14 @@ void Emulation::bus_done(BlockIndex index) {
     }
   }
   bus_.transfer_done(now_);
+}
+
+/// Into a control buffer of its PE, or of every PE.
+void Emulation::host_message(BlockIndex index) {
+  const Block& message = pool_[index];
+  if (!message.is_broadcast()) return nius_[message.destination].deliver(index, now_, pool_, times_);
+  for (NiuNetworkSide& niu : nius_) niu.deliver_copy(message, now_, pool_, times_);
+  pool_.give_back(index);
 }
 
 void Emulation::pixels_done(BlockIndex block) {

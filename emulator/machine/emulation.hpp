@@ -64,6 +64,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void deliver(unsigned pe, BlockIndex block);
   void drop(unsigned pe, BlockIndex block);
   void bus_done(BlockIndex block);
+  void host_message(BlockIndex block);
   void pixels_done(BlockIndex block);
   void copy_in(unsigned pe, BlockIndex block, bool from_bus);
   void copied(unsigned pe, BlockIndex block, bool from_bus);
@@ -73,6 +74,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void slots_asked(unsigned pe, HostQueue queue, std::uint32_t records);
   void grant_slots(unsigned pe);
   BusRequest first_request(unsigned pe) const;
+  void host_queue(unsigned pe, BlockIndex block);
   void update_host();
   [[noreturn]] void fail_program(unsigned pe, BlockIndex block);
   [[noreturn]] void fail_niu(unsigned pe, BlockIndex block);

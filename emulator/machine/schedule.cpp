@@ -103,6 +103,7 @@ void Emulation::tell_to_stop() {
 
 bool Emulation::empty() const {
   if (torus_.packets_inside() != 0 || bus_.busy() || controller_.waiting() != 0 || !host_.idle()) return false;
+  if (host_.waiting_for_all() != 0) return false;
   for (unsigned pe = 0; pe < pes_; ++pe) {
     const WaitKind waits = nius_[pe].waits_for();
     if ((waits != WaitKind::receive || !nius_[pe].nothing_gathered()) && waits != WaitKind::halted) return false;
@@ -140,8 +141,9 @@ std::string Emulation::deadlock_report() const {
   std::string text = "deadlock at cycle " + std::to_string(now_) +
                      ": nothing can happen any more, and work is outstanding\n  host program: " +
                      (program_.finished() ? "finished" : std::string("waits for ") + program_.waiting_for()) + "; " +
-                     std::to_string(host_.inbox()) +
-                     " messages not yet read\n  bus: " + (bus_.busy() ? "busy" : "idle") +
+                     std::to_string(host_.inbox()) + " messages not yet read, " +
+                     std::to_string(host_.waiting_for_all()) +
+                     " broadcasts and what waits for them\n  bus: " + (bus_.busy() ? "busy" : "idle") +
                      "; FBC: " + std::to_string(controller_.waiting()) +
                      " messages; torus: " + std::to_string(torus_.packets_inside()) + " packets\n";
   unsigned reported = 0;

@@ -250,17 +250,40 @@ std::optional<HostQueue> NiuNetworkSide::grant_slots() {
 
 void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, PeTimes& times) {
   const Block& block = pool[index];
-  if (block.records == 0 && ++control_used_ > control_buffers_) {
-    throw MachineFailure("PE " + std::to_string(pe_) + ": its NIU has " + std::to_string(control_buffers_) +
-                         " control buffers, and got message " + std::to_string(control_used_));
-  }
-  gathered_.push_back({now, block.records});
-  if (overflow_.empty() && channel_->arrivals.has_room(block.bytes)) {
+  gather(block, now);
+  if (goes_into_ring(block)) {
     push_arrival(block, now, stage_);
     pool.give_back(index);
   } else {
     overflow_.push_back({now, stage_, index});
   }
+  arrived(times);
+}
+
+void NiuNetworkSide::deliver_copy(const Block& message, Cycles now, BlockPool& pool, PeTimes& times) {
+  gather(message, now);
+  if (goes_into_ring(message)) {
+    push_arrival(message, now, stage_);
+  } else {
+    const BlockIndex copy = pool.take();
+    pool[copy].message_kind = message.message_kind;
+    pool[copy].source = message.source;
+    pool[copy].set_payload(message.payload());
+    overflow_.push_back({now, stage_, copy});
+  }
+  arrived(times);
+}
+
+/// What has come is for the processor, once that is woken.
+void NiuNetworkSide::gather(const Block& block, Cycles now) {
+  if (block.records == 0 && ++control_used_ > control_buffers_) {
+    throw MachineFailure("PE " + std::to_string(pe_) + ": its NIU has " + std::to_string(control_buffers_) +
+                         " control buffers, and got message " + std::to_string(control_used_));
+  }
+  gathered_.push_back({now, block.records});
+}
+
+void NiuNetworkSide::arrived(PeTimes& times) {
   set_times(times);
   if (says() == WaitKind::poll) wake_processor();
 }

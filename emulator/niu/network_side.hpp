@@ -88,6 +88,8 @@ class NiuNetworkSide {
 
   /// A packet or message, its room reserved, has come at `now`. The block belongs to the NIU from here on.
   void deliver(BlockIndex block, Cycles now, BlockPool& pool, PeTimes& times);
+  /// The same of a message that others get, too: the block stays the caller's.
+  void deliver_copy(const Block& message, Cycles now, BlockPool& pool, PeTimes& times);
   /// A place in an outgoing queue comes free at `when`, which is not before now.
   void left_torus_queue(Cycles when, PeTimes& times) { left(channel_->torus_departures, when, times); }
   void left_bus_queue(Cycles when, PeTimes& times) { left(channel_->bus_departures, when, times); }
@@ -102,7 +104,12 @@ class NiuNetworkSide {
  private:
   void drain(EventQueue& events, BlockPool& pool);
   void refill(BlockPool& pool);
+  bool goes_into_ring(const Block& block) const {
+    return overflow_.empty() && channel_->arrivals.has_room(block.bytes);
+  }
+  void gather(const Block& block, Cycles now);
   void push_arrival(const Block& block, Cycles time, std::uint32_t stage);
+  void arrived(PeTimes& times);
   void left(Departures& departures, Cycles when, PeTimes& times);
   void wake_processor();
   void signal_processor();

@@ -27,7 +27,7 @@ enum class EventKind : std::uint8_t {
   slots_asked,    ///< actor: PE, port: HostQueue. Its NIU sees that the host wants record slots
   slots_granted,  ///< actor: PE, port: HostQueue. The host sees that they are reserved
   control_free,   ///< actor: PE. The host sees that a control buffer is free
-  host_queue,     ///< actor: PE, block: something that the host has made is ready for the bus
+  host_queue,     ///< actor: PE or kEveryPe, block: something that the host has made is ready for the bus
   host_step,      ///< the host takes its next message
   pixels_done,    ///< the frame buffer controller has added a message's pixels
 };

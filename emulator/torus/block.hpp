@@ -22,6 +22,9 @@ inline constexpr std::size_t kMostBlockBytes = protocol::kMostMessageBytes;
 static_assert(kMostBlockBytes >= protocol::kMostPacketBytes);
 /// What the torus carries beside the records [bytes]: destination, source, number of records, length, age, CRC-32.
 inline constexpr std::uint32_t kPacketHeaderBytes = 16;
+/// Destination of a broadcast over the bus.
+inline constexpr std::uint16_t kEveryPe = 0xFFFF;
+static_assert(kEveryPe > protocol::kFrameBuffer && kEveryPe > protocol::kHost && kEveryPe >= protocol::kMostPes);
 
 /// What a packet in the torus is worth.
 enum class Copy : std::uint8_t {
@@ -44,6 +47,7 @@ struct Block {
   Copy copy;
   std::array<std::byte, kMostBlockBytes> data;
 
+  bool is_broadcast() const { return destination == kEveryPe; }
   /// All that routers and NIUs look at; the data stay as they are.
   void become_bad_copy_of(const Block& good) {
     number = good.number;

@@ -41,7 +41,9 @@ inline protocol::CellCode cell_of(const protocol::StageLayout& layout, const glm
     const float x = point[static_cast<int>(a)];
     const std::uint32_t last = layout.cells[a] - 1U;
     const float guess = x / layout.cell_size[a];
-    std::uint32_t i = !(guess > 0.0F) ? 0U : guess < static_cast<float>(last) ? static_cast<std::uint32_t>(guess) : last;
+    std::uint32_t i = !(guess > 0.0F)                    ? 0U
+                      : guess < static_cast<float>(last) ? static_cast<std::uint32_t>(guess)
+                                                         : last;
     while (i > 0 && x < plane(layout, a, i)) --i;
     while (i < last && x >= plane(layout, a, i + 1U)) ++i;
     code |= i << (a * protocol::kCellBits);

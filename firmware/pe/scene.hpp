@@ -7,6 +7,7 @@
 
 #include "firmware/niu/memory.hpp"
 #include "firmware/pe/cell_map.hpp"
+#include "firmware/pe/hemicube.hpp"
 #include "firmware/protocol/stores.hpp"
 
 namespace torolux::pe {
@@ -26,7 +27,8 @@ struct Scene {
   std::span<protocol::PatchSide> patch_sides;
   std::span<protocol::Element> elements;
   std::span<const protocol::Facet> facets;
-  std::span<const std::uint32_t> hemicube;
+  std::span<const protocol::HemicubeEntry> hemicube;
+  HemicubeGrid hemicube_grid;
   // Ray tracing stage.
   std::span<const protocol::LatticeTriangle> lattice;
   std::span<const protocol::Texture> textures;
@@ -51,7 +53,8 @@ struct Scene {
     patch_sides = memory.store<protocol::PatchSide>(layout.patch_sides);
     elements = memory.store<protocol::Element>(layout.elements);
     facets = memory.store<const protocol::Facet>(layout.facets);
-    hemicube = memory.store<const std::uint32_t>(layout.hemicube);
+    hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
+    if (layout.hemicube_size > 0) hemicube_grid = HemicubeGrid(layout.hemicube_size);
     lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);

@@ -106,7 +106,9 @@ class Walk {
       }
       if (!inside) return false;
     } while (((words[index >> 5U].stops >> (index & 31U)) & 1U) == 0);
-    axis_ = {x, y, z};
+    keep(axis_[0], x);
+    keep(axis_[1], y);
+    keep(axis_[2], z);
     index_ = index;
     entered_ = entered;
     entry_axis_ = crossed;
@@ -138,6 +140,12 @@ class Walk {
     axis.plane += axis.step;
     axis.exit = (axis.plane * axis.size - axis.origin) * axis.inverse;
     return true;
+  }
+  /// What changes on the way.
+  [[gnu::always_inline]] static void keep(Axis& axis, const Axis& now) {
+    axis.plane = now.plane;
+    axis.exit = now.exit;
+    axis.left = now.left;
   }
   std::uint32_t exit_axis() const {
     const std::uint32_t axis = axis_[1].exit < axis_[0].exit ? 1U : 0U;

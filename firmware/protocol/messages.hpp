@@ -15,6 +15,7 @@ enum class MessageKind : std::uint16_t {
   // host -> PE
   configure = kFirstProgramMessage,  ///< StageLayout; the PE checks it and fails the run where it does not hold
   load,                              ///< LoadBlock, then its bytes
+  load_store,                        ///< LoadStore, then its bytes: to all PEs at once
   begin,                             ///< nothing follows; answer: ready
   select,                            ///< Select; answer: candidates, one or more messages
   shoot,                             ///< Shoot: what the points that are dealt next are of
@@ -46,6 +47,14 @@ struct LoadBlock {
 };
 inline constexpr std::uint32_t kMostLoadBytes = kMostMessageBytes - sizeof(LoadBlock);
 using Read = LoadBlock;
+
+/// Into a store, wherever it lies: for what all PEs have at the same place of it.
+struct LoadStore {
+  std::uint32_t store;   ///< StoreName; not the record slots
+  std::uint32_t offset;  ///< bytes from its beginning, a multiple of 4
+  std::uint32_t bytes;   ///< 1..kMostLoadStoreBytes, a multiple of 4
+};
+inline constexpr std::uint32_t kMostLoadStoreBytes = kMostMessageBytes - sizeof(LoadStore);
 
 /// The S best sides by unshot flux. S is a function of the scene alone.
 struct Select {

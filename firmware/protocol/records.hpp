@@ -46,8 +46,8 @@ struct RadiosityRecord {
   Flux flux;
   std::uint32_t place;    ///< cell code of the subspace that it enters; deposit: the owner's number of the patch
   std::uint32_t polygon;  ///< global number of the polygon that it left, or kNoPolygon; deposit: element of the patch
-  std::uint32_t key;  ///< random numbers of this record: hash of (seed, patch, shot, point, pixel); kGoesOn: global
-                      ///< number of the polygon that it leaves
+  std::uint32_t key;      ///< random numbers of this record: hash of (seed, patch, shot, point, pixel); kGoesOn: global
+                          ///< number of the polygon that it leaves
   RecordKind kind;
   std::uint8_t bounce;  ///< mirror, glass and glossy events so far
   std::uint8_t flags;
@@ -91,8 +91,8 @@ inline constexpr std::uint32_t kMostBranches = 2;
 /// Ray tracing stage: one sample's light path, followed from the eye.
 struct RayRecord {
   Vec3f origin;
-  Vec3f direction;  ///< unit length
-  Vec3f weight;     ///< of what it sees, R G B, divided by the number of samples per pixel
+  Vec3f direction;      ///< unit length
+  Vec3f weight;         ///< of what it sees, R G B, divided by the number of samples per pixel
   std::uint32_t place;  ///< cell code of the subspace that it enters
   std::uint32_t polygon;
   std::uint32_t key;     ///< random numbers: hash of (seed, pixel, sample, branches taken)

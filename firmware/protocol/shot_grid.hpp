@@ -9,8 +9,8 @@
 
 namespace torolux::protocol {
 
-/// k * k points. Little light leaves from few points, so that no record carries much less than others: what it would add
-/// to the picture is not worth its way. points_per_quantum: of reflected light, by the greatest channel of `flux`.
+/// k * k points. Little light leaves from few points, so that no record carries much less than others: what it would
+/// add to the picture is not worth its way. points_per_quantum: of reflected light, by the greatest channel of `flux`.
 inline std::uint32_t points_of_shot(ShotKind kind, const Flux& flux, float points_per_quantum,
                                     std::uint32_t shot_points, std::uint32_t emission_points) {
   if (kind == ShotKind::emitted) return emission_points * emission_points;

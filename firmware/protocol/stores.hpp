@@ -9,6 +9,7 @@
 #include "firmware/protocol/camera_ray.hpp"
 #include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/hemicube_bends.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/records.hpp"
 #include "firmware/protocol/texture.hpp"
@@ -238,7 +239,7 @@ struct StageLayout {
   Store patch_sides;              ///< PatchSide[]
   Store elements;                 ///< Element[]
   Store facets;                   ///< Facet[]
-  Store hemicube;                 ///< uint32_t[hemicube_weights(hemicube_size)]
+  Store hemicube;                 ///< HemicubeEntry[hemicube_weights(hemicube_size)]
   std::uint32_t hemicube_size;    ///< N, even
   std::uint32_t shot_points;      ///< k: k * k points at most per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light

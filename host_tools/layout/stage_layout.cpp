@@ -32,10 +32,8 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
     counts.polygon_list += placement.polygons_of_cell[cell].size();
   }
   counts.polygons = placement.polygons_of_pe[pe].size();
-  std::vector<std::uint32_t> materials;
   for (const std::uint32_t t : placement.polygons_of_pe[pe]) {
     const MeshTriangle& triangle = mesh.triangles[t];
-    materials.push_back(triangle.material);
     if (triangle.normals != protocol::kNoPolygon) counts.normals += 3;
     if (triangle.texture != protocol::kNoTexture) counts.texture_points += 3;
     if (triangle.sides == 0) continue;
@@ -48,8 +46,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
       counts.lattice += std::uint64_t{triangle.side_count()} * triangle.facets;
     }
   }
-  std::sort(materials.begin(), materials.end());
-  counts.materials = static_cast<std::uint64_t>(std::unique(materials.begin(), materials.end()) - materials.begin());
+  counts.materials = mesh.materials;
   if (stage == Stage::ray_tracing) {
     for (const std::uint32_t texture : textures_of_pe(mesh, placement, pe)) {
       ++counts.textures;
@@ -138,7 +135,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.patch_sides = allocator.place("patch sides", counts.patch_sides, sizeof(protocol::PatchSide));
   layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));
   layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
-  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(std::uint32_t));
+  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(protocol::HemicubeEntry));
   layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
   layout.textures = allocator.place("textures", counts.textures, sizeof(protocol::Texture));
   layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));
@@ -171,27 +168,30 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   return result;
 }
 
-MemoryNeed memory_need(const Mesh& mesh, const Placement& placement, const StageParameters& parameters,
-                       const MemoryMap& map) {
-  MemoryNeed need;
+void MemoryNeed::add(const Mesh& mesh, const Placement& placement, Stage stage, const StageParameters& parameters,
+                     const MemoryMap& map) {
   const unsigned pes = placement.torus.pes();
-  need.pe_bytes.assign(pes, 0);
-  std::uint64_t most = 0;
+  pe_bytes.resize(pes);
   for (unsigned pe = 0; pe < pes; ++pe) {
-    for (const Stage stage : {Stage::radiosity, Stage::ray_tracing}) {
-      const PeLayout layout = lay_out(mesh, placement, static_cast<protocol::PeNumber>(pe), stage, parameters, map);
-      const std::uint64_t bytes = layout.end - protocol::kLocalMemoryBase;
-      need.pe_bytes[pe] = std::max(need.pe_bytes[pe], bytes);
-      if (bytes <= most) continue;
-      most = bytes;
-      need.fullest = static_cast<protocol::PeNumber>(pe);
-      need.fullest_stage = stage;
-      need.fullest_stores = "image " + with_commas(map.stores_begin - protocol::kLocalMemoryBase);
-      for (const auto& [name, store_bytes] : layout.bytes) {
-        need.fullest_stores += std::string(", ") + name + " " + with_commas(store_bytes);
-      }
+    const PeLayout layout = lay_out(mesh, placement, static_cast<protocol::PeNumber>(pe), stage, parameters, map);
+    const std::uint64_t bytes = layout.end - protocol::kLocalMemoryBase;
+    const bool is_most = bytes > most();
+    pe_bytes[pe] = std::max(pe_bytes[pe], bytes);
+    if (!is_most) continue;
+    fullest = static_cast<protocol::PeNumber>(pe);
+    fullest_stage = stage;
+    fullest_stores = "image " + with_commas(map.stores_begin - protocol::kLocalMemoryBase);
+    for (const auto& [name, store_bytes] : layout.bytes) {
+      fullest_stores += std::string(", ") + name + " " + with_commas(store_bytes);
     }
   }
+}
+
+MemoryNeed memory_need(const Mesh& mesh, const Placement& radiosity, const Placement& ray_tracing,
+                       const StageParameters& parameters, const MemoryMap& map) {
+  MemoryNeed need;
+  need.add(mesh, radiosity, Stage::radiosity, parameters, map);
+  need.add(mesh, ray_tracing, Stage::ray_tracing, parameters, map);
   return need;
 }
 

@@ -38,7 +38,11 @@ bool before(const Candidate& a, const Candidate& b) {
 }  // namespace
 
 RadiosityPhase::RadiosityPhase(RadiositySettings settings)
-    : settings_(std::move(settings)), shots_of_(settings_.pes), deals_(settings_.pes), supplied_(settings_.pes), pool_(settings_.credits) {}
+    : settings_(std::move(settings)),
+      shots_of_(settings_.pes),
+      deals_(settings_.pes),
+      supplied_(settings_.pes),
+      pool_(settings_.credits) {}
 
 void RadiosityPhase::start(HostPort& port) {
   select(port);

@@ -89,9 +89,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       port.work(HostWork::irradiance_fit, lattice_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
-      if (setup.parameters.pixel_samples > 0)
-        return std::make_unique<TilePhase>(setup.placement.torus.pes(), job_.ray_tracing);
-      return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);
+      if (!setup.paper) return std::make_unique<TilePhase>(setup.placement.torus.pes(), job_.ray_tracing);
+      return std::make_unique<RayTracingPhase>(setup.ray_placement, job_.rays, job_.ray_tracing);
     case Step::report:
       return std::make_unique<ReportPhase>(setup.placement.torus.pes());
     case Step::finished:
@@ -101,17 +100,29 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
 }
 
 std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
-  return std::make_unique<LoadPhase>(job_.setup.placement.torus.pes(), [this, stage](PeNumber pe) {
-    const RenderSetup& setup = job_.setup;
-    PeLayout layout = lay_out(setup.mesh, setup.placement, pe, stage, setup.parameters, setup.map);
+  const RenderSetup& setup = job_.setup;
+  const auto layout_at = [this, &setup, stage](const Placement& placement, PeNumber pe) {
+    PeLayout layout = lay_out(setup.mesh, placement, pe, stage, setup.parameters, setup.map);
     layout.layout.view = job_.rays.view();
-    const CameraTables camera{job_.rays.samples().places(), job_.rays.samples().distances()};
-    std::vector<std::byte> image =
-        stage == Stage::radiosity
-            ? radiosity_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, layout)
-            : ray_tracing_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, lattice_, layout, camera);
-    return PeLoad{layout.layout, std::move(image)};
-  });
+    return layout;
+  };
+  const auto image_at = [this, &setup, stage, layout_at](const Placement& placement, PeNumber pe) {
+    const PeLayout layout = layout_at(placement, pe);
+    return stage == Stage::radiosity
+               ? radiosity_image(job_.scene, setup.mesh, placement, pe, setup.units, layout)
+               : ray_tracing_image(job_.scene, setup.mesh, placement, pe, setup.units, lattice_, layout,
+                                   {job_.rays.samples().places(), job_.rays.samples().distances()});
+  };
+  const Placement& placement = setup.placement_of(stage);
+  Loads loads;
+  loads.layout = [&placement, layout_at](PeNumber pe) { return layout_at(placement, pe).layout; };
+  loads.image = [&placement, image_at](PeNumber pe) { return image_at(placement, pe); };
+  if (!setup.paper) {
+    const Placement common = placement.with_nobody();
+    const auto nobody = static_cast<PeNumber>(placement.torus.pes());
+    loads.common = PeLoad{layout_at(common, nobody).layout, image_at(common, nobody)};
+  }
+  return std::make_unique<LoadPhase>(placement.torus.pes(), std::move(loads));
 }
 
 void RenderProgram::leave(HostPort& port) {

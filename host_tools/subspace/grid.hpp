@@ -43,6 +43,11 @@ inline constexpr std::uint32_t kMostCells = 1U << 22U;
 Grid make_grid(const SceneSpace& space, std::optional<std::array<std::uint32_t, 3>> cells, std::size_t triangles,
                std::size_t pes);
 
+/// Scheme `spread`: by the number of triangles, from 8 along the longest axis to 64, coarser where the map of the cells
+/// would take too much of a PE's memory [bytes]. Finer than automatic: who steps over empty cells need not be told of
+/// them by others, and fewer polygons stand in the full ones.
+std::array<std::uint32_t, 3> spread_cells(const SceneSpace& space, std::size_t triangles, std::uint32_t memory);
+
 /// For each cell, ascending numbers of the polygons that stand in it: those that touch its box grown by
 /// protocol::kSubspaceMargin on all sides.
 std::vector<std::vector<std::uint32_t>> polygons_by_cell(const Grid& grid, std::span<const MeshTriangle> triangles);

@@ -39,7 +39,7 @@ Prepared prepare(const char* name) {
   prepared.scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / name, {});
   const Image image = load_image(std::filesystem::path(TOROLUX_FIRMWARE_DIR) / "pe.elf");
   MachineChoice machine;
-  prepared.setup = make_setup(prepared.scene, prepared.quality, machine, image);
+  prepared.setup = make_setup(prepared.scene, prepared.scene.camera.value_or(Camera{}), prepared.quality, machine, image);
   return prepared;
 }
 
@@ -52,6 +52,7 @@ class SinkPort final : public HostPort {
   void note(HostGauge /*gauge*/, double /*value*/) override {}
   void work(HostWork what, std::uint64_t items) override { done_[static_cast<std::size_t>(what)] += items; }
   void send_message(PeNumber, std::uint16_t, std::span<const std::byte> contents) override { put(contents); }
+  void broadcast(std::uint16_t, std::span<const std::byte> contents) override { put(contents); }
   void send_records(PeNumber, std::span<const std::byte> records, std::uint32_t) override { put(records); }
   std::size_t queued(PeNumber) const override { return 0; }
   std::uint64_t done(HostWork what) const { return done_[static_cast<std::size_t>(what)]; }

@@ -15,15 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string failure_of(const MachineSetup& setup, ListeningHost& host, const NativeProgram& program) {
-  try {
-    run(setup, host, program);
-  } catch (const MachineFailure& failure) {
-    return failure.what();
-  }
-  return "no failure";
-}
-
 /// PE 0 sends one record to PE `to`, which answers with its clock.
 Cycles latency_to(const MachineSetup& setup, unsigned to) {
   ListeningHost host(2);

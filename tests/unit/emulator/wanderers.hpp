@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
 #include "tests/unit/emulator/machine_support.hpp"
 
@@ -28,6 +29,16 @@ inline Outcome run(const MachineSetup& setup, ListeningHost& host, const NativeP
   Machine machine(setup, image);
   machine.run(host);
   return {host.heard, exact(machine.figures()), machine.figures()};
+}
+
+/// How a run ends that fails.
+inline std::string failure_of(const MachineSetup& setup, ListeningHost& host, const NativeProgram& program) {
+  try {
+    run(setup, host, program);
+  } catch (const MachineFailure& failure) {
+    return failure.what();
+  }
+  return "no failure";
 }
 
 /// The way of a record that has come: on by a hash of it, until its life ends. True: it has died here.
@@ -89,8 +100,9 @@ class CountingHost final : public ListeningHost {
 };
 
 /// Runs a program whose records all come home several times, each but the first with its threads held up by chance.
+/// prepare: called with each run's host.
 inline void expect_same_runs(const MachineSetup& setup, const NativeProgram& program, std::uint64_t records,
-                             unsigned attempts) {
+                             unsigned attempts, const std::function<void(CountingHost&)>& prepare = {}) {
   std::string first;
   for (unsigned attempt = 0; attempt < attempts; ++attempt) {
     NativeOptions options;
@@ -102,6 +114,7 @@ inline void expect_same_runs(const MachineSetup& setup, const NativeProgram& pro
       if (roll < 8) std::this_thread::yield();
     };
     CountingHost host(records);
+    if (prepare) prepare(host);
     const Outcome outcome = run(setup, host, program, options);
     std::string all = outcome.figures;
     for (const Heard& heard : outcome.heard) {

@@ -42,12 +42,17 @@ class FakePort final : public HostPort {
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override {
     waiting_.push_back({pe, kind, 0, {contents.begin(), contents.end()}});
   }
+  /// Stands in the list with PE kHost.
+  void broadcast(std::uint16_t kind, std::span<const std::byte> contents) override {
+    waiting_.push_back({protocol::kHost, kind, 0, {contents.begin(), contents.end()}});
+  }
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override {
     waiting_.push_back({pe, 0, record_bytes, {records.begin(), records.end()}});
   }
   std::size_t queued(PeNumber pe) const override {
-    return static_cast<std::size_t>(
-        std::count_if(waiting_.begin(), waiting_.end(), [pe](const Sent& sent) { return sent.pe == pe; }));
+    return static_cast<std::size_t>(std::count_if(waiting_.begin(), waiting_.end(), [pe](const Sent& sent) {
+      return sent.pe == pe || sent.pe == protocol::kHost;
+    }));
   }
 
   /// All that was sent since the last call; the queues are empty then.

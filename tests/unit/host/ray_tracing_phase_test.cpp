@@ -29,7 +29,7 @@ class RayTracingPhaseTest : public testing::Test {
   }
 
   Mesh mesh_ = make_mesh(room_with_box(), {.patch_length = 0.4, .element_length = 0.2});
-  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
 };
 
 struct Made {
