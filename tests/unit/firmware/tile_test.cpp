@@ -34,6 +34,7 @@ TestScene open_scene(std::uint32_t pes) {
   for (TestPolygon& p : s.polygons) {
     if (protocol::is_specular(s.materials[p.material].kind)) p.sides = 0;
   }
+  aim_at(s, 3);  // shadow rays, whose random numbers depend on the sample
   return s;
 }
 
