@@ -282,6 +282,8 @@ pe::Scene PeStores::scene() {
   s.textures = textures;
   s.texels = texels;
   s.texture_points = texture_points;
+  s.sample_places = sample_places;
+  s.filter = filter;
   s.emitters = emitters;
   return s;
 }

@@ -81,6 +81,8 @@ struct PeStores {
   std::vector<protocol::Texture> textures;         ///< none, as those that follow
   std::vector<protocol::Texel> texels;
   std::vector<protocol::TexturePoint> texture_points;
+  std::vector<protocol::SamplePlace> sample_places;
+  std::vector<float> filter;
   std::vector<protocol::Emitter> emitters;  ///< ray tracing stage
 
   /// Spans over these vectors, for handlers called directly.
