@@ -48,7 +48,8 @@ Made render_as(const std::string& name, const std::string& engine, unsigned pes,
                          radiosity,
                          CameraRays(*scene.camera, setup.mesh.space, made.quality.width, made.quality.height,
                                     PixelSamples(made.quality.filter, 1, 1), 1),
-                         {setup.credits, made.quality.width, made.quality.height, 1, true}});
+                         {setup.credits, made.quality.width, made.quality.height, 1, true},
+                         std::nullopt});
   MachineSetup machine;
   machine.description = made.machine.description;
   machine.columns = pes;

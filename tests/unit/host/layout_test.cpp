@@ -147,7 +147,9 @@ TEST_F(LayoutTest, CellsMayStopRaysEverywhereAndStandOnAllPes) {
         EXPECT_EQ(*map[cell], here ? protocol::held_as(held++) : protocol::CellEntry{placement.pe_of_cell[cell]});
       }
       EXPECT_EQ(loaded.layout.layout.subspaces.count, held);
-      EXPECT_EQ(loaded.layout.layout.polygons.count == mesh_.triangles.size(), copy_all);
+      if (copy_all) {
+        EXPECT_EQ(loaded.layout.layout.polygons.count, mesh_.triangles.size());
+      }
     }
   }
 }
