@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "firmware/pe/pe.hpp"
+#include "firmware/protocol/store_names.hpp"
 
 namespace torolux::pe {
 namespace {
@@ -27,6 +28,10 @@ const protocol::Deal& deal_of(Niu& niu) {
   return deal;
 }
 
+bool makes_rays(const Pe& pe) {
+  return pe.state == State::running && !pe.scene.sample_places.empty();
+}
+
 bool is_radiosity(const Pe& pe) {
   return pe.state == State::running && pe.scene.layout.stage == protocol::Stage::radiosity;
 }
@@ -36,6 +41,7 @@ void configure(Pe& pe, Niu& niu) {
   check_layout(niu, layout);
   pe.state = State::configured;
   pe.scene.set(niu.memory(), layout);
+  std::memset(static_cast<void*>(pe.scene.elements.data()), 0, pe.scene.elements.size_bytes());
 }
 
 void begin(Pe& pe, Niu& niu) {
@@ -46,6 +52,7 @@ void begin(Pe& pe, Niu& niu) {
   pe.shot = {};
   pe.points = {};
   pe.expansion = {};
+  pe.tiles.set(layout);
   pe.done = {};
   pe.credits = {};
   pe.tally = {};
@@ -80,6 +87,26 @@ void load(Niu& niu) {
   std::memcpy(niu.memory().at<std::byte>(block.address), bytes.data() + sizeof(LoadBlock), block.bytes);
 }
 
+/// Textures of half a word's length end a store at no multiple of 4: what lies behind it is padding.
+void load_store(Pe& pe, Niu& niu) {
+  const PhaseMark<Phase::load> mark(niu);
+  const auto block = niu.message_as<protocol::LoadStore>();
+  const auto bytes = niu.message_bytes();
+  const auto extents = protocol::store_extents(pe.scene.layout);
+  const auto slots = static_cast<std::uint32_t>(protocol::StoreName::record_slots);
+  bool fits = block.store < extents.size() && block.store != slots && block.offset % 4U == 0 && block.bytes % 4U == 0 &&
+              block.bytes <= protocol::kMostLoadStoreBytes;
+  const std::uint64_t room = fits ? (extents[block.store].bytes() + 3U) / 4U * 4U : 0;
+  fits = fits && block.offset <= room && block.bytes <= room - block.offset;
+  if (!fits) niu.fail(FaultCode::outside_store, block.store, block.offset, block.bytes);
+  if (bytes.size() < sizeof block + block.bytes) {
+    niu.fail(FaultCode::short_message, niu.message().kind, static_cast<std::uint32_t>(bytes.size()),
+             sizeof block + block.bytes);
+  }
+  std::memcpy(niu.memory().at<std::byte>(extents[block.store].store.address) + block.offset,
+              bytes.data() + sizeof block, block.bytes);
+}
+
 void read(Pe& pe, Niu& niu) {
   const LoadBlock block = checked_block(niu);
   pe.homecoming.flush_pixels(niu);  // the buffer is theirs while there are any
@@ -104,6 +131,10 @@ bool handle_message(Pe& pe, Niu& niu) {
       require(pe, niu, pe.state != State::running);
       load(niu);
       return true;
+    case MessageKind::load_store:
+      require(pe, niu, pe.state == State::configured);
+      load_store(pe, niu);
+      return true;
     case MessageKind::begin:
       require(pe, niu, pe.state == State::configured);
       begin(pe, niu);
@@ -119,6 +150,10 @@ bool handle_message(Pe& pe, Niu& niu) {
     case MessageKind::deal:
       require(pe, niu, is_radiosity(pe) && pe.shot.active);
       deal_points(pe, niu, deal_of(niu));
+      return true;
+    case MessageKind::tile:
+      require(pe, niu, makes_rays(pe));
+      take_tile(pe, niu, niu.message_as<protocol::Tile>());
       return true;
     case MessageKind::grant:
       require(pe, niu, pe.state == State::running);

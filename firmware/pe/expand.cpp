@@ -24,22 +24,19 @@ Frame frame_about(const glm::vec3& z) {
   return {{1.0F + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
 }
 
-/// Moves on to the next pixel that gets any flux. False: the point is done. Differences of one rising sum, so that
-/// nothing of the flux is lost.
+/// Moves on to the next pixel that gets any flux. False: the point is done.
 bool next_pixel(const Scene& scene, Expansion& expansion) {
-  const std::uint32_t n = scene.layout.hemicube_size;
+  const HemicubeGrid& grid = scene.hemicube_grid;
   for (;;) {
-    if (expansion.next_pixel == protocol::hemicube_pixels(n)) return false;
+    if (expansion.next_pixel == protocol::hemicube_pixels(grid.n)) return false;
     expansion.pixel = expansion.next_pixel++;
-    expansion.weight += scene.hemicube[weight_of(n, hemicube_pixel(n, expansion.pixel))];
-    bool any = false;
+    const std::uint32_t weight = scene.hemicube[entry_of(grid.n, hemicube_pixel(grid, expansion.pixel))].weight;
+    std::int64_t any = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::int64_t passed = protocol::scale_down(expansion.point.flux[c], expansion.weight);
-      expansion.pixel_flux[c] = passed - expansion.passed[c];
-      expansion.passed[c] = passed;
-      any = any || expansion.pixel_flux[c] != 0;
+      expansion.pixel_flux[c] = protocol::next_part(expansion.point.flux[c], weight, expansion.rest[c]);
+      any |= expansion.pixel_flux[c];
     }
-    if (any) return true;
+    if (any != 0) return true;
   }
 }
 
@@ -54,6 +51,7 @@ bool begin_point(Pe& pe) {
     expansion.point = point;
     expansion.number = point.number_low | (std::uint32_t{point.number_high} << 8U);
     expansion.key = protocol::hash_combine(point.key, expansion.number);
+    expansion.within = protocol::stratified_pair(expansion.number, point.key);
     expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
     expansion.active = next_pixel(pe.scene, expansion);
     if (expansion.active) return true;
@@ -67,12 +65,15 @@ void create_record(Pe& pe, Niu& niu) {
   const Expansion& expansion = pe.expansion;
   // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
   // hemi-cubes there are. The shot's points share the pixel out among themselves: to what is far away they are one
-  // hemi-cube of so many times the pixels.
-  const protocol::StratifiedPair at =
-      protocol::stratified_pair(expansion.number, protocol::hash_combine(expansion.point.key, expansion.pixel));
-  const std::uint32_t n = pe.scene.layout.hemicube_size;
-  const glm::vec3 direction = pixel_direction(expansion.frame, n, hemicube_pixel(n, expansion.pixel),
-                                              {protocol::uniform_float(at.x), protocol::uniform_float(at.y)});
+  // hemi-cube of so many times the pixels. In each pixel the points' places are shifted (by exclusive or) by numbers of
+  // its own: they keep as far apart, and pixels have nothing to do with each other.
+  const HemicubeGrid& grid = pe.scene.hemicube_grid;
+  const std::uint32_t shift = protocol::hash_combine(expansion.point.key, expansion.pixel);
+  const HemicubePixel pixel = hemicube_pixel(grid, expansion.pixel);
+  const glm::vec3 direction =
+      pixel_direction(expansion.frame, grid, pixel, pe.scene.hemicube[entry_of(grid.n, pixel)],
+                      {protocol::uniform_float(expansion.within.x ^ shift),
+                       protocol::uniform_float(expansion.within.y ^ protocol::hash_combine(shift, 1))});
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
   record.origin = expansion.point.origin;
@@ -80,7 +81,7 @@ void create_record(Pe& pe, Niu& niu) {
   record.flux = expansion.pixel_flux;
   record.place = expansion.point.place;
   record.polygon = expansion.point.polygon;
-  record.key = protocol::hash_combine(expansion.key, expansion.pixel);
+  record.key = expansion.key ^ shift;
   record.kind = protocol::RecordKind::light;
   record.bounce = 0;
   record.flags = static_cast<std::uint8_t>(protocol::kFirst | expansion.point.flags);

@@ -10,6 +10,7 @@
 #include "firmware/pe/outbox.hpp"
 #include "firmware/pe/scene.hpp"
 #include "firmware/pe/shot.hpp"
+#include "firmware/pe/tile.hpp"
 #include "firmware/pe/traverse.hpp"
 #include "firmware/pe/work.hpp"
 #include "firmware/protocol/messages.hpp"
@@ -37,6 +38,7 @@ struct Pe {
   Shot shot;
   Points points;
   Expansion expansion;
+  Tiles tiles;
   protocol::WorkDone done{};  ///< not told yet
   Credits credits;
   protocol::Tally tally{};
@@ -76,6 +78,15 @@ bool deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit);
 bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch);
 /// The record's light has ended: its slot is free, its credit goes home.
 void end_record(Pe& pe, Niu& niu, Slot slot);
+
+/// Follows a ray until it leaves this PE or ends (ray_tracing.cpp).
+void follow_ray(Pe& pe, Niu& niu, Slot slot);
+
+// ---- Tiles (tile.cpp) ----
+/// A tile has been dealt, whose rays are to be made here.
+void take_tile(Pe& pe, Niu& niu, const protocol::Tile& tile);
+/// Makes up to `most` rays, as far as there are credits in hand.
+void make_rays(Pe& pe, Niu& niu, std::uint32_t most);
 
 // ---- Shots (select.cpp, shoot.cpp, expand.cpp) ----
 void select_shooters(Pe& pe, Niu& niu, const protocol::Select& select);

@@ -228,6 +228,8 @@ bool next_path(Pe& pe, Niu& niu, Slot slot) {
   return true;
 }
 
+}  // namespace
+
 void follow_ray(Pe& pe, Niu& niu, Slot slot) {
   auto& record = pe.slots.at<RayRecord>(slot);
   for (;;) {
@@ -253,6 +255,8 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
     if (!goes_on && !next_path(pe, niu, slot)) return;
   }
 }
+
+namespace {
 
 void check_ray(const Pe& pe, Niu& niu, const RayRecord& record) {
   require(niu, record.kind == RecordKind::light, RecordField::kind, static_cast<std::uint32_t>(record.kind));

@@ -7,6 +7,7 @@
 
 #include "firmware/niu/memory.hpp"
 #include "firmware/pe/cell_map.hpp"
+#include "firmware/pe/hemicube.hpp"
 #include "firmware/protocol/stores.hpp"
 
 namespace torolux::pe {
@@ -26,12 +27,15 @@ struct Scene {
   std::span<protocol::PatchSide> patch_sides;
   std::span<protocol::Element> elements;
   std::span<const protocol::Facet> facets;
-  std::span<const std::uint32_t> hemicube;
+  std::span<const protocol::HemicubeEntry> hemicube;
+  HemicubeGrid hemicube_grid;
   // Ray tracing stage.
   std::span<const protocol::LatticeTriangle> lattice;
   std::span<const protocol::Texture> textures;
   std::span<const protocol::Texel> texels;
   std::span<const protocol::TexturePoint> texture_points;
+  std::span<const protocol::SamplePlace> sample_places;
+  std::span<const float> filter;
   std::span<const protocol::Emitter> emitters;
 
   void set(const Memory& memory, const protocol::StageLayout& from) {
@@ -49,11 +53,14 @@ struct Scene {
     patch_sides = memory.store<protocol::PatchSide>(layout.patch_sides);
     elements = memory.store<protocol::Element>(layout.elements);
     facets = memory.store<const protocol::Facet>(layout.facets);
-    hemicube = memory.store<const std::uint32_t>(layout.hemicube);
+    hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
+    if (layout.hemicube_size > 0) hemicube_grid = HemicubeGrid(layout.hemicube_size);
     lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);
     texture_points = memory.store<const protocol::TexturePoint>(layout.texture_points);
+    sample_places = memory.store<const protocol::SamplePlace>(layout.sample_places);
+    filter = memory.store<const float>(layout.filter);
     emitters = memory.store<const protocol::Emitter>(layout.emitters);
   }
 };

@@ -2,11 +2,14 @@
 // A shot at its owner, who makes its points; and a point at the PE that makes its records.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/pe/vectors.hpp"
 #include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/stratified.hpp"
+#include "firmware/protocol/stratified.hpp"
 
 namespace torolux::pe {
 
@@ -44,8 +47,8 @@ struct Expansion {
   std::uint32_t pixel = 0;   ///< the next record's
   protocol::Flux pixel_flux{};
   std::uint32_t next_pixel = 0;
-  protocol::Flux passed{};   ///< of the flux, to the pixels up to this one
-  std::uint64_t weight = 0;  ///< of the pixels up to this one; 2^32 is all
+  protocol::StratifiedPair within{};    ///< where in the pixels the point goes through them; each has a shift of its own
+  std::array<std::uint32_t, 3> rest{};  ///< of the flux: less than a quantum, for the next pixel (next_part)
 };
 
 }  // namespace torolux::pe

@@ -229,7 +229,7 @@ class Verifier {
     const std::uint32_t n = scene_.layout.hemicube_size;
     const std::uint32_t top = n / 2U * (n / 2U);
     std::uint64_t sum = 0;
-    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i) sum += scene_.hemicube[i] * (i < top ? 4ULL : 8ULL);
+    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i) sum += scene_.hemicube[i].weight * (i < top ? 4ULL : 8ULL);
     require(sum == protocol::kOne, Index::hemicube_sum, static_cast<std::uint32_t>(sum),
             static_cast<std::uint32_t>(sum >> 32U));
   }

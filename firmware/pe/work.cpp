@@ -15,7 +15,7 @@ constexpr std::uint32_t kManyCredits = 64;
 }  // namespace
 
 bool has_work(const Pe& pe) {
-  return pe.expansion.active || pe.points.waiting > 0;
+  return pe.expansion.active || pe.points.waiting > 0 || pe.tiles.held > 0;
 }
 
 bool can_work(const Pe& pe) {
@@ -23,7 +23,11 @@ bool can_work(const Pe& pe) {
 }
 
 void work(Pe& pe, Niu& niu) {
-  expand_points(pe, niu, kRecordsAtATime);
+  if (pe.tiles.held > 0) {
+    make_rays(pe, niu, kRecordsAtATime);
+  } else {
+    expand_points(pe, niu, kRecordsAtATime);
+  }
 }
 
 void settle(Pe& pe, Niu& niu) {

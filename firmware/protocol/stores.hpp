@@ -6,8 +6,10 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/protocol/camera_ray.hpp"
 #include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/hemicube_bends.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/records.hpp"
 #include "firmware/protocol/texture.hpp"
@@ -200,6 +202,8 @@ inline constexpr std::uint32_t kMostOwnSlots = own_slots(Stage::radiosity, kMost
 static_assert(own_slots(Stage::ray_tracing, kMostOpenBatches) <= kMostOwnSlots);
 /// Points that wait at a PE to be expanded, the current one included: the host deals no PE more.
 inline constexpr std::uint32_t kPointPlaces = 4;
+/// Tiles of the picture likewise.
+inline constexpr std::uint32_t kTilePlaces = 2;
 
 /// Path segments are counted in a byte of the record.
 inline constexpr std::uint32_t kMostBounces = 255;
@@ -235,7 +239,7 @@ struct StageLayout {
   Store patch_sides;              ///< PatchSide[]
   Store elements;                 ///< Element[]
   Store facets;                   ///< Facet[]
-  Store hemicube;                 ///< uint32_t[hemicube_weights(hemicube_size)]
+  Store hemicube;                 ///< HemicubeEntry[hemicube_weights(hemicube_size)]
   std::uint32_t hemicube_size;    ///< N, even
   std::uint32_t shot_points;      ///< k: k * k points at most per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light
@@ -245,11 +249,14 @@ struct StageLayout {
   Store textures;        ///< Texture[]
   Store texels;          ///< Texel[]
   Store texture_points;  ///< TexturePoint[]
+  Store sample_places;   ///< SamplePlace[view.samples]; empty: the host makes the camera rays
+  Store filter;          ///< float[2^view.filter_bits + 1], or empty likewise
+  CameraView view;
   Store emitters;        ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
   float pixel_scale;     ///< quanta per unit of radiance
   float least_weight;    ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 244);
+static_assert(sizeof(StageLayout) == 328);
 
 }  // namespace torolux::protocol

@@ -141,7 +141,7 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
       [](PeStores& s) { s.facets[5].of_element = std::numeric_limits<float>::quiet_NaN(); },
       [](PeStores& s) { s.patches[1].side[0] = 0x1000'0000; },
       [](PeStores& s) { s.sides[0].first_element = static_cast<std::uint32_t>(s.elements.size()) - 3; },
-      [](PeStores& s) { s.hemicube[0] += 1; },
+      [](PeStores& s) { s.hemicube[0].weight += 1; },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {
     FakeMachine machine(1);

@@ -293,7 +293,7 @@ std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage
   return all;
 }
 
-std::vector<std::uint32_t> hemicube_table(std::uint32_t n) {
+std::vector<protocol::HemicubeEntry> hemicube_table(std::uint32_t n) {
   // Form factor from a point to the rectangle (0,0)..(x,y) of a face: the corner formula of a differential area.
   const auto top = [](double x, double y) {
     const double a = std::sqrt(1 + x * x), b = std::sqrt(1 + y * y);
@@ -307,19 +307,23 @@ std::vector<std::uint32_t> hemicube_table(std::uint32_t n) {
     return f(u * (i + 1), u * (j + 1)) - f(u * i, u * (j + 1)) - f(u * (i + 1), u * j) + f(u * i, u * j);
   };
   const std::uint32_t half = n / 2;
-  std::vector<std::uint32_t> table;
+  std::vector<protocol::HemicubeEntry> table;
+  const auto add = [&](double weight) {
+    table.push_back(protocol::hemicube_entry(n, static_cast<std::uint32_t>(table.size())));
+    table.back().weight = static_cast<std::uint32_t>(std::lround(weight * 0x1p32));
+  };
   std::uint64_t sum = 0;
   for (std::uint32_t j = 0; j < half; ++j)
     for (std::uint32_t i = 0; i < half; ++i) {
-      table.push_back(static_cast<std::uint32_t>(std::lround(cell(top, i, j) * 0x1p32)));
-      sum += 4ULL * table.back();
+      add(cell(top, i, j));
+      sum += 4ULL * table.back().weight;
     }
   for (std::uint32_t j = 0; j < half; ++j)
     for (std::uint32_t i = 0; i < half; ++i) {
-      table.push_back(static_cast<std::uint32_t>(std::lround(cell(side, i, j) * 0x1p32)));
-      sum += 8ULL * table.back();
+      add(cell(side, i, j));
+      sum += 8ULL * table.back().weight;
     }
-  table[0] += static_cast<std::uint32_t>(((std::int64_t{1} << 32) - static_cast<std::int64_t>(sum)) / 4);
+  table[0].weight += static_cast<std::uint32_t>(((std::int64_t{1} << 32) - static_cast<std::int64_t>(sum)) / 4);
   return table;
 }
 

@@ -76,7 +76,7 @@ struct PeStores {
   std::vector<protocol::PatchSide> sides;
   std::vector<protocol::Element> elements;
   std::vector<protocol::Facet> facets;
-  std::vector<std::uint32_t> hemicube;
+  std::vector<protocol::HemicubeEntry> hemicube;
   std::vector<protocol::LatticeTriangle> lattice;  ///< all `lattice_value`
   std::vector<protocol::Texture> textures;         ///< none, as those that follow
   std::vector<protocol::Texel> texels;
@@ -91,7 +91,7 @@ struct PeStores {
 std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float lattice_value = 1);
 
 /// Exact delta form factors, normalised (see stores.hpp).
-std::vector<std::uint32_t> hemicube_table(std::uint32_t n);
+std::vector<protocol::HemicubeEntry> hemicube_table(std::uint32_t n);
 
 /// Two triangles for each of n * n cells of a wall. a, b: edge vectors; the front is where a x b points.
 void add_wall(TestScene& scene, const protocol::Vec3f& corner, const protocol::Vec3f& a, const protocol::Vec3f& b,

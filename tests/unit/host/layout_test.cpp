@@ -68,7 +68,7 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
     add(l.patches, sizeof(protocol::Patch));
     add(l.patch_sides, sizeof(protocol::PatchSide));
     add(l.elements, sizeof(protocol::Element));
-    add(l.hemicube, 4);
+    add(l.hemicube, sizeof(protocol::HemicubeEntry));
     add(l.record_slots, sizeof(protocol::RadiosityRecord));
     std::uint64_t last = kMap.stores_begin;
     for (const auto& [begin, end] : ranges) {
@@ -230,7 +230,7 @@ TEST_F(LayoutTest, RayTracingImageHoldsTheLatticeOfEachPolygon) {
 }
 
 TEST_F(LayoutTest, MemoryIsChosenOrRefusedWithTheNumbers) {
-  const MemoryNeed need = memory_need(mesh_, placement_, {}, kMap);
+  const MemoryNeed need = memory_need(mesh_, placement_, placement_, {}, kMap);
   EXPECT_EQ(choose_memory(need, {}), protocol::kDefaultLocalMemory);
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most())), need.most());
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most() - 1)), std::nullopt);
