@@ -423,6 +423,7 @@ TEST(Points, WithoutFluxMakeNoRecords) {
     ASSERT_LT(turn, 1'000);
     for (const std::uint16_t pe : lamp.asked()) lamp.grant(pe, 1'000);
   }
+  lamp.machine.take_credits();
   lamp.shoot.amount = {0, 0, 0};
   EXPECT_EQ(lamp.machine.shoot(lamp.owner, lamp.shoot), 0U);
 }
