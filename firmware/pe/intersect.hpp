@@ -4,6 +4,8 @@
 // lost.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <utility>
 
@@ -94,41 +96,42 @@ inline bool cross_triangle(const Shear& ray, const protocol::Polygon& polygon, C
   return true;
 }
 
-/// The box of the part of a ray that lies in one subspace, grown by the margin, its bounds as integers. A hit that
-/// counts lies in it (to some 1e-6 of rounding; the margin is a hundred times that), so a triangle beside it is passed
-/// over at the price of a few integer comparisons.
+/// The box of the part of a ray that lies in one subspace, in parts of that. A hit that counts lies in it (to some 1e-6
+/// of rounding; the polygons' boxes are grown by a hundred times that).
 class Reach {
  public:
-  Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse)
-      : low_(origin - protocol::kSubspaceMargin),
-        high_(origin + protocol::kSubspaceMargin),
-        direction_(direction),
-        inverse_(inverse) {}
-
-  void set_interval(float t_in, float t_out) {
-    for (int a = 0; a < 3; ++a) {
-      const bool upward = inverse_.upward[static_cast<std::size_t>(a)];
-      const std::int32_t low = bits(low_[a] + direction_[a] * (upward ? t_in : t_out));
-      lowest_[a] = low > 0 ? low : INT32_MIN;  // object space begins at 0: all corners are above
-      highest_[a] = bits(high_[a] + direction_[a] * (upward ? t_out : t_in));
+  /// scale: Scene::box_scale.
+  Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse, const protocol::Vec3f& scale)
+      : origin_(origin * to_vector(scale)), direction_(direction * to_vector(scale)) {
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      const std::uint32_t lowest = a * protocol::kBoxAxisShift + protocol::kBoxUpperShift;
+      const std::uint32_t highest = a * protocol::kBoxAxisShift;
+      begin_shift_[a] = inverse.upward[a] ? lowest : highest;
+      end_shift_[a] = inverse.upward[a] ? highest : lowest;
     }
   }
-  bool misses(const protocol::Polygon& polygon) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t p = bits(polygon.corner[0][i]);
-      const std::int32_t q = bits(polygon.corner[1][i]);
-      const std::int32_t r = bits(polygon.corner[2][i]);
-      if (p < lowest_[i] && q < lowest_[i] && r < lowest_[i]) return true;
-      if (p > highest_[i] && q > highest_[i] && r > highest_[i]) return true;
+
+  /// Between these distances, in `cell`: what protocol::boxes_apart compares with.
+  std::uint32_t box(const std::array<std::uint16_t, 3>& cell, float t_in, float t_out) const {
+    std::uint32_t packed = protocol::kBoxRayFlips;
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      const int axis = static_cast<int>(a);
+      const float origin = origin_[axis] - static_cast<float>(cell[a] * protocol::kBoxParts);
+      packed ^= part_of(origin + direction_[axis] * t_in) << begin_shift_[a];
+      packed ^= part_of(origin + direction_[axis] * t_out) << end_shift_[a];
     }
-    return false;
+    return packed;
   }
 
  private:
-  glm::vec3 low_, high_, direction_;
-  const Inverse& inverse_;
-  std::int32_t lowest_[3];
-  std::int32_t highest_[3];
+  static std::uint32_t part_of(float x) {
+    constexpr std::uint32_t last = protocol::kBoxParts - 1U;
+    if (bits(x) <= 0) return 0;
+    if (bits(x) >= std::bit_cast<std::int32_t>(float{last})) return last;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
+  }
+  glm::vec3 origin_, direction_;
+  std::array<std::uint32_t, 3> begin_shift_, end_shift_;
 };
 
 }  // namespace torolux::pe

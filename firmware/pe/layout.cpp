@@ -55,7 +55,7 @@ constexpr std::uint32_t kStores = 18;
 std::array<Extent, kStores> extents(const StageLayout& l) {
   return {{
       {l.subspaces, sizeof(protocol::Subspace)},
-      {l.polygon_list, sizeof(std::uint32_t)},
+      {l.polygon_list, sizeof(protocol::ListedPolygon)},
       {l.polygons, sizeof(protocol::Polygon)},
       {l.materials, sizeof(protocol::Material)},
       {l.normals, sizeof(protocol::Vec3f)},

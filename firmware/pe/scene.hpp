@@ -14,7 +14,8 @@ namespace torolux::pe {
 struct Scene {
   protocol::StageLayout layout{};
   std::span<const protocol::Subspace> subspaces;
-  std::span<const std::uint32_t> polygon_list;
+  std::span<const protocol::ListedPolygon> polygon_list;
+  protocol::Vec3f box_scale{};  ///< parts of a subspace's edge (protocol/polygon_boxes.hpp) per unit of length
   std::span<const protocol::Polygon> polygons;
   std::span<const protocol::Material> materials;
   std::span<const protocol::Vec3f> normals;
@@ -37,7 +38,8 @@ struct Scene {
   void set(const Memory& memory, const protocol::StageLayout& from) {
     layout = from;
     subspaces = memory.store<const protocol::Subspace>(layout.subspaces);
-    polygon_list = memory.store<const std::uint32_t>(layout.polygon_list);
+    polygon_list = memory.store<const protocol::ListedPolygon>(layout.polygon_list);
+    for (std::size_t a = 0; a < 3; ++a) box_scale[a] = float{protocol::kBoxParts} / layout.cell_size[a];
     polygons = memory.store<const protocol::Polygon>(layout.polygons);
     materials = memory.store<const protocol::Material>(layout.materials);
     normals = memory.store<const protocol::Vec3f>(layout.normals);

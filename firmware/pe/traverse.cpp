@@ -16,6 +16,9 @@ using protocol::PeNumber;
 using protocol::Polygon;
 using protocol::Subspace;
 
+/// Up to so many polygons of a subspace are tested without the ray's box.
+constexpr std::uint32_t kFewPolygons = 2;
+
 /// The nearest crossing so far. Lists ascend by global polygon number, so of equal distances the first one stays.
 struct Nearest {
   Crossing crossing;
@@ -34,19 +37,22 @@ bool counts_behind_origin(const Segment& segment, const Polygon& polygon, const 
 }
 
 void find_nearest(const Scene& scene, const Subspace& here, const Segment& segment, const Walk& walk,
-                  const Shear& shear, Reach& reach, Nearest& nearest) {
+                  const Shear& shear, const Reach& reach, Nearest& nearest) {
   const float t_in = segment.first || bits(walk.t_in()) < 0 ? 0.0F : walk.t_in();
-  reach.set_interval(t_in, walk.t_out());
   // The outer faces of the object space end no interval: walls often lie in them, and rounding puts their hits on
   // either side.
   const bool open_begin = segment.first || here.neighbour_pe[walk.entry_face(segment.entry_axis)] == kNobody;
   const bool last = here.neighbour_pe[walk.exit_face()] == kNobody;
   const float t_out = last ? std::numeric_limits<float>::infinity() : walk.t_out();
-  const std::uint32_t* index = scene.polygon_list.data() + here.first_polygon;
-  const std::uint32_t* const end = index + here.polygon_count;
-  for (; index != end; ++index) {
-    const Polygon& polygon = scene.polygons[*index];
-    if (reach.misses(polygon) || polygon.number == segment.polygon) continue;
+  // Where few polygons stand, the ray's box costs more than it saves.
+  const std::uint32_t box =
+      here.polygon_count > kFewPolygons ? reach.box(here.cell, t_in, walk.t_out()) : protocol::kWholeBox;
+  const protocol::ListedPolygon* entry = scene.polygon_list.data() + here.first_polygon;
+  const protocol::ListedPolygon* const end = entry + here.polygon_count;
+  for (; entry != end; ++entry) {
+    if (protocol::boxes_apart(box, entry->box)) continue;
+    const Polygon& polygon = scene.polygons[entry->polygon];
+    if (polygon.number == segment.polygon) continue;
     Crossing crossing;
     if (!cross_triangle(shear, polygon, crossing)) continue;
     const bool counts = crossing.t > 0.0F ? crossing.t <= t_out && (open_begin || crossing.t > t_in)
@@ -54,7 +60,7 @@ void find_nearest(const Scene& scene, const Subspace& here, const Segment& segme
     if (counts && crossing.t < nearest.t) {
       nearest.crossing = crossing;
       nearest.t = crossing.t;
-      nearest.polygon = *index;
+      nearest.polygon = entry->polygon;
     }
   }
 }
@@ -118,7 +124,7 @@ Way traverse(const Scene& scene, PeNumber self, Segment& segment) {
     if (!step(scene, self, segment, walk, here, way)) return way;
   }
   const Shear shear(segment.origin, segment.direction, walk.inverse());
-  Reach reach(segment.origin, segment.direction, walk.inverse());
+  const Reach reach(segment.origin, segment.direction, walk.inverse(), scene.box_scale);
   do {
     if (here->polygon_count == 0) continue;
     Nearest nearest;

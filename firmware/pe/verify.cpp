@@ -90,10 +90,10 @@ class Verifier {
     }
     range(Index::polygon_list, s.first_polygon, s.polygon_count, scene_.polygon_list.size());
     for (std::uint32_t i = 0; i < s.polygon_count; ++i) {
-      const std::uint32_t* entry = &scene_.polygon_list[s.first_polygon + i];
-      below(Index::polygon, entry[0], scene_.polygons.size());
-      const bool rises = i == 0 || scene_.polygons[entry[-1]].number < scene_.polygons[entry[0]].number;
-      require(rises, Index::list_order, entry[0], 0);
+      const protocol::ListedPolygon* entry = &scene_.polygon_list[s.first_polygon + i];
+      below(Index::polygon, entry->polygon, scene_.polygons.size());
+      const bool rises = i == 0 || scene_.polygons[entry[-1].polygon].number < scene_.polygons[entry->polygon].number;
+      require(rises, Index::list_order, entry->polygon, 0);
     }
   }
   /// A neighbour on this PE lies one cell on: so a walk always ends.
@@ -224,7 +224,8 @@ class Verifier {
     const std::uint32_t n = scene_.layout.hemicube_size;
     const std::uint32_t top = n / 2U * (n / 2U);
     std::uint64_t sum = 0;
-    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i) sum += scene_.hemicube[i].weight * (i < top ? 4ULL : 8ULL);
+    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i)
+      sum += scene_.hemicube[i].weight * (i < top ? 4ULL : 8ULL);
     require(sum == protocol::kOne, Index::hemicube_sum, static_cast<std::uint32_t>(sum),
             static_cast<std::uint32_t>(sum >> 32U));
   }

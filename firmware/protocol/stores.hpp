@@ -9,13 +9,11 @@
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/hemicube_bends.hpp"
 #include "firmware/protocol/machine.hpp"
+#include "firmware/protocol/polygon_boxes.hpp"
 #include "firmware/protocol/records.hpp"
 #include "firmware/protocol/texture.hpp"
 
 namespace torolux::protocol {
-
-/// How far beyond a subspace's box a polygon still stands in it, so that rounding never hides a hit.
-inline constexpr float kSubspaceMargin = 0x1p-13F;
 
 /// Faces of a subspace: 2 * axis + (1 for the upper one).
 inline constexpr std::uint32_t kFaces = 6;
@@ -221,7 +219,7 @@ struct StageLayout {
   std::array<std::uint32_t, 3> cells;  ///< Gx, Gy, Gz
   Vec3f cell_size;                     ///< plane i of an axis lies at float(i) * cell_size
   Store subspaces;                     ///< Subspace[]
-  Store polygon_list;                  ///< uint32_t[]: indices into polygons, ascending global number per subspace
+  Store polygon_list;                  ///< ListedPolygon[]: ascending global number per subspace
   Store polygons;                      ///< Polygon[]
   Store materials;                     ///< Material[]
   Store normals;                       ///< Vec3f[]

@@ -86,7 +86,10 @@ class ImageWriter {
       const auto& polygons = placement_.polygons_of_cell[index];
       subspace.first_polygon = first;
       subspace.polygon_count = static_cast<std::uint32_t>(polygons.size());
-      for (const std::uint32_t t : polygons) put(layout_.polygon_list, first++, local_polygon(t));
+      for (const std::uint32_t t : polygons) {
+        const protocol::PackedBox box = protocol::box_in_cell(mesh_.triangles[t].corner, grid.cell_size, cell);
+        put(layout_.polygon_list, first++, protocol::ListedPolygon{box, local_polygon(t)});
+      }
       put(layout_.subspaces, local, subspace);
     }
   }

@@ -116,7 +116,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.bounces = parameters.bounces;
   Allocator allocator(map.stores_begin, result);
   layout.subspaces = allocator.place("subspaces", counts.subspaces, sizeof(protocol::Subspace));
-  layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(std::uint32_t));
+  layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(protocol::ListedPolygon));
   layout.polygons = allocator.place("polygons", counts.polygons, sizeof(protocol::Polygon));
   layout.materials = allocator.place("materials", counts.materials, sizeof(protocol::Material));
   layout.normals = allocator.place("normals", counts.normals, sizeof(protocol::Vec3f));

@@ -106,7 +106,7 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
       [](PeStores& s) { s.subspaces[0].neighbour[1] = 0; },
       [](PeStores& s) { s.subspaces[0].neighbour_pe[1] = 1; },
       [](PeStores& s) { s.subspaces[3].polygon_count = 0xFFFF'FFFF; },
-      [](PeStores& s) { s.polygon_list[0] = 0xFFFF; },
+      [](PeStores& s) { s.polygon_list[0].polygon = 0xFFFF; },
       [](PeStores& s) { std::swap(s.polygon_list[0], s.polygon_list[1]); },
       [](PeStores& s) { s.polygons[0].corner[1][1] = std::numeric_limits<float>::quiet_NaN(); },
       [](PeStores& s) { s.polygons[0].corner[1][1] = 1.5F; },

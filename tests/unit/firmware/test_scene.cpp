@@ -187,7 +187,8 @@ class Builder {
     }
     s.first_polygon = static_cast<std::uint32_t>(out.polygon_list.size());
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
-      if (stands_in(scene_.polygons[p], out.layout.cell_size, cell)) out.polygon_list.push_back(p);
+      if (!stands_in(scene_.polygons[p], out.layout.cell_size, cell)) continue;
+      out.polygon_list.push_back({protocol::box_in_cell(scene_.polygons[p].corner, out.layout.cell_size, cell), p});
     }
     s.polygon_count = static_cast<std::uint32_t>(out.polygon_list.size()) - s.first_polygon;
     out.subspaces.push_back(s);

@@ -55,7 +55,7 @@ void aim_at(TestScene& scene, std::uint16_t material);
 struct PeStores {
   protocol::StageLayout layout{};  ///< its stores' addresses are not set
   std::vector<protocol::Subspace> subspaces;
-  std::vector<std::uint32_t> polygon_list;
+  std::vector<protocol::ListedPolygon> polygon_list;
   std::vector<protocol::Polygon> polygons;
   std::vector<protocol::Material> materials;
   std::vector<protocol::Vec3f> normals;

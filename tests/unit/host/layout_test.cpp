@@ -59,7 +59,7 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
       EXPECT_TRUE(ranges.emplace(store.address, store.address + store.count * bytes).second);
     };
     add(l.subspaces, sizeof(protocol::Subspace));
-    add(l.polygon_list, 4);
+    add(l.polygon_list, sizeof(protocol::ListedPolygon));
     add(l.polygons, sizeof(protocol::Polygon));
     add(l.materials, sizeof(protocol::Material));
     add(l.patch_references, sizeof(protocol::PatchReference));
