@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <utility>
 
@@ -102,36 +101,45 @@ class Reach {
  public:
   /// scale: Scene::box_scale.
   Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse, const protocol::Vec3f& scale)
-      : origin_(origin * to_vector(scale)), direction_(direction * to_vector(scale)) {
-    for (std::uint32_t a = 0; a < 3; ++a) {
-      const std::uint32_t lowest = a * protocol::kBoxAxisShift + protocol::kBoxUpperShift;
-      const std::uint32_t highest = a * protocol::kBoxAxisShift;
-      begin_shift_[a] = inverse.upward[a] ? lowest : highest;
-      end_shift_[a] = inverse.upward[a] ? highest : lowest;
-    }
-  }
+      : origin_(origin * to_vector(scale)), direction_(direction * to_vector(scale)), inverse_(inverse) {}
 
   /// Between these distances, in `cell`: what protocol::boxes_apart compares with.
-  std::uint32_t box(const std::array<std::uint16_t, 3>& cell, float t_in, float t_out) const {
+  std::uint32_t box(const std::array<std::uint16_t, 3>& cell, float t_in, float t_out) {
+    const Parts begin = bits(t_in) == bits(last_t_) ? last_ : at(t_in);
+    last_ = at(t_out);
+    last_t_ = t_out;
     std::uint32_t packed = protocol::kBoxRayFlips;
-    for (std::uint32_t a = 0; a < 3; ++a) {
-      const int axis = static_cast<int>(a);
-      const float origin = origin_[axis] - static_cast<float>(cell[a] * protocol::kBoxParts);
-      packed ^= part_of(origin + direction_[axis] * t_in) << begin_shift_[a];
-      packed ^= part_of(origin + direction_[axis] * t_out) << end_shift_[a];
-    }
+    packed ^= of_axis<0>(begin.x, last_.x, cell[0]);
+    packed ^= of_axis<1>(begin.y, last_.y, cell[1]);
+    packed ^= of_axis<2>(begin.z, last_.z, cell[2]);
     return packed;
   }
 
  private:
-  static std::uint32_t part_of(float x) {
-    constexpr std::uint32_t last = protocol::kBoxParts - 1U;
-    if (bits(x) <= 0) return 0;
-    if (bits(x) >= std::bit_cast<std::int32_t>(float{last})) return last;
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
+  /// Counted from the lowest corner of the object space; modulo 2^32 where a ray begins far outside.
+  struct Parts {
+    std::uint32_t x, y, z;
+  };
+  Parts at(float t) const {
+    const auto part = [](float x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x)); };
+    return {part(origin_.x + direction_.x * t), part(origin_.y + direction_.y * t), part(origin_.z + direction_.z * t)};
   }
+  template <std::uint32_t kAxis>
+  std::uint32_t of_axis(std::uint32_t begin, std::uint32_t end, std::uint32_t cell) const {
+    const auto in_cell = [first = cell * protocol::kBoxParts](std::uint32_t part) {
+      const std::uint32_t local = part - first;
+      if (local < protocol::kBoxParts) return local;
+      return static_cast<std::int32_t>(local) < 0 ? 0 : protocol::kBoxParts - 1U;
+    };
+    const std::uint32_t low = in_cell(inverse_.upward[kAxis] ? begin : end);
+    const std::uint32_t high = in_cell(inverse_.upward[kAxis] ? end : begin);
+    return (high | low << protocol::kBoxUpperShift) << (kAxis * protocol::kBoxAxisShift);
+  }
+
   glm::vec3 origin_, direction_;
-  std::array<std::uint32_t, 3> begin_shift_, end_shift_;
+  const Inverse& inverse_;
+  Parts last_{};
+  float last_t_ = -1.0F;  ///< where last_ is
 };
 
 }  // namespace torolux::pe

@@ -16,14 +16,12 @@ using protocol::PeNumber;
 using protocol::Polygon;
 using protocol::Subspace;
 
-/// Up to so many polygons of a subspace are tested without the ray's box.
-constexpr std::uint32_t kFewPolygons = 2;
-
-/// The nearest crossing so far. Lists ascend by global polygon number, so of equal distances the first one stays.
+/// The nearest crossing so far; of equal distances the polygon with the lowest global number.
 struct Nearest {
   Crossing crossing;
   float t = std::numeric_limits<float>::infinity();
   std::uint32_t polygon = protocol::kNoPolygon;  ///< index
+  std::uint32_t number = protocol::kNoPolygon;   ///< global
 };
 
 /// A segment's origin is rounded, so it may lie a little behind a wall that it is to meet. Such a hit counts where the
@@ -37,30 +35,39 @@ bool counts_behind_origin(const Segment& segment, const Polygon& polygon, const 
 }
 
 void find_nearest(const Scene& scene, const Subspace& here, const Segment& segment, const Walk& walk,
-                  const Shear& shear, const Reach& reach, Nearest& nearest) {
+                  const Shear& shear, Reach& reach, Nearest& nearest) {
   const float t_in = segment.first || bits(walk.t_in()) < 0 ? 0.0F : walk.t_in();
   // The outer faces of the object space end no interval: walls often lie in them, and rounding puts their hits on
   // either side.
   const bool open_begin = segment.first || here.neighbour_pe[walk.entry_face(segment.entry_axis)] == kNobody;
   const bool last = here.neighbour_pe[walk.exit_face()] == kNobody;
   const float t_out = last ? std::numeric_limits<float>::infinity() : walk.t_out();
-  // Where few polygons stand, the ray's box costs more than it saves.
-  const std::uint32_t box =
-      here.polygon_count > kFewPolygons ? reach.box(here.cell, t_in, walk.t_out()) : protocol::kWholeBox;
-  const protocol::ListedPolygon* entry = scene.polygon_list.data() + here.first_polygon;
-  const protocol::ListedPolygon* const end = entry + here.polygon_count;
-  for (; entry != end; ++entry) {
-    if (protocol::boxes_apart(box, entry->box)) continue;
-    const Polygon& polygon = scene.polygons[entry->polygon];
-    if (polygon.number == segment.polygon) continue;
+  const std::uint32_t box = reach.box(here.cell, t_in, walk.t_out());
+  const auto test = [&](const protocol::ListedPolygon& listed) {
+    const Polygon& polygon = scene.polygons[listed.polygon];
+    if (polygon.number == segment.polygon) return;
     Crossing crossing;
-    if (!cross_triangle(shear, polygon, crossing)) continue;
+    if (!cross_triangle(shear, polygon, crossing)) return;
     const bool counts = crossing.t > 0.0F ? crossing.t <= t_out && (open_begin || crossing.t > t_in)
                                           : counts_behind_origin(segment, polygon, crossing);
-    if (counts && crossing.t < nearest.t) {
+    if (counts && (crossing.t < nearest.t || (crossing.t == nearest.t && polygon.number < nearest.number))) {
       nearest.crossing = crossing;
       nearest.t = crossing.t;
-      nearest.polygon = entry->polygon;
+      nearest.polygon = listed.polygon;
+      nearest.number = polygon.number;
+    }
+  };
+  const protocol::ListedPolygon* entry = scene.polygon_list.data() + here.first_polygon;
+  const protocol::ListedPolygon* const end = entry + here.polygon_count;
+  while (entry != end) {
+    const protocol::ListedPolygon* group_end = end;
+    if ((entry->polygon & protocol::kGroup) != 0) {
+      const bool apart = protocol::boxes_apart(box, entry->box);
+      group_end = entry + 1 + (entry->polygon & ~protocol::kGroup);
+      entry = apart ? group_end : entry + 1;
+    }
+    for (; entry != group_end; ++entry) {
+      if (!protocol::boxes_apart(box, entry->box)) test(*entry);
     }
   }
 }
@@ -124,7 +131,7 @@ Way traverse(const Scene& scene, PeNumber self, Segment& segment) {
     if (!step(scene, self, segment, walk, here, way)) return way;
   }
   const Shear shear(segment.origin, segment.direction, walk.inverse());
-  const Reach reach(segment.origin, segment.direction, walk.inverse(), scene.box_scale);
+  Reach reach(segment.origin, segment.direction, walk.inverse(), scene.box_scale);
   do {
     if (here->polygon_count == 0) continue;
     Nearest nearest;

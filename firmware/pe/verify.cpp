@@ -22,7 +22,7 @@ enum class Index : std::uint32_t {
   neighbour_cell,
   polygon_list,
   polygon,
-  list_order,
+  group,
   corner,
   material,
   material_kind,
@@ -89,11 +89,18 @@ class Verifier {
       if (s.neighbour_pe[face] == niu_.pe()) check_neighbour(s, face);
     }
     range(Index::polygon_list, s.first_polygon, s.polygon_count, scene_.polygon_list.size());
-    for (std::uint32_t i = 0; i < s.polygon_count; ++i) {
-      const protocol::ListedPolygon* entry = &scene_.polygon_list[s.first_polygon + i];
-      below(Index::polygon, entry->polygon, scene_.polygons.size());
-      const bool rises = i == 0 || scene_.polygons[entry[-1].polygon].number < scene_.polygons[entry->polygon].number;
-      require(rises, Index::list_order, entry->polygon, 0);
+    const auto list = scene_.polygon_list.subspan(s.first_polygon, s.polygon_count);
+    // All of them in groups, or none.
+    const bool grouped = !list.empty() && (list[0].polygon & protocol::kGroup) != 0;
+    for (std::size_t i = 0, group = 0; i < list.size(); ++i) {
+      if (grouped && group == 0) {
+        require((list[i].polygon & protocol::kGroup) != 0, Index::group, list[i].polygon, 0);
+        group = list[i].polygon & ~protocol::kGroup;
+        require(group >= 1 && group < list.size() - i, Index::group, list[i].polygon, list.size());
+        continue;
+      }
+      below(Index::polygon, list[i].polygon, scene_.polygons.size());
+      if (group > 0) --group;
     }
   }
   /// A neighbour on this PE lies one cell on: so a walk always ends.

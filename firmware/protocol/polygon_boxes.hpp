@@ -26,18 +26,34 @@ inline constexpr std::uint32_t kBoxUpperShift = 5;
 inline constexpr std::uint32_t kBoxGuards = 0x2108'4210U;
 /// The ray's word, which has a 1 above each number, from one with a lowest part in place of 15 - that.
 inline constexpr std::uint32_t kBoxRayFlips = 0x3F0F'C3F0U;
-/// A ray's word that no polygon is beside of.
-inline constexpr std::uint32_t kWholeBox = 0x3FFF'FFFFU;
-
 constexpr bool boxes_apart(std::uint32_t ray, PackedBox polygon) {
   return ((ray - polygon) & kBoxGuards) != kBoxGuards;
 }
 
-/// A polygon as one subspace knows it.
+constexpr std::uint32_t lowest_part(PackedBox polygon, std::uint32_t axis) {
+  return polygon >> (kBoxAxisShift * axis) & (kBoxParts - 1U);
+}
+constexpr std::uint32_t highest_part(PackedBox polygon, std::uint32_t axis) {
+  return kBoxParts - 1U - (polygon >> (kBoxAxisShift * axis + kBoxUpperShift) & (kBoxParts - 1U));
+}
+/// The box around two: of every number the smaller one.
+constexpr PackedBox box_around(PackedBox a, PackedBox b) {
+  PackedBox both = 0;
+  for (std::uint32_t shift = 0; shift < 3U * kBoxAxisShift; shift += kBoxUpperShift) {
+    const std::uint32_t of_a = a >> shift & (kBoxParts - 1U);
+    const std::uint32_t of_b = b >> shift & (kBoxParts - 1U);
+    both |= (of_a < of_b ? of_a : of_b) << shift;
+  }
+  return both;
+}
+
+/// A polygon as one subspace knows it, or a group of them: a ray beside its box passes over all. A subspace's polygons
+/// are all in groups, or none.
 struct ListedPolygon {
   PackedBox box;
-  std::uint32_t polygon;  ///< index into polygons
+  std::uint32_t polygon;  ///< index into polygons; or kGroup | how many entries behind this one are the group's
 };
+inline constexpr std::uint32_t kGroup = 0x8000'0000U;
 static_assert(sizeof(ListedPolygon) == 8);
 
 /// corner: of a polygon that stands in the cell; its box is grown by kSubspaceMargin, of which a PE's rounding needs a

@@ -24,7 +24,7 @@ struct Subspace {
   std::array<std::uint16_t, 3> cell;            ///< x, y, z, counted from 0
   std::uint16_t unused;
   std::uint32_t first_polygon;  ///< index into the polygon list
-  std::uint32_t polygon_count;
+  std::uint32_t polygon_count;  ///< entries there, groups' own included
 };
 static_assert(sizeof(Subspace) == 52);
 
@@ -219,7 +219,7 @@ struct StageLayout {
   std::array<std::uint32_t, 3> cells;  ///< Gx, Gy, Gz
   Vec3f cell_size;                     ///< plane i of an axis lies at float(i) * cell_size
   Store subspaces;                     ///< Subspace[]
-  Store polygon_list;                  ///< ListedPolygon[]: ascending global number per subspace
+  Store polygon_list;                  ///< ListedPolygon[]
   Store polygons;                      ///< Polygon[]
   Store materials;                     ///< Material[]
   Store normals;                       ///< Vec3f[]

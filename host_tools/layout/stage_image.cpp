@@ -9,6 +9,7 @@
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
+#include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
 namespace {
@@ -83,13 +84,13 @@ class ImageWriter {
         subspace.neighbour_pe[face] = placement_.pe_of_cell[grid.index(next)];
       }
       for (std::size_t axis = 0; axis < 3; ++axis) subspace.cell[axis] = static_cast<std::uint16_t>(cell[axis]);
-      const auto& polygons = placement_.polygons_of_cell[index];
       subspace.first_polygon = first;
-      subspace.polygon_count = static_cast<std::uint32_t>(polygons.size());
-      for (const std::uint32_t t : polygons) {
-        const protocol::PackedBox box = protocol::box_in_cell(mesh_.triangles[t].corner, grid.cell_size, cell);
-        put(layout_.polygon_list, first++, protocol::ListedPolygon{box, local_polygon(t)});
+      for (protocol::ListedPolygon entry :
+           list_polygons(mesh_.triangles, placement_.polygons_of_cell[index], grid, index)) {
+        if ((entry.polygon & protocol::kGroup) == 0) entry.polygon = local_polygon(entry.polygon);
+        put(layout_.polygon_list, first++, entry);
       }
+      subspace.polygon_count = first - subspace.first_polygon;
       put(layout_.subspaces, local, subspace);
     }
   }

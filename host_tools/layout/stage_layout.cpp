@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
 namespace {
@@ -25,7 +26,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
   Counts counts;
   counts.subspaces = placement.cells_of_pe[pe].size();
   for (const CellIndex cell : placement.cells_of_pe[pe]) {
-    counts.polygon_list += placement.polygons_of_cell[cell].size();
+    counts.polygon_list += listed_entries(placement.polygons_of_cell[cell].size());
   }
   counts.polygons = placement.polygons_of_pe[pe].size();
   std::vector<std::uint32_t> materials;
