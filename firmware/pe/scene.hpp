@@ -39,7 +39,6 @@ struct Scene {
     layout = from;
     subspaces = memory.store<const protocol::Subspace>(layout.subspaces);
     polygon_list = memory.store<const protocol::ListedPolygon>(layout.polygon_list);
-    for (std::size_t a = 0; a < 3; ++a) box_scale[a] = float{protocol::kBoxParts} / layout.cell_size[a];
     polygons = memory.store<const protocol::Polygon>(layout.polygons);
     materials = memory.store<const protocol::Material>(layout.materials);
     normals = memory.store<const protocol::Vec3f>(layout.normals);
@@ -50,12 +49,17 @@ struct Scene {
     elements = memory.store<protocol::Element>(layout.elements);
     facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
-    if (layout.hemicube_size > 0) hemicube_grid = HemicubeGrid(layout.hemicube_size);
     lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);
     texture_points = memory.store<const protocol::TexturePoint>(layout.texture_points);
     emitters = memory.store<const protocol::Emitter>(layout.emitters);
+    prepare();
+  }
+  /// What follows from the layout.
+  void prepare() {
+    for (std::size_t a = 0; a < 3; ++a) box_scale[a] = float{protocol::kBoxParts} / layout.cell_size[a];
+    if (layout.hemicube_size > 0) hemicube_grid = HemicubeGrid(layout.hemicube_size);
   }
 };
 

@@ -190,8 +190,22 @@ class Builder {
       if (!stands_in(scene_.polygons[p], out.layout.cell_size, cell)) continue;
       out.polygon_list.push_back({protocol::box_in_cell(scene_.polygons[p].corner, out.layout.cell_size, cell), p});
     }
+    if (scene_.groups) group_list(out.polygon_list, s.first_polygon);
     s.polygon_count = static_cast<std::uint32_t>(out.polygon_list.size()) - s.first_polygon;
     out.subspaces.push_back(s);
+  }
+
+  /// Behind `first`, in the opposite order: groups of three and what is left over.
+  static void group_list(std::vector<protocol::ListedPolygon>& list, std::size_t first) {
+    const std::vector<protocol::ListedPolygon> entries(list.rbegin(), list.rend() - static_cast<std::ptrdiff_t>(first));
+    list.resize(first);
+    for (std::size_t i = 0; i < entries.size(); i += 3) {
+      const std::size_t end = std::min(entries.size(), i + 3);
+      protocol::PackedBox box = entries[i].box;
+      for (std::size_t k = i; k < end; ++k) box = protocol::box_around(box, entries[k].box);
+      list.push_back({box, protocol::kGroup | static_cast<std::uint32_t>(end - i)});
+      for (std::size_t k = i; k < end; ++k) list.push_back(entries[k]);
+    }
   }
 
   const TestScene& scene_;
@@ -283,6 +297,7 @@ pe::Scene PeStores::scene() {
   s.texels = texels;
   s.texture_points = texture_points;
   s.emitters = emitters;
+  s.prepare();
   return s;
 }
 
