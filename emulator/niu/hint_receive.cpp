@@ -33,6 +33,15 @@ void HintRun::receive() {
   take(*head);
 }
 
+/// A busy processor looks as far as the last tick would have let it see: what had come some time before that.
+std::uint64_t HintRun::last_tick() const {
+  const std::uint64_t cycles = window_.gather.cycles;
+  if (cycles == 0) return clock_;
+  const std::uint64_t tick = clock_ - clock_ % cycles;
+  const std::uint64_t lead = cycles / 4;
+  return tick > lead ? tick - lead : 0;
+}
+
 /// Takes the next of what has come by a time that is not after the clock, if there is one.
 void HintRun::poll(std::uint64_t by) {
   release_listed();

@@ -73,6 +73,9 @@ bool HintRun::execute(Hint hint) {
     case Hint::receive_more:
       poll(state_.gather_end);
       break;
+    case Hint::receive_due:
+      poll(last_tick());
+      break;
     case Hint::clock:
       window_.clock = clock_;
       break;

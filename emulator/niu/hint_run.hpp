@@ -49,6 +49,7 @@ class HintRun {
   void send_message();
   void receive();
   void poll(std::uint64_t by);
+  std::uint64_t last_tick() const;
   void set_slots();
   void take(const Arrival& arrival);
   void take_records(const Arrival& arrival, std::span<const std::byte> records);

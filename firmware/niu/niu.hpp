@@ -113,6 +113,12 @@ class Niu {
     execute<Hint::receive_more>();
     return window().arrival;
   }
+  /// What the NIU would have woken a sleeping processor for by its last tick; kind `none` if nothing. For a processor
+  /// that is busy, and looks now and then.
+  const NiuWindow::Arrival& receive_due() {
+    execute<Hint::receive_due>();
+    return window().arrival;
+  }
   /// `receive` lets records gather until `cycles` after the first one came, or until there are `records` of them.
   void gather(std::uint32_t cycles, std::uint32_t records) { window().gather = {cycles, records}; }
   /// The message of the last arrival of kind `message`; valid until the next one.

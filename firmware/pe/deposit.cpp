@@ -33,7 +33,7 @@ bool deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
     return leave_element(pe, niu, slot, owner.patch);
   }
   record.kind = protocol::RecordKind::deposit;
-  record.subspace = owner.patch;
+  record.place = owner.patch;
   record.polygon = element;
   record.flags = static_cast<std::uint8_t>((record.flags & (protocol::kDirect | protocol::kGoesOn)) |
                                            (hit.front ? 0U : protocol::kBackSide));

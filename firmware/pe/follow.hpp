@@ -14,7 +14,7 @@ namespace torolux::pe {
 /// First detail of FaultCode::bad_record.
 enum class RecordField : std::uint32_t {
   kind,
-  subspace,
+  place,
   entry_axis,
   slot,
   patch,
@@ -22,8 +22,7 @@ enum class RecordField : std::uint32_t {
   element,
   flux,
   waiting,
-  branch_pe,
-  branch_subspace,
+  branch_place,
 };
 
 inline void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {
@@ -34,10 +33,15 @@ inline void check_slot(const Pe& pe, Niu& niu, Slot slot) {
   require(niu, slot < pe.slots.count() && !pe.slots.is_own(slot), RecordField::slot, slot);
 }
 
-/// Where the walk stands, of a record of kind light or seek.
+inline bool inside_grid(const protocol::StageLayout& layout, protocol::CellCode place) {
+  return protocol::cell_along(place, 0) < layout.cells[0] && protocol::cell_along(place, 1) < layout.cells[1] &&
+         protocol::cell_along(place, 2) < layout.cells[2];
+}
+
+/// Where the walk stands, of a record of kind light.
 template <class Record>
 void check_walk(const Pe& pe, Niu& niu, const Record& record) {
-  require(niu, record.subspace < pe.scene.subspaces.size(), RecordField::subspace, record.subspace);
+  require(niu, inside_grid(pe.scene.layout, record.place), RecordField::place, record.place);
   require(niu, (record.flags & protocol::kEntryAxisMask) != protocol::kEntryAxisMask, RecordField::entry_axis,
           record.flags);
 }
@@ -47,7 +51,7 @@ template <class Record>
 Way traverse_record(Pe& pe, Niu& niu, Record& record) {
   Segment segment = segment_of(record);
   niu.enter_phase<Phase::traverse>();
-  const Way way = traverse(pe.scene, niu.pe(), segment);
+  const Way way = traverse(pe.scene, segment);
   niu.leave_phase<Phase::traverse>();
   note_progress(record, segment);
   const std::uint32_t visited = std::min(record.visited + way.visited, protocol::kMostVisits);

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The hemi-cube: a pixel's number in, its weight and direction out. Numbering and table: firmware/protocol/stores.hpp.
+// The hemi-cube: a pixel's number in, its entry in the table and its direction out. Numbering and table:
+// firmware/protocol/stores.hpp.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 #include "firmware/pe/shot.hpp"
 #include "firmware/pe/vectors.hpp"
 #include "firmware/protocol/stores.hpp"
 
 namespace torolux::pe {
+
+/// What is computed once of a hemi-cube of n pixels across the top, n even.
+struct HemicubeGrid {
+  HemicubeGrid() = default;
+  explicit HemicubeGrid(std::uint32_t pixels)
+      : n(pixels), inverse(0xFFFF'FFFFU / pixels + 1U), pixel_size(2.0F / static_cast<float>(pixels)) {}
+  std::uint32_t n = 0;
+  std::uint32_t inverse = 0;  ///< 2^32 / n, rounded up: quotients of pixels' numbers by one multiplication, exactly
+  float pixel_size = 0.0F;    ///< the top's edge is 2 long
+};
+static_assert(std::uint64_t{protocol::hemicube_pixels(protocol::kMostHemicubeSize)} * protocol::kMostHemicubeSize <
+              (1ULL << 32U));
 
 /// Where a pixel lies. On the top, row and column run along the frame's y and x; on a side, the row from the surface
 /// up.
@@ -20,24 +32,31 @@ struct HemicubePixel {
   std::uint32_t row, column;
 };
 
-/// n: pixels across the top, even. number in 0..hemicube_pixels(n)-1.
-inline HemicubePixel hemicube_pixel(std::uint32_t n, std::uint32_t number) {
-  std::uint32_t face = HemicubePixel::kTop;
-  if (number >= n * n) {
-    number -= n * n;
-    face = number / (n * (n / 2U));
-    number -= face * n * (n / 2U);
+/// number in 0..hemicube_pixels(n)-1.
+inline HemicubePixel hemicube_pixel(const HemicubeGrid& grid, std::uint32_t number) {
+  const auto by_n = [&](std::uint32_t x) {
+    return static_cast<std::uint32_t>((std::uint64_t{x} * grid.inverse) >> 32U);
+  };
+  const std::uint32_t top = grid.n * grid.n;
+  if (number < top) {
+    const std::uint32_t row = by_n(number);
+    return {HemicubePixel::kTop, row, number - row * grid.n};
   }
-  const std::uint32_t row = number / n;
-  return {face, row, number - row * n};
+  const std::uint32_t row = by_n(number - top);  // of n / 2 on each side
+  const std::uint32_t face = by_n(2U * row);
+  return {face, row - face * (grid.n / 2U), number - top - row * grid.n};
 }
 
-/// Index into the table of weights.
-inline std::uint32_t weight_of(std::uint32_t n, const HemicubePixel& pixel) {
+/// How many pixels of a row or column lie between pixel i and its middle; beyond it or before it.
+inline std::uint32_t outwards(std::uint32_t half, std::uint32_t i) {
+  return i >= half ? i - half : half - 1U - i;
+}
+
+/// Index into the table (protocol::HemicubeEntry).
+inline std::uint32_t entry_of(std::uint32_t n, const HemicubePixel& pixel) {
   const std::uint32_t half = n / 2U;
-  const auto outwards = [half](std::uint32_t i) { return i >= half ? i - half : half - 1U - i; };
-  if (pixel.face == HemicubePixel::kTop) return outwards(pixel.row) * half + outwards(pixel.column);
-  return half * half + pixel.row * half + outwards(pixel.column);
+  const std::uint32_t row = pixel.face == HemicubePixel::kTop ? outwards(half, pixel.row) : half + pixel.row;
+  return row * half + outwards(half, pixel.column);
 }
 
 /// Two random numbers in [0, 1): where in its pixel.
@@ -45,78 +64,57 @@ struct PixelPoint {
   float along = 0.5F, across = 0.5F;
 };
 
-/// A number in [0, 1] whose density goes from w0 to w1 as straight as a line; u uniform in [0, 1).
-inline float on_slope(float u, float w0, float w1) {
-  const float root = std::sqrt(w0 * w0 + (w1 * w1 - w0 * w0) * u);
-  return root > 0.0F ? u * (w0 + w1) / (w0 + root) : 0.0F;
+/// Where light goes through a pixel by one random number: firmware/protocol/hemicube_bends.hpp.
+inline float bent(float u, float p, float q) {
+  return u + u * (1.0F - u) * (p + q * u);
 }
 
-/// Likewise with a bend halfway, where the density is wm.
-inline float on_two_slopes(float u, float w0, float wm, float w1) {
-  const float before = w0 + wm;
-  const float after = wm + w1;
-  const float at = u * (before + after);
-  if (at < before) return 0.5F * on_slope(at / before, w0, wm);
-  return after > 0.0F ? 0.5F + 0.5F * on_slope((at - before) / after, wm, w1) : 1.0F;
+/// Through a pixel of the top, of unit length in the frame. Its delta form factor per area is
+/// 1 / (pi (1 + x^2 + y^2)^2): spread evenly, too little would go through the pixel's inner part.
+inline glm::vec3 through_top(const HemicubeGrid& grid, const HemicubePixel& pixel, const protocol::HemicubeEntry& entry,
+                             PixelPoint at) {
+  const std::uint32_t half = grid.n / 2U;
+  const float v = bent(at.across, entry.first.p, entry.first.q);
+  const float u = bent(at.along, entry.second.p + entry.second_by.p * v, entry.second.q + entry.second_by.q * v);
+  const float x = (static_cast<float>(outwards(half, pixel.column)) + u) * grid.pixel_size;
+  const float y = (static_cast<float>(outwards(half, pixel.row)) + v) * grid.pixel_size;
+  const float r = 1.0F / std::sqrt((x * x + y * y) + 1.0F);
+  return {pixel.column >= half ? x * r : -(x * r), pixel.row >= half ? y * r : -(y * r), r};
 }
 
-/// A pixel on its face: its lower edges, and its length.
-struct PixelBox {
-  float along, across, size;
-};
-
-/// Where light goes through a pixel of the top. Its delta form factor per area is 1 / (pi (1 + x^2 + y^2)^2), taken as
-/// linear between the pixel's edges and its middle: straight from edge to edge, what lies above the middle of a
-/// hemi-cube of 4 pixels would get 0.7 % too little.
-inline PixelPoint through_top(const PixelBox& box, PixelPoint at) {
-  const auto weight = [](float x, float y) {
-    const float root = 1.0F / (1.0F + (x * x + y * y));
-    return root * root;
-  };
-  const float xm = box.along + 0.5F * box.size;
-  const float x1 = box.along + box.size;
-  const auto over_x = [&](float y) { return (weight(box.along, y) + weight(x1, y)) + 2.0F * weight(xm, y); };
-  const float y = box.across + on_two_slopes(at.across, over_x(box.across), over_x(box.across + 0.5F * box.size),
-                                             over_x(box.across + box.size)) *
-                                   box.size;
-  const float x = on_two_slopes(at.along, weight(box.along, y), weight(xm, y), weight(x1, y));
-  return {box.along + x * box.size, y};
-}
-
-/// Likewise of a side: z / (pi (1 + y^2 + z^2)^2), z up from the surface. Its integral over z is known, so that z is
-/// exact. Were light spread evenly over the pixels at a side's foot, too much of it would go along the surface, into
-/// the nearest corner.
-inline PixelPoint through_side(const PixelBox& box, PixelPoint at) {
-  const float low = box.across * box.across;
-  const float high = (box.across + box.size) * (box.across + box.size);
-  const auto over_z = [low, high](float y) {
-    const float from = 1.0F + y * y;
-    return 1.0F / (from + low) - 1.0F / (from + high);
-  };
-  const float y = box.along + on_two_slopes(at.along, over_z(box.along), over_z(box.along + 0.5F * box.size),
-                                            over_z(box.along + box.size)) *
-                                  box.size;
+/// Likewise of a side: z / (pi (1 + y^2 + z^2)^2), z up from the surface. Were light spread evenly over the pixels at a
+/// side's foot, too much of it would go along the surface, into the nearest corner. Its integral over z,
+/// -1 / 2 (1 + y^2 + z^2), is the squared length that the direction has at the face: so that this one is even between
+/// the pixel's lower and upper edge, and no division is needed to make the direction's length one.
+inline glm::vec3 through_side(const HemicubeGrid& grid, const HemicubePixel& pixel,
+                              const protocol::HemicubeEntry& entry, PixelPoint at) {
+  const std::uint32_t half = grid.n / 2U;
+  const float u = bent(at.along, entry.first.p, entry.first.q);
+  const float y = (static_cast<float>(outwards(half, pixel.column)) + u) * grid.pixel_size;
+  const float foot = static_cast<float>(pixel.row) * grid.pixel_size;
+  const float head = foot + grid.pixel_size;
+  const float low = foot * foot;
   const float from = 1.0F + y * y;
-  const float begin = 1.0F / (from + low);
-  const float square = 1.0F / (begin + (1.0F / (from + high) - begin) * at.across) - from;
-  return {y, square > low ? std::sqrt(square) : box.across};
+  const float to_low = from + low;
+  const float to_high = from + head * head;
+  const float inverse = 1.0F / (to_low * to_high);
+  const float begin = to_high * inverse;                          // 1 / to_low
+  const float part = ((to_high - to_low) * inverse) * at.across;  // of begin - end
+  const float r = std::sqrt(begin - part);
+  const float z = std::sqrt(low * begin + from * part);  // 1 - from * r^2, without its rounding
+  const float yr = pixel.column >= half ? y * r : -(y * r);
+  if (pixel.face == 0) return {r, yr, z};
+  if (pixel.face == 1) return {-yr, r, z};
+  if (pixel.face == 2) return {-r, -yr, z};
+  return {yr, -r, z};
 }
 
-/// Unit length. at: where in the pixel.
-inline glm::vec3 pixel_direction(const Frame& frame, std::uint32_t n, const HemicubePixel& pixel, PixelPoint at) {
-  const float size = 2.0F / static_cast<float>(n);
-  const float column = static_cast<float>(pixel.column) * size - 1.0F;
-  const float row = static_cast<float>(pixel.row) * size;
-  if (pixel.face == HemicubePixel::kTop) {
-    const PixelPoint top = through_top({column, row - 1.0F, size}, at);
-    return glm::normalize((frame.x * top.along + frame.y * top.across) + frame.z);
-  }
-  const PixelPoint side = through_side({column, row, size}, at);
-  const bool odd = (pixel.face & 1U) != 0;
-  const glm::vec3 to_face = odd ? frame.y : frame.x;
-  const glm::vec3 along = odd ? -frame.x : frame.y;
-  const glm::vec3 on_face = to_face + along * side.along;
-  return glm::normalize((pixel.face < 2U ? on_face : -on_face) + frame.z * side.across);
+/// Unit length. entry: the pixel's; at: where in the pixel.
+inline glm::vec3 pixel_direction(const Frame& frame, const HemicubeGrid& grid, const HemicubePixel& pixel,
+                                 const protocol::HemicubeEntry& entry, PixelPoint at) {
+  const glm::vec3 d =
+      pixel.face == HemicubePixel::kTop ? through_top(grid, pixel, entry, at) : through_side(grid, pixel, entry, at);
+  return (frame.x * d.x + frame.y * d.y) + frame.z * d.z;
 }
 
 /// Turns a frame about its z by turn * 90 degrees - 45 degrees, turn in [0, 1): a hemi-cube looks the same after a

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "firmware/pe/pe.hpp"
+#include "firmware/protocol/store_names.hpp"
 
 namespace torolux::pe {
 namespace {
@@ -13,29 +14,13 @@ using protocol::Stage;
 using protocol::StageLayout;
 using protocol::Store;
 
-/// First detail of FaultCode::bad_layout: the stores in their order in StageLayout, then its other fields.
+/// First detail of FaultCode::bad_layout: a StoreName, or one of the layout's other fields.
 enum class LayoutField : std::uint32_t {
-  subspaces,
-  polygon_list,
-  polygons,
-  materials,
-  normals,
-  nodes,
-  record_slots,
-  patch_references,
-  patches,
-  patch_sides,
-  elements,
-  facets,
-  hemicube,
-  lattice,
-  textures,
-  texels,
-  texture_points,
-  emitters,
-  stage,
+  stage = protocol::kStores,
   cells,
   own_slots,
+  open_batches,
+  credits_kept,
   bounces,
   hemicube_size,
   shot_points,
@@ -44,55 +29,25 @@ enum class LayoutField : std::uint32_t {
   cell_size,
   pixel_scale,
   layers,
+  view,
 };
 
-struct Extent {
-  Store store;
-  std::uint32_t element_bytes;
-};
-constexpr std::uint32_t kStores = 18;
-
-std::array<Extent, kStores> extents(const StageLayout& l) {
-  return {{
-      {l.subspaces, sizeof(protocol::Subspace)},
-      {l.polygon_list, sizeof(std::uint32_t)},
-      {l.polygons, sizeof(protocol::Polygon)},
-      {l.materials, sizeof(protocol::Material)},
-      {l.normals, sizeof(protocol::Vec3f)},
-      {l.nodes, sizeof(std::uint32_t)},
-      {l.record_slots, protocol::slot_bytes(l.stage)},
-      {l.patch_references, sizeof(protocol::PatchReference)},
-      {l.patches, sizeof(protocol::Patch)},
-      {l.patch_sides, sizeof(protocol::PatchSide)},
-      {l.elements, sizeof(protocol::Element)},
-      {l.facets, sizeof(protocol::Facet)},
-      {l.hemicube, sizeof(std::uint32_t)},
-      {l.lattice, sizeof(protocol::LatticeTriangle)},
-      {l.textures, sizeof(protocol::Texture)},
-      {l.texels, sizeof(protocol::Texel)},
-      {l.texture_points, sizeof(protocol::TexturePoint)},
-      {l.emitters, sizeof(protocol::Emitter)},
-  }};
-}
+using Extents = std::array<protocol::StoreExtent, protocol::kStores>;
 
 void require(Niu& niu, bool holds, LayoutField field, std::uint32_t value, std::uint32_t count = 0) {
   if (!holds) niu.fail(FaultCode::bad_layout, static_cast<std::uint32_t>(field), value, count);
 }
 
-std::uint64_t end_of(const Extent& extent) {
-  return extent.store.address + std::uint64_t{extent.store.count} * extent.element_bytes;
-}
-
-void check_stores(Niu& niu, const std::array<Extent, kStores>& all) {
-  for (std::uint32_t i = 0; i < kStores; ++i) {
+void check_stores(Niu& niu, const Extents& all) {
+  for (std::uint32_t i = 0; i < protocol::kStores; ++i) {
     const Store& store = all[i].store;
     if (store.count == 0) continue;
     const bool inside =
-        store.address % 8U == 0 && store.address >= niu.memory().stores_begin() && end_of(all[i]) <= niu.memory_end();
+        store.address % 8U == 0 && store.address >= niu.memory().stores_begin() && all[i].end() <= niu.memory_end();
     require(niu, inside, LayoutField{i}, store.address, store.count);
     for (std::uint32_t j = 0; j < i; ++j) {
       if (all[j].store.count == 0) continue;
-      const bool apart = store.address >= end_of(all[j]) || all[j].store.address >= end_of(all[i]);
+      const bool apart = store.address >= all[j].end() || all[j].store.address >= all[i].end();
       require(niu, apart, LayoutField{i}, store.address, store.count);
     }
   }
@@ -105,7 +60,8 @@ bool finite_positive(float value) {
 void check_radiosity(Niu& niu, const StageLayout& l) {
   const std::uint32_t n = l.hemicube_size;
   require(niu, n >= 2 && n % 2U == 0 && n <= protocol::kMostHemicubeSize, LayoutField::hemicube_size, n);
-  require(niu, l.hemicube.count == protocol::hemicube_weights(n), LayoutField::hemicube, l.hemicube.address,
+  require(niu, l.hemicube.count == protocol::hemicube_weights(n),
+          LayoutField{static_cast<std::uint32_t>(protocol::StoreName::hemicube)}, l.hemicube.address,
           l.hemicube.count);
   const auto from_1 = [](std::uint32_t k, std::uint32_t most) { return k >= 1 && k <= most; };
   require(niu, from_1(l.shot_points, protocol::kMostShotPoints), LayoutField::shot_points, l.shot_points);
@@ -115,25 +71,43 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
           static_cast<std::uint32_t>(bits(l.points_per_quantum)));
 }
 
+/// Of the camera rays that the PE makes.
+void check_view(Niu& niu, const StageLayout& l) {
+  const protocol::CameraView& view = l.view;
+  require(niu, view.samples == l.sample_places.count && view.samples <= protocol::kMostPixelSamples,
+          LayoutField::sample_places, view.samples, l.sample_places.count);
+  require(niu, view.filter_bits >= 1 && view.filter_bits <= protocol::kMostFilterBits, LayoutField::view,
+          view.filter_bits);
+  require(niu, l.filter.count == (1U << view.filter_bits) + 1U, LayoutField::filter, l.filter.address, l.filter.count);
+  for (const std::uint32_t edge : {view.width, view.height}) {
+    require(niu, edge >= 1 && edge <= protocol::kMostPictureEdge, LayoutField::view, edge);
+  }
+}
+
 }  // namespace
 
 void check_layout(Niu& niu, const StageLayout& l) {
   const bool known = l.stage == Stage::radiosity || l.stage == Stage::ray_tracing;
   require(niu, known, LayoutField::stage, static_cast<std::uint32_t>(l.stage));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    require(niu, l.cells[axis] >= 1 && l.cells[axis] <= 0xFFFFU, LayoutField::cells, l.cells[axis]);
+    require(niu, l.cells[axis] >= 1 && l.cells[axis] <= protocol::kMostCellsPerAxis, LayoutField::cells, l.cells[axis]);
     require(niu, finite_positive(l.cell_size[axis]), LayoutField::cell_size, static_cast<std::uint32_t>(axis));
   }
-  check_stores(niu, extents(l));
+  check_stores(niu, protocol::store_extents(l));
   const std::uint32_t slots = l.record_slots.count;
-  require(niu, l.own_slots >= protocol::own_slots(l.stage) && l.own_slots < slots && slots <= 0xFFFFU,
+  const bool power = l.open_batches != 0 && (l.open_batches & (l.open_batches - 1U)) == 0;
+  require(niu, power && l.open_batches <= protocol::kMostOpenBatches, LayoutField::open_batches, l.open_batches);
+  require(niu, l.own_slots == protocol::own_slots(l.stage, l.open_batches) && l.own_slots < slots && slots <= 0xFFFFU,
           LayoutField::own_slots, l.own_slots, slots);
+  // With none it would send home what it has just asked for.
+  require(niu, l.credits_kept >= 1, LayoutField::credits_kept, l.credits_kept);
   require(niu, l.bounces >= 1 && l.bounces <= protocol::kMostBounces, LayoutField::bounces, l.bounces);
   if (l.stage == Stage::radiosity) {
     check_radiosity(niu, l);
   } else {
     require(niu, finite_positive(l.pixel_scale), LayoutField::pixel_scale, 0);
     require(niu, l.layers >> protocol::kPlanes == 0, LayoutField::layers, l.layers);
+    if (l.sample_places.count > 0) check_view(niu, l);
   }
 }
 

@@ -36,31 +36,29 @@ class RecordSlots {
   std::uint32_t count_ = 0;
   std::uint32_t own_ = 0;
   std::uint32_t free_count_ = 0;
-  std::array<Slot, protocol::kOwnSlots> free_{};
+  std::array<Slot, protocol::kMostOwnSlots> free_{};
 };
 
 class Outbox {
  public:
-  void set(protocol::Stage stage);
+  void set(const protocol::StageLayout& layout);
   bool empty() const { return used_ == 0; }
-  /// Adds a record; sends its batch if it is now full. A destination beyond the last batch drives out the fullest one,
-  /// of equally full ones the oldest.
+  /// Adds a record; sends its batch if it is now full. Destinations share batches by their lowest bits: one drives out
+  /// the other's.
   void put(Niu& niu, RecordSlots& slots, PeNumber destination, Slot slot);
   void flush(Niu& niu, RecordSlots& slots);
 
  private:
   struct Batch {
-    PeNumber destination;  ///< kNobody: not in use
-    std::uint16_t count;   ///< 0 likewise
-    std::uint32_t opened;  ///< age
+    PeNumber destination;
+    std::uint16_t count;  ///< 0: not in use
     std::array<Slot, protocol::kMostRecordsPerPacket> slots;
   };
-  Batch& batch_for(Niu& niu, RecordSlots& slots, PeNumber destination);
   void send(Niu& niu, RecordSlots& slots, Batch& batch);
 
-  std::array<Batch, protocol::kOpenBatches> batches_{};
+  std::array<Batch, protocol::kMostOpenBatches> batches_{};
   std::uint32_t used_ = 0;
-  std::uint32_t opened_ = 0;
+  std::uint32_t mask_ = 0;
   std::uint32_t most_ = 0;  ///< records in a packet of this stage
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The loop of a PE: sleep until woken, handle what has gathered, send what waits.
+// The loop of a PE: handle what has come, work as long as there is work and credit, else send what waits and sleep.
 #include "firmware/pe/pe.hpp"
 
 namespace torolux::pe {
@@ -7,7 +7,9 @@ namespace {
 
 using protocol::ArrivalKind;
 
+/// Before it sleeps.
 void flush(Pe& pe, Niu& niu) {
+  if (pe.outbox.empty() && pe.homecoming.empty()) return;
   const PhaseMark<Phase::flush> mark(niu);
   pe.outbox.flush(niu, pe.slots);
   pe.homecoming.flush(niu);
@@ -31,15 +33,21 @@ void handle_records(Pe& pe, Niu& niu, const NiuWindow::Arrival& arrival) {
 void run_pe(Pe& pe, Niu& niu) {
   const PhaseMark<Phase::dispatch> mark(niu);
   for (;;) {
-    const NiuWindow::Arrival* arrival = &niu.receive();
-    for (; arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
+    const bool busy = can_work(pe);
+    if (busy) {
+      work(pe, niu);
+    } else {
+      flush(pe, niu);
+    }
+    const NiuWindow::Arrival* arrival = busy ? &niu.receive_due() : &niu.receive();
+    for (; arrival->kind != ArrivalKind::none; arrival = busy ? &niu.receive_due() : &niu.receive_more()) {
       if (arrival->kind == ArrivalKind::records) {
         handle_records(pe, niu, *arrival);
       } else if (!handle_message(pe, niu)) {
         return;
       }
     }
-    if (!pe.outbox.empty() || !pe.homecoming.empty()) flush(pe, niu);
+    if (pe.state == State::running) settle(pe, niu);
   }
 }
 
@@ -49,7 +57,7 @@ void end_record(Pe& pe, Niu& niu, Slot slot) {
   } else {
     niu.release(slot);
   }
-  pe.homecoming.add_credits(niu, 1);
+  ++pe.credits.in_hand;
 }
 
 }  // namespace torolux::pe

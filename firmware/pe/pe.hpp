@@ -10,7 +10,9 @@
 #include "firmware/pe/outbox.hpp"
 #include "firmware/pe/scene.hpp"
 #include "firmware/pe/shot.hpp"
+#include "firmware/pe/tile.hpp"
 #include "firmware/pe/traverse.hpp"
+#include "firmware/pe/work.hpp"
 #include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/stores.hpp"
 
@@ -34,12 +36,17 @@ struct Pe {
   Outbox outbox;
   Homecoming homecoming;
   Shot shot;
+  Points points;
+  Expansion expansion;
+  Tiles tiles;
+  protocol::WorkDone done{};  ///< not told yet
+  Credits credits;
   protocol::Tally tally{};
   protocol::Visits visits{};
   std::array<Choice, protocol::kMostShooters> choices{};
 };
 /// All that the program keeps outside the stores: part of the image, never of the stores' memory.
-static_assert(sizeof(Pe) <= 8U * 1024U);
+static_assert(sizeof(Pe) <= 16U * 1024U);
 
 /// Receives and handles until the host says stop. `pe` is as constructed.
 void run_pe(Pe& pe, Niu& niu);
@@ -72,9 +79,23 @@ bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch);
 /// The record's light has ended: its slot is free, its credit goes home.
 void end_record(Pe& pe, Niu& niu, Slot slot);
 
-// ---- Shots (select.cpp, shoot.cpp) ----
+/// Follows a ray until it leaves this PE or ends (ray_tracing.cpp).
+void follow_ray(Pe& pe, Niu& niu, Slot slot);
+
+// ---- Tiles (tile.cpp) ----
+/// A tile has been dealt, whose rays are to be made here.
+void take_tile(Pe& pe, Niu& niu, const protocol::Tile& tile);
+/// Makes up to `most` rays, as far as there are credits in hand.
+void make_rays(Pe& pe, Niu& niu, std::uint32_t most);
+
+// ---- Shots (select.cpp, shoot.cpp, expand.cpp) ----
 void select_shooters(Pe& pe, Niu& niu, const protocol::Select& select);
 void begin_shot(Pe& pe, Niu& niu, const protocol::Shoot& shoot);
-void grant_credits(Pe& pe, Niu& niu, std::uint32_t credits);
+/// Makes the next points of the shot, and sends each to its PE.
+void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal);
+/// A point has come, to be expanded here.
+void take_point(Pe& pe, Niu& niu, const protocol::PointRecord& point);
+/// Makes up to `most` records, as far as there are credits in hand.
+void expand_points(Pe& pe, Niu& niu, std::uint32_t most);
 
 }  // namespace torolux::pe

@@ -85,23 +85,27 @@ void choose_lobe(const Pe& pe, RadiosityRecord& record, const Hit& hit) {
 
 void check_deposit(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
   const Scene& scene = pe.scene;
-  require(niu, record.subspace < scene.patches.size(), RecordField::patch, record.subspace);
-  const protocol::Patch& patch = scene.patches[record.subspace];
+  require(niu, record.place < scene.patches.size(), RecordField::patch, record.place);
+  const protocol::Patch& patch = scene.patches[record.place];
   const std::uint32_t side = (record.flags & protocol::kBackSide) != 0 ? 1U : 0U;
   require(niu, patch.side[side] != protocol::kNoSide, RecordField::side, side);
   require(niu, record.polygon < patch.elements, RecordField::element, record.polygon);
 }
 
-void check_record(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
+void check_flux(Niu& niu, const protocol::Flux& record_flux) {
   constexpr std::int64_t most_flux = std::int64_t{1} << 56U;  // all of a scene's is 3 * 2^48
-  for (const std::int64_t flux : record.flux) {
+  for (const std::int64_t flux : record_flux) {
     require(niu, flux >= 0 && flux <= most_flux, RecordField::flux, static_cast<std::uint32_t>(flux >> 32U));
   }
+}
+
+void check_record(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
+  check_flux(niu, record.flux);
   if (record.kind == RecordKind::deposit) {
     check_deposit(pe, niu, record);
     return;
   }
-  require(niu, record.kind <= RecordKind::seek, RecordField::kind, static_cast<std::uint32_t>(record.kind));
+  require(niu, record.kind == RecordKind::light, RecordField::kind, static_cast<std::uint32_t>(record.kind));
   check_walk(pe, niu, record);
 }
 
@@ -110,15 +114,23 @@ void check_record(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
 void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
   check_slot(pe, niu, slot);
   const auto& record = pe.slots.at<RadiosityRecord>(slot);
+  if (record.kind == RecordKind::point) {
+    const auto& point = pe.slots.at<protocol::PointRecord>(slot);
+    check_flux(niu, point.flux);
+    require(niu, inside_grid(pe.scene.layout, point.place), RecordField::place, point.place);
+    take_point(pe, niu, point);
+    niu.release(slot);
+    return;
+  }
   check_record(pe, niu, record);
   if (record.kind != RecordKind::deposit) {
     follow_light(pe, niu, slot);
     return;
   }
   const PhaseMark<Phase::deposit> mark(niu);
-  add_to_element(pe, record.subspace, record.polygon, (record.flags & protocol::kBackSide) != 0 ? 1 : 0,
+  add_to_element(pe, record.place, record.polygon, (record.flags & protocol::kBackSide) != 0 ? 1 : 0,
                  (record.flags & protocol::kDirect) != 0, record.flux);
-  if (leave_element(pe, niu, slot, record.subspace)) follow_light(pe, niu, slot);
+  if (leave_element(pe, niu, slot, record.place)) follow_light(pe, niu, slot);
 }
 
 bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch) {
@@ -142,14 +154,14 @@ bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch) {
     end_record(pe, niu, slot);
     return false;
   }
-  record.subspace = from.subspace;
+  record.place = cell_of(pe.scene.layout, to_vector(record.origin));
   record.polygon = record.key;
   // The way was chosen by the record's key, whose place the polygon took: so it makes as good a key itself.
   record.key = pe.scene.layout.seed;
   for (const float x : record.direction) {
     record.key = protocol::hash_combine(record.key, std::bit_cast<std::uint32_t>(x));
   }
-  record.kind = RecordKind::seek;
+  record.kind = RecordKind::light;
   record.flags = protocol::kFirst;
   return true;
 }

@@ -116,17 +116,15 @@ struct Onward {
 };
 
 /// It waits inside the record, which has room, until the present way has ended.
-void add_branch(PeNumber self, RayRecord& record, const Onward& way) {
+void add_branch(RayRecord& record, const Onward& way) {
   Branch& branch = record.branches[record.waiting++];
   branch.origin = to_array(way.origin);
   branch.direction = to_array(way.direction);
   branch.weight = to_array(way.weight);
-  branch.subspace = record.subspace;
+  branch.place = record.place;
   branch.polygon = way.polygon;
   branch.key = way.key;
-  branch.pe = self;
   branch.bounce = way.bounce;
-  branch.flags = protocol::kFirst;
 }
 
 void take(RayRecord& record, const Onward& way) {
@@ -156,7 +154,7 @@ bool choose_lobe(const Pe& pe, const RayRecord& record, const Hit& hit, Onward& 
 
 /// From a diffuse or glossy surface on: by the lobe, and towards an emitter, if shadow rays are asked for; one of them
 /// waits for the other, or where there is no room, one is taken by chance. False: there is neither.
-bool scatter(const Pe& pe, PeNumber self, RayRecord& record, const Hit& hit) {
+bool scatter(const Pe& pe, RayRecord& record, const Hit& hit) {
   Onward lobe;
   const MaterialKind kind = pe.scene.materials[pe.scene.polygons[hit.polygon].material].kind;
   if (kind != MaterialKind::glossy || !choose_lobe(pe, record, hit, lobe)) return aim_at_emitter(pe, record, hit);
@@ -171,12 +169,12 @@ bool scatter(const Pe& pe, PeNumber self, RayRecord& record, const Hit& hit) {
     take(record, lobe);
     return true;
   }
-  add_branch(self, record, lobe);
+  add_branch(record, lobe);
   return aim_at_emitter(pe, record, hit);
 }
 
 /// Turns the ray at mirror or glass. False: nothing of it is worth following.
-bool turn_ray(const Pe& pe, PeNumber self, RayRecord& record, const Hit& hit) {
+bool turn_ray(const Pe& pe, RayRecord& record, const Hit& hit) {
   ++record.bounce;
   if (record.bounce >= pe.scene.layout.bounces) return false;
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
@@ -199,7 +197,7 @@ bool turn_ray(const Pe& pe, PeNumber self, RayRecord& record, const Hit& hit) {
   if (!reflects && !refracts) return false;
   if (reflects && refracts) {  // the reflected way waits until the refracted one has ended
     const std::uint32_t key = protocol::hash_combine(record.key, static_cast<std::uint32_t>(Dimension::branch));
-    add_branch(self, record, {origin, ways.reflected, ways.reflected_weight, polygon.number, key, record.bounce});
+    add_branch(record, {origin, ways.reflected, ways.reflected_weight, polygon.number, key, record.bounce});
   }
   record.weight = to_array(refracts ? ways.refracted_weight : ways.reflected_weight);
   turn(record, origin, refracts ? ways.refracted : ways.reflected, polygon.number);
@@ -211,7 +209,7 @@ void resume_branch(RayRecord& record) {
   record.origin = branch.origin;
   record.direction = branch.direction;
   record.weight = branch.weight;
-  record.subspace = branch.subspace;
+  record.place = branch.place;
   record.polygon = branch.polygon;
   record.key = branch.key;
   record.bounce = branch.bounce;
@@ -226,15 +224,11 @@ bool next_path(Pe& pe, Niu& niu, Slot slot) {
     end_record(pe, niu, slot);
     return false;
   }
-  const PeNumber where = record.branches[record.waiting - 1U].pe;
-  if (where == niu.pe()) {
-    resume_branch(record);
-    return true;
-  }
-  record.kind = RecordKind::branch;
-  pe.outbox.put(niu, pe.slots, where, slot);
-  return false;
+  resume_branch(record);
+  return true;
 }
+
+}  // namespace
 
 void follow_ray(Pe& pe, Niu& niu, Slot slot) {
   auto& record = pe.slots.at<RayRecord>(slot);
@@ -252,30 +246,24 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
       if ((record.flags & protocol::kShadow) != 0) {
         end_shadow(pe, niu, record, way.hit);
       } else if (is_specular(pe.scene.materials[polygon.material].kind)) {
-        goes_on = turn_ray(pe, niu.pe(), record, way.hit);
+        goes_on = turn_ray(pe, record, way.hit);
       } else {
         see_surface(pe, niu, record, way.hit);
-        goes_on = scatter(pe, niu.pe(), record, way.hit);
+        goes_on = scatter(pe, record, way.hit);
       }
     }
     if (!goes_on && !next_path(pe, niu, slot)) return;
   }
 }
 
+namespace {
+
 void check_ray(const Pe& pe, Niu& niu, const RayRecord& record) {
-  const auto subspaces = static_cast<std::uint32_t>(pe.scene.subspaces.size());
-  const bool known = record.kind <= RecordKind::seek || (record.kind == RecordKind::branch && record.waiting > 0);
-  require(niu, known, RecordField::kind, static_cast<std::uint32_t>(record.kind));
+  require(niu, record.kind == RecordKind::light, RecordField::kind, static_cast<std::uint32_t>(record.kind));
   require(niu, record.waiting <= protocol::kMostBranches, RecordField::waiting, record.waiting);
   for (std::uint32_t i = 0; i < record.waiting; ++i) {
     const Branch& branch = record.branches[i];
-    require(niu, branch.pe < niu.pes(), RecordField::branch_pe, branch.pe);
-    require(niu, branch.pe != niu.pe() || branch.subspace < subspaces, RecordField::branch_subspace, branch.subspace);
-  }
-  if (record.kind == RecordKind::branch) {
-    const Branch& last = record.branches[record.waiting - 1U];
-    require(niu, last.pe == niu.pe(), RecordField::branch_pe, last.pe);
-    return;
+    require(niu, inside_grid(pe.scene.layout, branch.place), RecordField::branch_place, branch.place);
   }
   check_walk(pe, niu, record);
 }
@@ -286,7 +274,6 @@ void handle_ray(Pe& pe, Niu& niu, Slot slot) {
   check_slot(pe, niu, slot);
   auto& record = pe.slots.at<RayRecord>(slot);
   check_ray(pe, niu, record);
-  if (record.kind == RecordKind::branch) resume_branch(record);
   follow_ray(pe, niu, slot);
 }
 

@@ -6,12 +6,15 @@
 #include <span>
 
 #include "firmware/niu/memory.hpp"
+#include "firmware/pe/cell_map.hpp"
+#include "firmware/pe/hemicube.hpp"
 #include "firmware/protocol/stores.hpp"
 
 namespace torolux::pe {
 
 struct Scene {
   protocol::StageLayout layout{};
+  CellMap map;
   std::span<const protocol::Subspace> subspaces;
   std::span<const std::uint32_t> polygon_list;
   std::span<const protocol::Polygon> polygons;
@@ -24,16 +27,21 @@ struct Scene {
   std::span<protocol::PatchSide> patch_sides;
   std::span<protocol::Element> elements;
   std::span<const protocol::Facet> facets;
-  std::span<const std::uint32_t> hemicube;
+  std::span<const protocol::HemicubeEntry> hemicube;
+  HemicubeGrid hemicube_grid;
   // Ray tracing stage.
   std::span<const protocol::LatticeTriangle> lattice;
   std::span<const protocol::Texture> textures;
   std::span<const protocol::Texel> texels;
   std::span<const protocol::TexturePoint> texture_points;
+  std::span<const protocol::SamplePlace> sample_places;
+  std::span<const float> filter;
   std::span<const protocol::Emitter> emitters;
 
   void set(const Memory& memory, const protocol::StageLayout& from) {
     layout = from;
+    map = {memory.store<const protocol::CellWord>(layout.cell_words),
+           memory.store<const protocol::CellEntry>(layout.cell_entries)};
     subspaces = memory.store<const protocol::Subspace>(layout.subspaces);
     polygon_list = memory.store<const std::uint32_t>(layout.polygon_list);
     polygons = memory.store<const protocol::Polygon>(layout.polygons);
@@ -45,11 +53,14 @@ struct Scene {
     patch_sides = memory.store<protocol::PatchSide>(layout.patch_sides);
     elements = memory.store<protocol::Element>(layout.elements);
     facets = memory.store<const protocol::Facet>(layout.facets);
-    hemicube = memory.store<const std::uint32_t>(layout.hemicube);
+    hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
+    if (layout.hemicube_size > 0) hemicube_grid = HemicubeGrid(layout.hemicube_size);
     lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);
     texture_points = memory.store<const protocol::TexturePoint>(layout.texture_points);
+    sample_places = memory.store<const protocol::SamplePlace>(layout.sample_places);
+    filter = memory.store<const float>(layout.filter);
     emitters = memory.store<const protocol::Emitter>(layout.emitters);
   }
 };

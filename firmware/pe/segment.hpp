@@ -12,12 +12,11 @@ namespace torolux::pe {
 
 struct Segment {
   glm::vec3 origin;
-  glm::vec3 direction;      ///< unit length
-  std::uint32_t subspace;   ///< local number
-  std::uint32_t polygon;    ///< global number of the polygon that it left, or kNoPolygon
-  bool seeking;             ///< on its way to the subspace of its origin, touching nothing
-  bool first;               ///< still in the subspace where it began
-  std::uint8_t entry_axis;  ///< where not first: 0..2, of the face through which it entered `subspace`
+  glm::vec3 direction;       ///< unit length
+  protocol::CellCode place;  ///< the subspace that it enters next
+  std::uint32_t polygon;     ///< global number of the polygon that it left, or kNoPolygon
+  bool first;                ///< still in the subspace where it began
+  std::uint8_t entry_axis;   ///< where not first: 0..2, of the face through which it enters `place`
 };
 
 /// The walk's state from a record of either stage.
@@ -25,9 +24,8 @@ template <class Record>
 Segment segment_of(const Record& record) {
   return {to_vector(record.origin),
           to_vector(record.direction),
-          record.subspace,
+          record.place,
           record.polygon,
-          record.kind == protocol::RecordKind::seek,
           (record.flags & protocol::kFirst) != 0,
           static_cast<std::uint8_t>((record.flags & protocol::kEntryAxisMask) >> protocol::kEntryAxisShift)};
 }
@@ -35,8 +33,7 @@ Segment segment_of(const Record& record) {
 /// Writes the walk's state back before the record is handed on. Origin and direction never change on the way.
 template <class Record>
 void note_progress(Record& record, const Segment& segment) {
-  record.subspace = segment.subspace;
-  record.kind = segment.seeking ? protocol::RecordKind::seek : protocol::RecordKind::light;
+  record.place = segment.place;
   const std::uint32_t others = record.flags & ~(std::uint32_t{protocol::kFirst} | protocol::kEntryAxisMask);
   record.flags = static_cast<std::uint8_t>(others | (segment.first ? protocol::kFirst : 0U) |
                                            (std::uint32_t{segment.entry_axis} << protocol::kEntryAxisShift));

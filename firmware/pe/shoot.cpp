@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Shots: a patch's flux becomes records, one for each hemi-cube pixel. Enters: a shoot command and credits; leaves:
-// records, each of which is followed at once, and `shot_done`.
+// Shots: a patch's flux becomes points, each on its way to the PE that makes its records. Enters: a shoot command, and
+// who gets the points; leaves: point records.
 #include <algorithm>
 
-#include "firmware/pe/hemicube.hpp"
 #include "firmware/pe/pe.hpp"
 #include "firmware/pe/shot_points.hpp"
-#include "firmware/pe/surface.hpp"
-#include "firmware/pe/walk.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
-#include "firmware/protocol/stratified.hpp"
+#include "firmware/protocol/shot_grid.hpp"
 
 namespace torolux::pe {
 namespace {
 
-using protocol::Dimension;
 using protocol::Flux;
 using protocol::Patch;
 using protocol::Shoot;
 using protocol::ShotKind;
 
-enum class ShootField : std::uint32_t { patch, side, kind, amount };
+enum class ShootField : std::uint32_t { patch, side, kind, amount, deal };
 
 void require(Niu& niu, bool holds, ShootField field, std::uint32_t value) {
   if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
@@ -50,100 +46,22 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
   return flux;
 }
 
-/// Points along one edge of the shot's grid. Little light leaves from few points, so that no record carries much less
-/// than others: what it would add to the picture is not worth its way.
-std::uint32_t grid_of(const protocol::StageLayout& layout, const Shot& shot) {
-  if (shot.command.kind == ShotKind::emitted) return layout.emission_points;
-  const std::int64_t most = std::max({shot.flux[0], shot.flux[1], shot.flux[2]});
-  const float points = static_cast<float>(most) * layout.points_per_quantum;
-  std::uint32_t grid = 1;
-  while (grid < layout.shot_points && static_cast<float>(grid * grid) < points) ++grid;
-  return grid;
-}
-
 std::uint32_t key_of(const Scene& scene, const Shoot& shoot) {
   std::uint32_t key = protocol::hash_combine(scene.layout.seed, scene.patches[shoot.patch].number);
   key = protocol::hash_combine(key, shoot.side * 2U + static_cast<std::uint32_t>(shoot.kind));
   return protocol::hash_combine(key, shoot.number);
 }
 
-/// Sets up the current point: its share of the flux, its place.
-void begin_point(Pe& pe) {
-  Shot& shot = pe.shot;
-  shot.passed = {};
-  shot.weight = 0;
-  shot.next_pixel = 0;
-  const Patch& patch = pe.scene.patches[shot.command.patch];
-  shot.point_key = protocol::hash_combine(shot.key, shot.point);
-  place_point(pe.scene, shot);
-  shot.seeks = seek_face(pe.scene.layout, shot.origin, pe.scene.subspaces[patch.subspace].cell) != protocol::kFaces;
-
-  const protocol::Polygon& polygon = pe.scene.polygons[shot.polygon];
-  const glm::vec3 front = unit_normal(polygon);
-  const glm::vec3 away = shot.command.side == 0 ? front : -front;
-  const glm::vec3 across = glm::normalize(to_vector(polygon.corner[1]) - to_vector(polygon.corner[0]));
-  shot.frame = spun({across, glm::cross(away, across), away}, protocol::uniform(shot.key, Dimension::spin));
-}
-
-/// Moves on to the next pixel that gets any flux. False: the shot is over. Differences of one rising sum, so that
-/// nothing of the flux is lost.
-bool next_pixel(Pe& pe) {
-  Shot& shot = pe.shot;
-  const std::uint32_t n = pe.scene.layout.hemicube_size;
-  for (;;) {
-    if (shot.next_pixel == protocol::hemicube_pixels(n)) {
-      if (++shot.point == shot.grid * shot.grid) return false;
-      begin_point(pe);
-    }
-    shot.pixel = shot.next_pixel++;
-    shot.weight += pe.scene.hemicube[weight_of(n, hemicube_pixel(n, shot.pixel))];
-    bool any = false;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::int64_t passed = protocol::scale_down(shot.share[c], shot.weight);
-      shot.pixel_flux[c] = passed - shot.passed[c];
-      shot.passed[c] = passed;
-      any = any || shot.pixel_flux[c] != 0;
-    }
-    if (any) return true;
+/// To another PE at once: it may be waiting for work.
+void send_point(Pe& pe, Niu& niu, PeNumber destination, const protocol::PointRecord& point) {
+  if (destination == niu.pe()) {
+    take_point(pe, niu, point);
+    return;
   }
-}
-
-void create_record(Pe& pe, Niu& niu) {
-  const Shot& shot = pe.shot;
-  const Patch& patch = pe.scene.patches[shot.command.patch];
-  // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
-  // hemi-cubes there are. The shot's points share the pixel out among themselves: to what is far away they are one
-  // hemi-cube of so many times the pixels.
-  const protocol::StratifiedPair at =
-      protocol::stratified_pair(shot.point, protocol::hash_combine(shot.key, shot.pixel));
-  const std::uint32_t n = pe.scene.layout.hemicube_size;
-  const glm::vec3 direction = pixel_direction(shot.frame, n, hemicube_pixel(n, shot.pixel),
-                                              {protocol::uniform_float(at.x), protocol::uniform_float(at.y)});
   const Slot slot = pe.slots.take(niu);
-  auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
-  record.origin = to_array(shot.origin);
-  record.direction = to_array(direction);
-  record.flux = shot.pixel_flux;
-  record.subspace = patch.subspace;
-  record.polygon = pe.scene.polygons[shot.polygon].number;
-  record.key = protocol::hash_combine(shot.point_key, shot.pixel);
-  record.kind = shot.seeks ? protocol::RecordKind::seek : protocol::RecordKind::light;
-  record.bounce = 0;
-  record.flags =
-      static_cast<std::uint8_t>(protocol::kFirst | (shot.command.kind == ShotKind::emitted ? protocol::kDirect : 0U));
-  record.visited = 0;
-  ++pe.tally.rays;
-  follow_light(pe, niu, slot);
-}
-
-/// Credits that were not needed go home before the shot is reported done.
-void end_shot(Pe& pe, Niu& niu) {
-  pe.shot.active = false;
-  const protocol::ShotDone done{pe.shot.granted - pe.shot.credits};
-  if (pe.shot.credits > 0) pe.homecoming.add_credits(niu, pe.shot.credits);
-  pe.shot.credits = 0;
-  pe.homecoming.flush(niu);
-  niu.send(protocol::MessageKind::shot_done, done);
+  pe.slots.at<protocol::PointRecord>(slot) = point;
+  niu.send_records(destination, std::span(&slot, 1));
+  pe.slots.free_own(slot);
 }
 
 }  // namespace
@@ -153,33 +71,24 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   Shot& shot = pe.shot;
   shot.command = shoot;
   shot.flux = withdraw(pe, niu, shot.command);
-  shot.grid = grid_of(pe.scene.layout, shot);
+  const protocol::StageLayout& layout = pe.scene.layout;
+  shot.points = protocol::points_of_shot(shoot.kind, shot.flux, layout.points_per_quantum, layout.shot_points,
+                                         layout.emission_points);
   shot.key = key_of(pe.scene, shot.command);
   shot.active = true;
   shot.point = 0;
-  shot.credits = 0;
-  shot.granted = 0;
   begin_points(pe.scene, shot);
-  begin_point(pe);
-  if (!next_pixel(pe)) end_shot(pe, niu);
 }
 
-void grant_credits(Pe& pe, Niu& niu, std::uint32_t credits) {
+void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal) {
   const PhaseMark<Phase::shoot> mark(niu);
-  if (!pe.shot.active) {  // granted before the host knew that the shot was over
-    pe.homecoming.add_credits(niu, credits);
-    return;
+  Shot& shot = pe.shot;
+  require(niu, deal.count <= shot.points - shot.point, ShootField::deal, deal.count);
+  for (std::uint32_t i = 0; i < deal.count; ++i) {
+    require(niu, deal.pe[i] < niu.pes(), ShootField::deal, deal.pe[i]);
+    send_point(pe, niu, deal.pe[i], make_point(pe.scene, shot));
   }
-  pe.shot.credits += credits;
-  pe.shot.granted += credits;
-  while (pe.shot.credits > 0) {
-    --pe.shot.credits;
-    create_record(pe, niu);
-    if (!next_pixel(pe)) {
-      end_shot(pe, niu);
-      return;
-    }
-  }
+  shot.active = shot.point < shot.points;
 }
 
 }  // namespace torolux::pe

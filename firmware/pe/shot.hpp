@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A shot in progress: where in the patch's points and the hemi-cube's pixels it is, and what it divides.
+// A shot at its owner, who makes its points; and a point at the PE that makes its records.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/pe/vectors.hpp"
 #include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/stratified.hpp"
+#include "firmware/protocol/stratified.hpp"
 
 namespace torolux::pe {
 
@@ -22,32 +25,30 @@ struct FacetWalk {
 };
 
 struct Shot {
-  bool active = false;
+  bool active = false;  ///< points are left to be dealt
   protocol::Shoot command{};
-  protocol::Flux flux{};      ///< of the whole shot [quanta]
-  std::uint32_t grid = 0;     ///< k: k * k points
-  std::uint32_t key = 0;      ///< of its random numbers
-  std::uint32_t credits = 0;  ///< granted and not used yet
-  std::uint32_t granted = 0;  ///< in all
-  // Of the points: each stands for an equal part of what the facets would send, one behind the other.
-  bool by_area = false;    ///< facets send by their area alone
-  glm::vec3 all{};         ///< what all of them would send
-  FacetWalk walk{};        ///< at the end of the current point's part
-  protocol::Flux given{};  ///< of the flux, to the points up to the current one
-  // Of the current point.
-  std::uint32_t point = 0;
-  std::uint32_t polygon = 0;  ///< index
-  glm::vec3 origin{};
-  bool seeks = false;  ///< the point lies outside the subspace that holds the patch's centre
-  Frame frame{};       ///< spun, by the same turn at all points
-  std::uint32_t point_key = 0;
-  protocol::Flux share{};  ///< of the flux
-  // Of the current pixel: the next record to create.
-  std::uint32_t pixel = 0;
-  std::uint32_t next_pixel = 0;
+  protocol::Flux flux{};     ///< of the whole shot [quanta]
+  std::uint32_t points = 0;  ///< in all
+  std::uint32_t key = 0;     ///< of its random numbers
+  std::uint32_t point = 0;   ///< the next one
+  bool by_area = false;      ///< facets send by their area alone
+  glm::vec3 all{};           ///< what all of them would send
+  FacetWalk walk{};          ///< at the end of the last point's part: each has an equal part of what facets send
+  protocol::Flux given{};    ///< of the flux, to the points before
+};
+
+/// Where in a point's hemi-cube the next record is, and what it divides.
+struct Expansion {
+  bool active = false;
+  protocol::PointRecord point{};
+  std::uint32_t number = 0;  ///< of the point in its shot
+  std::uint32_t key = 0;     ///< of the point's random numbers
+  Frame frame{};             ///< spun, by the same turn at all points of the shot
+  std::uint32_t pixel = 0;   ///< the next record's
   protocol::Flux pixel_flux{};
-  protocol::Flux passed{};   ///< of the share, to the pixels up to this one
-  std::uint64_t weight = 0;  ///< of the pixels up to this one; 2^32 is all
+  std::uint32_t next_pixel = 0;
+  protocol::StratifiedPair within{};    ///< where in the pixels the point goes through them; each has a shift of its own
+  std::array<std::uint32_t, 3> rest{};  ///< of the flux: less than a quantum, for the next pixel (next_part)
 };
 
 }  // namespace torolux::pe

@@ -3,6 +3,7 @@
 // path of its grid; the row is cut into equal parts, and each point lies somewhere in its own.
 #include "firmware/pe/shot_points.hpp"
 
+#include "firmware/pe/surface.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
@@ -114,20 +115,35 @@ void begin_points(const Scene& scene, Shot& shot) {
   shot.all = sent_by_all(scene, shot);
 }
 
-void place_point(const Scene& scene, Shot& shot) {
-  const std::uint32_t points = shot.grid * shot.grid;
-  const float part = sum_of(shot.all) / static_cast<float>(points);
+protocol::PointRecord make_point(const Scene& scene, Shot& shot) {
+  const float part = sum_of(shot.all) / static_cast<float>(shot.points);
   const auto begin = static_cast<float>(shot.point);
-  const float at = begin + protocol::uniform(shot.point_key, protocol::Dimension::place);
+  const std::uint32_t key = protocol::hash_combine(shot.key, shot.point);
+  const float at = begin + protocol::uniform(key, protocol::Dimension::place);
   const float along = walk_to(scene, shot, at * part, shot.walk);
   const Facet& facet = scene.facets[scene.patches[shot.command.patch].first_facet + shot.walk.facet];
-  shot.polygon = facet.polygon;
-  shot.origin = point_of(scene.polygons[facet.polygon], facet.code, along);
+  const protocol::Polygon& polygon = scene.polygons[facet.polygon];
+  const glm::vec3 origin = point_of(polygon, facet.code, along);
+  const glm::vec3 front = unit_normal(polygon);
 
+  const bool last = shot.point + 1U == shot.points;
   const float into = walk_to(scene, shot, (begin + 1.0F) * part, shot.walk);
-  const protocol::Flux given = shot.point + 1U == points ? shot.flux : given_until(scene, shot, into);
-  for (std::size_t c = 0; c < 3; ++c) shot.share[c] = given[c] - shot.given[c];
+  const protocol::Flux given = last ? shot.flux : given_until(scene, shot, into);
+  protocol::PointRecord point{};
+  for (std::size_t c = 0; c < 3; ++c) point.flux[c] = given[c] - shot.given[c];
   shot.given = given;
+
+  point.origin = to_array(origin);
+  point.normal = to_array(shot.command.side == 0 ? front : -front);
+  point.place = cell_of(scene.layout, origin);
+  point.polygon = polygon.number;
+  point.key = shot.key;
+  point.kind = protocol::RecordKind::point;
+  point.number_low = static_cast<std::uint8_t>(shot.point);
+  point.number_high = static_cast<std::uint8_t>(shot.point >> 8U);
+  point.flags = shot.command.kind == protocol::ShotKind::emitted ? protocol::kDirect : std::uint8_t{0};
+  ++shot.point;
+  return point;
 }
 
 }  // namespace torolux::pe

@@ -12,8 +12,7 @@ namespace torolux::pe {
 /// so that nothing leaves from below what stands on it. The elements count as shot from then on.
 void begin_points(const Scene& scene, Shot& shot);
 
-/// Sets polygon, origin and share of the shot's current point. Points 0, 1, ... of grid * grid in this order. Their
-/// shares add up to the shot's flux exactly.
-void place_point(const Scene& scene, Shot& shot);
+/// The shot's next point. Their shares of the flux add up to all of it exactly.
+protocol::PointRecord make_point(const Scene& scene, Shot& shot);
 
 }  // namespace torolux::pe

@@ -11,8 +11,6 @@
 namespace torolux::pe {
 namespace {
 
-using protocol::kNobody;
-using protocol::PeNumber;
 using protocol::Polygon;
 using protocol::Subspace;
 
@@ -28,20 +26,19 @@ struct Nearest {
 bool counts_behind_origin(const Segment& segment, const Polygon& polygon, const Crossing& crossing) {
   constexpr float reach = 0x1p-14F;
   constexpr float depth = 0x1p-20F;
-  if (!segment.first || !(crossing.t > -reach) || !(crossing.sum > 0.0F)) return false;
+  if (!(crossing.t > -reach) || !(crossing.sum > 0.0F)) return false;
   const float slope = glm::dot(segment.direction, unit_normal(polygon));
   return slope < 0.0F && crossing.t * slope <= depth;
 }
 
 void find_nearest(const Scene& scene, const Subspace& here, const Segment& segment, const Walk& walk,
                   const Shear& shear, Reach& reach, Nearest& nearest) {
-  const float t_in = segment.first || bits(walk.t_in()) < 0 ? 0.0F : walk.t_in();
+  const float t_in = walk.first() || bits(walk.t_in()) < 0 ? 0.0F : walk.t_in();
   reach.set_interval(t_in, walk.t_out());
   // The outer faces of the object space end no interval: walls often lie in them, and rounding puts their hits on
   // either side.
-  const bool open_begin = segment.first || here.neighbour_pe[walk.entry_face(segment.entry_axis)] == kNobody;
-  const bool last = here.neighbour_pe[walk.exit_face()] == kNobody;
-  const float t_out = last ? std::numeric_limits<float>::infinity() : walk.t_out();
+  const bool open_begin = walk.first() || walk.came_from_outside();
+  const float t_out = walk.goes_outside() ? std::numeric_limits<float>::infinity() : walk.t_out();
   const std::uint32_t* index = scene.polygon_list.data() + here.first_polygon;
   const std::uint32_t* const end = index + here.polygon_count;
   for (; index != end; ++index) {
@@ -50,7 +47,7 @@ void find_nearest(const Scene& scene, const Subspace& here, const Segment& segme
     Crossing crossing;
     if (!cross_triangle(shear, polygon, crossing)) continue;
     const bool counts = crossing.t > 0.0F ? crossing.t <= t_out && (open_begin || crossing.t > t_in)
-                                          : counts_behind_origin(segment, polygon, crossing);
+                                          : walk.first() && counts_behind_origin(segment, polygon, crossing);
     if (counts && crossing.t < nearest.t) {
       nearest.crossing = crossing;
       nearest.t = crossing.t;
@@ -65,62 +62,35 @@ Hit hit_of(const Nearest& nearest) {
           nearest.crossing.sum > 0.0F};
 }
 
-/// Walks to the subspace that holds the origin. False: it is another PE's (`next`), segment.subspace its number there.
-bool seek(const Scene& scene, PeNumber self, Segment& segment, PeNumber& next) {
-  for (;;) {
-    const Subspace& here = scene.subspaces[segment.subspace];
-    const std::uint32_t face = seek_face(scene.layout, segment.origin, here.cell);
-    if (face == protocol::kFaces || here.neighbour_pe[face] == kNobody) {
-      segment.seeking = false;
-      segment.first = true;
-      return true;
+/// From a cell at which it stops: the subspace there, or the next one that holds anything. nullptr where the way ends
+/// before, and `way` says how.
+inline const Subspace* next_full(const Scene& scene, Walk& walk, Way& way) {
+  do {
+    const protocol::CellEntry entry = scene.map.entry(walk.index());
+    if ((entry & protocol::kHeld) == 0) {
+      way.end = WayEnd::handed_on;
+      way.next = static_cast<protocol::PeNumber>(entry);
+      return nullptr;
     }
-    segment.subspace = here.neighbour[face];
-    next = here.neighbour_pe[face];
-    if (next != self) return false;
-  }
+    ++way.visited;
+    const Subspace& here = scene.subspaces[entry & ~protocol::kHeld];
+    if (here.polygon_count != 0) return &here;
+  } while (walk.advance(scene.map));
+  way.end = WayEnd::escaped;
+  return nullptr;
 }
 
-/// Goes through the exit face. False: the next subspace is not here, and `way` says why.
-inline bool step(const Scene& scene, PeNumber self, Segment& segment, Walk& walk, const Subspace*& here, Way& way) {
-  const std::uint32_t face = walk.exit_face();
-  way.next = here->neighbour_pe[face];
-  if (way.next == kNobody) {
-    way.end = WayEnd::escaped;
-    return false;
-  }
-  segment.subspace = here->neighbour[face];
-  segment.first = false;
-  segment.entry_axis = static_cast<std::uint8_t>(walk.exit_axis());
-  if (way.next != self) {
-    way.end = WayEnd::handed_on;
-    return false;
-  }
-  here = &scene.subspaces[segment.subspace];
-  ++way.visited;
-  walk.cross(*here);
-  return true;
-}
-
-}  // namespace
-
-Way traverse(const Scene& scene, PeNumber self, Segment& segment) {
+/// The first hit in this PE's subspaces, if there is one before the way ends otherwise.
+Way look_along(const Scene& scene, const Segment& segment, Walk& walk) {
   Way way{};
-  if (segment.seeking && !seek(scene, self, segment, way.next)) {
-    way.end = WayEnd::handed_on;
-    return way;
-  }
-  const Subspace* here = &scene.subspaces[segment.subspace];
-  way.visited = 1;
-  Walk walk(scene.layout, segment, *here);
-  // Most subspaces hold no polygon: what only those need of the ray waits until one does.
-  while (here->polygon_count == 0) {
-    if (!step(scene, self, segment, walk, here, way)) return way;
-  }
+  way.end = WayEnd::escaped;
+  if (!scene.map.stops(walk.index()) && !walk.advance(scene.map)) return way;
+  const Subspace* here = next_full(scene, walk, way);
+  if (here == nullptr) return way;
+  // Only who looks into a subspace needs this of the ray.
   const Shear shear(segment.origin, segment.direction, walk.inverse());
   Reach reach(segment.origin, segment.direction, walk.inverse());
   do {
-    if (here->polygon_count == 0) continue;
     Nearest nearest;
     find_nearest(scene, *here, segment, walk, shear, reach, nearest);
     if (nearest.polygon != protocol::kNoPolygon) {
@@ -128,7 +98,23 @@ Way traverse(const Scene& scene, PeNumber self, Segment& segment) {
       way.hit = hit_of(nearest);
       return way;
     }
-  } while (step(scene, self, segment, walk, here, way));
+    if (!walk.advance(scene.map)) {
+      way.end = WayEnd::escaped;
+      return way;
+    }
+    here = next_full(scene, walk, way);
+  } while (here != nullptr);
+  return way;
+}
+
+}  // namespace
+
+Way traverse(const Scene& scene, Segment& segment) {
+  Walk walk(scene.layout, segment);
+  const Way way = look_along(scene, segment, walk);
+  segment.place = walk.place();
+  segment.first = walk.first();
+  segment.entry_axis = walk.entry_axis();
   return way;
 }
 

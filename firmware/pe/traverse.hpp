@@ -21,7 +21,7 @@ struct Hit {
 
 enum class WayEnd : std::uint8_t {
   hit,
-  handed_on,  ///< segment.subspace is the next one's number at PE `next`
+  handed_on,  ///< PE `next` has the subspace at segment.place, or a copy of it
   escaped,
 };
 
@@ -29,10 +29,10 @@ struct Way {
   WayEnd end;
   protocol::PeNumber next;
   Hit hit;
-  std::uint32_t visited;  ///< subspaces of this PE through which it went, without those where it sought its origin
+  std::uint32_t visited;  ///< subspaces that this PE holds through which it went
 };
 
-/// self: this PE's number. `segment` is moved along.
-Way traverse(const Scene& scene, protocol::PeNumber self, Segment& segment);
+/// `segment` is moved along.
+Way traverse(const Scene& scene, Segment& segment);
 
 }  // namespace torolux::pe

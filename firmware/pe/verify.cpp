@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Checks every index in the stores once, before a stage begins: the handlers trust them afterwards.
+#include <bit>
 #include <cstddef>
 
 #include "firmware/pe/pe.hpp"
@@ -8,18 +9,17 @@
 namespace torolux::pe {
 namespace {
 
-using protocol::kFaces;
-using protocol::kNobody;
 using protocol::Polygon;
 using protocol::Stage;
 using protocol::Subspace;
 
 /// First detail of FaultCode::outside_store: which index; then its value and the limit.
 enum class Index : std::uint32_t {
-  cell,
-  neighbour,
-  neighbour_pe,
-  neighbour_cell,
+  cell_words,
+  cell_rank,
+  cell_beyond,
+  cell_entries,
+  cell_holder,
   polygon_list,
   polygon,
   list_order,
@@ -35,7 +35,6 @@ enum class Index : std::uint32_t {
   reference_pe,
   reference_patch,
   reference_side,
-  patch_subspace,
   facet,
   facet_polygon,
   facet_code,
@@ -59,6 +58,7 @@ class Verifier {
   Verifier(Niu& niu, const Scene& scene) : niu_(niu), scene_(scene) {}
 
   void all() {
+    check_map();
     for (const Subspace& subspace : scene_.subspaces) check(subspace);
     for (const Polygon& polygon : scene_.polygons) check(polygon);
     for (const protocol::Material& material : scene_.materials) check(material);
@@ -82,12 +82,6 @@ class Verifier {
   }
 
   void check(const Subspace& s) {
-    for (std::size_t axis = 0; axis < 3; ++axis) below(Index::cell, s.cell[axis], scene_.layout.cells[axis]);
-    for (std::uint32_t face = 0; face < kFaces; ++face) {
-      if (s.neighbour_pe[face] == kNobody) continue;
-      below(Index::neighbour_pe, s.neighbour_pe[face], niu_.pes());
-      if (s.neighbour_pe[face] == niu_.pe()) check_neighbour(s, face);
-    }
     range(Index::polygon_list, s.first_polygon, s.polygon_count, scene_.polygon_list.size());
     for (std::uint32_t i = 0; i < s.polygon_count; ++i) {
       const std::uint32_t* entry = &scene_.polygon_list[s.first_polygon + i];
@@ -96,13 +90,25 @@ class Verifier {
       require(rises, Index::list_order, entry[0], 0);
     }
   }
-  /// A neighbour on this PE lies one cell on: so a walk always ends.
-  void check_neighbour(const Subspace& s, std::uint32_t face) {
-    below(Index::neighbour, s.neighbour[face], scene_.subspaces.size());
-    const Subspace& other = scene_.subspaces[s.neighbour[face]];
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t step = face / 2U != axis ? 0U : face % 2U == 1U ? 1U : 0xFFFF'FFFFU;
-      require(other.cell[axis] == s.cell[axis] + step, Index::neighbour_cell, s.neighbour[face], face);
+  /// Every bit has an entry, and every entry a subspace here or another PE: so a walk always ends.
+  void check_map() {
+    const auto& cells = scene_.layout.cells;
+    const std::uint32_t count = cells[0] * cells[1] * cells[2];
+    require(scene_.map.words.size() == protocol::cell_words(count), Index::cell_words, count, scene_.map.words.size());
+    std::uint32_t entries = 0;
+    for (const protocol::CellWord& word : scene_.map.words) {
+      require(word.before == entries, Index::cell_rank, word.before, entries);
+      entries += static_cast<std::uint32_t>(std::popcount(word.stops));
+    }
+    const std::uint32_t beyond = count % 32U == 0 ? 0 : scene_.map.words.back().stops >> (count % 32U);
+    require(beyond == 0, Index::cell_beyond, beyond, count);
+    require(scene_.map.entries.size() == entries, Index::cell_entries, entries, scene_.map.entries.size());
+    for (const protocol::CellEntry entry : scene_.map.entries) {
+      if ((entry & protocol::kHeld) != 0) {
+        below(Index::cell_holder, entry & ~protocol::kHeld, scene_.subspaces.size());
+      } else {
+        require(entry < niu_.pes() && entry != niu_.pe(), Index::cell_holder, entry, niu_.pes());
+      }
     }
   }
 
@@ -199,7 +205,6 @@ class Verifier {
   }
 
   void check(const protocol::Patch& patch) {
-    below(Index::patch_subspace, patch.subspace, scene_.subspaces.size());
     require(patch.facets > 0, Index::facet, patch.number, 0);
     range(Index::facet, patch.first_facet, patch.facets, scene_.facets.size());
     for (const protocol::Facet& facet : scene_.facets.subspan(patch.first_facet, patch.facets)) check(patch, facet);
@@ -224,7 +229,7 @@ class Verifier {
     const std::uint32_t n = scene_.layout.hemicube_size;
     const std::uint32_t top = n / 2U * (n / 2U);
     std::uint64_t sum = 0;
-    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i) sum += scene_.hemicube[i] * (i < top ? 4ULL : 8ULL);
+    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i) sum += scene_.hemicube[i].weight * (i < top ? 4ULL : 8ULL);
     require(sum == protocol::kOne, Index::hemicube_sum, static_cast<std::uint32_t>(sum),
             static_cast<std::uint32_t>(sum >> 32U));
   }

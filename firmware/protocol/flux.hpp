@@ -18,6 +18,16 @@ constexpr std::int64_t scale_down(std::int64_t amount, std::uint64_t numerator) 
   return static_cast<std::int64_t>(high + (low >> 32U));
 }
 
+/// Divides an amount by weights that add up to 2^32, without losing any of it: the next part is what
+/// scale_down(amount, weights up to this one) has risen by. rest: 0 before the first; keeps the part of a quantum that
+/// is left over. amount in 0..2^62.
+constexpr std::int64_t next_part(std::int64_t amount, std::uint32_t weight, std::uint32_t& rest) {
+  const auto value = static_cast<std::uint64_t>(amount);
+  const std::uint64_t low = (value & 0xFFFF'FFFFU) * weight + rest;
+  rest = static_cast<std::uint32_t>(low);
+  return static_cast<std::int64_t>((value >> 32U) * weight + (low >> 32U));
+}
+
 /// Reflectances and the like in flux arithmetic: 2^32 is one, rounded to nearest in `to_fraction`.
 using Fraction = std::uint64_t;  ///< 0..2^32; a glossy lobe's to 2^33
 inline constexpr Fraction kOne = Fraction{1} << 32U;

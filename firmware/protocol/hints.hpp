@@ -32,6 +32,9 @@ enum class Hint : std::int32_t {
   /// As `receive_if_any`, but only for the rest of what had gathered when the NIU last woke the processor, or would
   /// have, had it not been busy. So the answer depends on what other PEs did in the past, and not now.
   receive_more = 9,
+  /// As `receive_if_any`, but only for what the NIU would have woken the processor for by now at the ticks of
+  /// `window.gather`: for a processor that has work, and looks now and then. Its answer, too, depends on the past only.
+  receive_due = 10,
   /// enter_phase + p and leave_phase + p, p in 0..kPhases-1: markers for the profile. They cost no cycles and may nest.
   enter_phase = 64,
   leave_phase = 128,

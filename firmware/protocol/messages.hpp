@@ -15,17 +15,21 @@ enum class MessageKind : std::uint16_t {
   // host -> PE
   configure = kFirstProgramMessage,  ///< StageLayout; the PE checks it and fails the run where it does not hold
   load,                              ///< LoadBlock, then its bytes
+  load_store,                        ///< LoadStore, then its bytes: to all PEs at once
   begin,                             ///< nothing follows; answer: ready
   select,                            ///< Select; answer: candidates, one or more messages
-  shoot,                             ///< Shoot; answer, when its last record has been created: shot_done
-  grant,                             ///< Grant: credits for the shot in progress
+  shoot,                             ///< Shoot: what the points that are dealt next are of
+  deal,                              ///< Deal: who gets the shot's next points
+  tile,                              ///< Tile: pixels whose rays this PE makes; answer, when it has: work_done
+  grant,                             ///< Grant: credits for the records that this PE makes
   read,                              ///< Read; answer: data
   report,                            ///< nothing follows; answer: tally
   stop,                              ///< nothing follows; the PE halts
   // PE -> host
   ready,       ///< nothing follows
   candidates,  ///< Candidates
-  shot_done,   ///< ShotDone; grants not used up come back in a `credits` message before it
+  work_done,   ///< WorkDone: points, or tiles, that this PE has made into records
+  need,        ///< nothing follows: it has work, and no credits; answer: grant, as soon as there are any
   credits,     ///< Credits that have come home
   data,        ///< LoadBlock, then its bytes
   tally,       ///< StageReport
@@ -43,6 +47,14 @@ struct LoadBlock {
 };
 inline constexpr std::uint32_t kMostLoadBytes = kMostMessageBytes - sizeof(LoadBlock);
 using Read = LoadBlock;
+
+/// Into a store, wherever it lies: for what all PEs have at the same place of it.
+struct LoadStore {
+  std::uint32_t store;   ///< StoreName; not the record slots
+  std::uint32_t offset;  ///< bytes from its beginning, a multiple of 4
+  std::uint32_t bytes;   ///< 1..kMostLoadStoreBytes, a multiple of 4
+};
+inline constexpr std::uint32_t kMostLoadStoreBytes = kMostMessageBytes - sizeof(LoadStore);
 
 /// The S best sides by unshot flux. S is a function of the scene alone.
 struct Select {
@@ -84,12 +96,28 @@ struct Shoot {
 };
 static_assert(sizeof(Shoot) == 40);
 
+/// The shot's next points go to these PEs, one to each, in this order. When all its points have been dealt, the shot is
+/// over for its owner.
+struct Deal {
+  static constexpr std::uint32_t kMost = 64;
+  std::uint32_t count;  ///< 1..kMost; only so many are sent
+  std::array<PeNumber, kMost> pe;
+};
+
+/// A rectangle of the picture.
+struct Tile {
+  std::uint16_t column, row;    ///< of its first pixel; row 0 on top
+  std::uint16_t columns, rows;  ///< 1 or more
+};
+static_assert(sizeof(Tile) == 8);
+
 struct Grant {
   std::uint32_t credits;
 };
 
-struct ShotDone {
-  std::uint32_t records;  ///< that the shot has made
+struct WorkDone {
+  std::uint32_t points;   ///< finished since the last such message; ray tracing stage: tiles
+  std::uint32_t records;  ///< made since
 };
 
 struct Credits {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Records: the state of one hemi-cube pixel's or one ray's light on its way. One record is one credit.
+// Records: the state of one hemi-cube pixel's or one ray's light on its way. One record is one credit; a point, which
+// becomes records elsewhere, is none (docs/credits.md).
 // Lengths are in scene space normalised to the unit cube, flux in quanta (emitted flux * 2^-48), radiance in
 // units of the scene's greatest emitted radiance.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
+#include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux::protocol {
@@ -21,9 +24,8 @@ using Flux = std::array<std::int64_t, 3>;  ///< R, G, B [quanta]
 
 enum class RecordKind : std::uint8_t {
   light,    ///< looks for the first polygon on its way
-  seek,     ///< light or ray that walks to the subspace of its origin first, touching nothing on the way
   deposit,  ///< flux on its way to the owner of the element that it met (radiosity stage)
-  branch,   ///< a ray whose current path has ended, on its way to where its waiting branch begins (ray tracing stage)
+  point,    ///< a point of a shot on its way to the PE that makes its records (radiosity stage): a PointRecord
 };
 
 /// Bits of `flags`.
@@ -42,10 +44,10 @@ struct RadiosityRecord {
   Vec3f origin;
   Vec3f direction;  ///< unit length
   Flux flux;
-  std::uint32_t subspace;  ///< local number at the PE that receives it; deposit: local patch number
-  std::uint32_t polygon;   ///< global number of the polygon that it left, or kNoPolygon; deposit: element of the patch
-  std::uint32_t key;  ///< random numbers of this record: hash of (seed, patch, shot, point, pixel); kGoesOn: global
-                      ///< number of the polygon that it leaves
+  std::uint32_t place;    ///< cell code of the subspace that it enters; deposit: the owner's number of the patch
+  std::uint32_t polygon;  ///< global number of the polygon that it left, or kNoPolygon; deposit: element of the patch
+  std::uint32_t key;      ///< random numbers of this record: hash of (seed, patch, shot, point, pixel); kGoesOn: global
+                          ///< number of the polygon that it leaves
   RecordKind kind;
   std::uint8_t bounce;  ///< mirror, glass and glossy events so far
   std::uint8_t flags;
@@ -53,17 +55,34 @@ struct RadiosityRecord {
 };
 static_assert(sizeof(RadiosityRecord) == 64);
 
+/// Radiosity stage: one of a shot's points, with all that the PE that makes its records must know. It travels as a
+/// RadiosityRecord does, and has its kind and flags where that has them.
+struct PointRecord {
+  Vec3f origin;
+  Vec3f normal;           ///< unit length, of the side that shoots
+  Flux flux;              ///< to be divided among the hemi-cube's pixels
+  std::uint32_t place;    ///< cell code of the subspace that holds `origin`
+  std::uint32_t polygon;  ///< global number of the polygon that its light leaves
+  std::uint32_t key;      ///< hash of (seed, patch, shot)
+  RecordKind kind;
+  std::uint8_t number_low;  ///< of the point in its shot, 16 bits
+  std::uint8_t flags;       ///< kDirect of emitted light
+  std::uint8_t number_high;
+};
+static_assert(sizeof(PointRecord) == sizeof(RadiosityRecord));
+static_assert(offsetof(PointRecord, kind) == offsetof(RadiosityRecord, kind));
+static_assert(offsetof(PointRecord, flags) == offsetof(RadiosityRecord, flags));
+
 /// A second way of a ray (of refraction and reflection) that waits until the first has ended.
 struct Branch {
   Vec3f origin;
   Vec3f direction;
   Vec3f weight;
-  std::uint32_t subspace;  ///< local number at `pe`
+  std::uint32_t place;  ///< cell code
   std::uint32_t polygon;
   std::uint32_t key;
-  std::uint16_t pe;
   std::uint8_t bounce;
-  std::uint8_t flags;
+  std::uint8_t unused[3];
 };
 static_assert(sizeof(Branch) == 52);
 
@@ -72,9 +91,9 @@ inline constexpr std::uint32_t kMostBranches = 2;
 /// Ray tracing stage: one sample's light path, followed from the eye.
 struct RayRecord {
   Vec3f origin;
-  Vec3f direction;  ///< unit length
-  Vec3f weight;     ///< of what it sees, R G B, divided by the number of samples per pixel
-  std::uint32_t subspace;
+  Vec3f direction;      ///< unit length
+  Vec3f weight;         ///< of what it sees, R G B, divided by the number of samples per pixel
+  std::uint32_t place;  ///< cell code of the subspace that it enters
   std::uint32_t polygon;
   std::uint32_t key;     ///< random numbers: hash of (seed, pixel, sample, branches taken)
   std::uint32_t pixel;   ///< row * width + column

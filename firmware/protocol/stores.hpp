@@ -6,7 +6,10 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/protocol/camera_ray.hpp"
+#include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/hemicube_bends.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/records.hpp"
 #include "firmware/protocol/texture.hpp"
@@ -16,18 +19,12 @@ namespace torolux::protocol {
 /// How far beyond a subspace's box a polygon still stands in it, so that rounding never hides a hit.
 inline constexpr float kSubspaceMargin = 0x1p-13F;
 
-/// Faces of a subspace: 2 * axis + (1 for the upper one).
-inline constexpr std::uint32_t kFaces = 6;
-
+/// A subspace that a PE holds, its own or a copy.
 struct Subspace {
-  std::array<std::uint32_t, kFaces> neighbour;  ///< local number at the PE named next
-  std::array<PeNumber, kFaces> neighbour_pe;    ///< kNobody: outside the object space
-  std::array<std::uint16_t, 3> cell;            ///< x, y, z, counted from 0
-  std::uint16_t unused;
   std::uint32_t first_polygon;  ///< index into the polygon list
   std::uint32_t polygon_count;
 };
-static_assert(sizeof(Subspace) == 52);
+static_assert(sizeof(Subspace) == 8);
 
 /// Which sides of a polygon have elements (or, in the ray tracing stage, lattice values).
 inline constexpr std::uint8_t kFrontPresent = 1;
@@ -96,11 +93,10 @@ struct Patch {
   std::uint32_t first_facet;  ///< index into the facets
   std::uint32_t facets;
   std::uint32_t elements;                    ///< of each side
-  std::uint32_t subspace;                    ///< local number of the subspace that holds its centre
   std::array<std::uint32_t, 2> side;         ///< front, back: index into the patch sides, or kNoSide
   std::array<std::uint32_t, 3> reflectance;  ///< diffuse, a texture's mean over the patch; in units of 2^-32
 };
-static_assert(sizeof(Patch) == 40);
+static_assert(sizeof(Patch) == 36);
 
 /// A flat part of one element, from which it shoots: the whole of it where a polygon is cut into elements, less where a
 /// thing stands on it, one of many where an element is a cluster of small triangles. Facets of a patch follow its
@@ -196,14 +192,18 @@ constexpr std::uint32_t records_per_packet(Stage stage) {
   const std::uint32_t fit = kMostPacketBytes / slot_bytes(stage);
   return fit < kMostRecordsPerPacket ? fit : kMostRecordsPerPacket;
 }
-/// Packets that a PE fills at a time, each for another PE.
-inline constexpr std::uint32_t kOpenBatches = 8;
-/// Slots of its own that a PE needs: created records wait in open batches, and one is in the making. In the ray tracing
-/// stage it creates none.
-constexpr std::uint32_t own_slots(Stage stage) {
-  return stage == Stage::radiosity ? kOpenBatches * records_per_packet(stage) + 1U : 0U;
+/// Packets that a PE fills at a time, each for another PE: at most so many, a power of two.
+inline constexpr std::uint32_t kMostOpenBatches = 64;
+/// Slots of its own that a PE needs: created records wait in open batches, and one is in the making.
+constexpr std::uint32_t own_slots(Stage stage, std::uint32_t open_batches) {
+  return open_batches * (records_per_packet(stage) - 1U) + 1U;
 }
-inline constexpr std::uint32_t kOwnSlots = own_slots(Stage::radiosity);
+inline constexpr std::uint32_t kMostOwnSlots = own_slots(Stage::radiosity, kMostOpenBatches);
+static_assert(own_slots(Stage::ray_tracing, kMostOpenBatches) <= kMostOwnSlots);
+/// Points that wait at a PE to be expanded, the current one included: the host deals no PE more.
+inline constexpr std::uint32_t kPointPlaces = 4;
+/// Tiles of the picture likewise.
+inline constexpr std::uint32_t kTilePlaces = 2;
 
 /// Path segments are counted in a byte of the record.
 inline constexpr std::uint32_t kMostBounces = 255;
@@ -219,6 +219,8 @@ struct StageLayout {
   std::uint32_t seed;
   std::array<std::uint32_t, 3> cells;  ///< Gx, Gy, Gz
   Vec3f cell_size;                     ///< plane i of an axis lies at float(i) * cell_size
+  Store cell_words;                    ///< CellWord[cell_words(Gx * Gy * Gz)]
+  Store cell_entries;                  ///< CellEntry[]: of the cells with a bit in the words, by index
   Store subspaces;                     ///< Subspace[]
   Store polygon_list;                  ///< uint32_t[]: indices into polygons, ascending global number per subspace
   Store polygons;                      ///< Polygon[]
@@ -227,6 +229,8 @@ struct StageLayout {
   Store nodes;                         ///< uint32_t[]: trees over polygons, see triangle_grid.hpp
   Store record_slots;                  ///< RadiosityRecord[] or RayRecord[]: own_slots, then the NIU's
   std::uint32_t own_slots;
+  std::uint32_t open_batches;                   ///< a power of two, 1..kMostOpenBatches
+  std::uint32_t credits_kept;                   ///< that a PE keeps in hand while it has work
   std::uint32_t gather_cycles, gather_records;  ///< NiuWindow::gather
   std::uint32_t bounces;                        ///< path segments after which light is cut off
   // Radiosity stage (counts 0 in the other).
@@ -235,7 +239,7 @@ struct StageLayout {
   Store patch_sides;              ///< PatchSide[]
   Store elements;                 ///< Element[]
   Store facets;                   ///< Facet[]
-  Store hemicube;                 ///< uint32_t[hemicube_weights(hemicube_size)]
+  Store hemicube;                 ///< HemicubeEntry[hemicube_weights(hemicube_size)]
   std::uint32_t hemicube_size;    ///< N, even
   std::uint32_t shot_points;      ///< k: k * k points at most per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light
@@ -245,11 +249,14 @@ struct StageLayout {
   Store textures;        ///< Texture[]
   Store texels;          ///< Texel[]
   Store texture_points;  ///< TexturePoint[]
+  Store sample_places;   ///< SamplePlace[view.samples]; empty: the host makes the camera rays
+  Store filter;          ///< float[2^view.filter_bits + 1], or empty likewise
+  CameraView view;
   Store emitters;        ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
   float pixel_scale;     ///< quanta per unit of radiance
   float least_weight;    ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 220);
+static_assert(sizeof(StageLayout) == 328);
 
 }  // namespace torolux::protocol

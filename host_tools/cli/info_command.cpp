@@ -78,6 +78,11 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
   const auto& cells = plan.subspaces;
   line("subspaces", std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]) +
                         ", " + grouped(plan.filled_subspaces) + " with anything in them, " + machine.allocation);
+  if (machine.scheme == Scheme::spread)
+    line("on every PE", grouped(plan.radiosity_copies.cells) + " subspaces (" +
+                            bytes_text(plan.radiosity_copies.bytes) + ") in the radiosity stage, " +
+                            grouped(plan.ray_tracing_copies.cells) + " (" + bytes_text(plan.ray_tracing_copies.bytes) +
+                            ") in the ray tracing stage");
   line("neighbours", fixed(plan.mean_neighbour_hops, 2) + " hops apart on average");
   line("PEs", std::to_string(machine.columns) + " x " + std::to_string(machine.rows) + " with " +
                   bytes_text(plan.local_memory_bytes) + " each");

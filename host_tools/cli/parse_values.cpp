@@ -235,6 +235,18 @@ ToneCurve parse_tone_curve(const std::string& text) {
   throw UsageError(in_quotes(text) + " is no tone curve; there are: filmic, linear");
 }
 
+Scheme parse_scheme(const std::string& text) {
+  for (const Scheme scheme : {Scheme::spread, Scheme::paper}) {
+    if (text == name_of(scheme)) return scheme;
+  }
+  wrong_form(text, "a scheme; there are: spread, paper");
+}
+
+std::optional<double> parse_fraction(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  return parse_number(text, 0, 1);
+}
+
 bool parse_direct(const std::string& text) {
   if (text != "radiosity" && text != "shadow-rays") {
     throw UsageError("\"" + text + "\" is no way; there are: radiosity, shadow-rays");

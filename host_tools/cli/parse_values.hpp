@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emulator/engines/debugging.hpp"
+#include "host_tools/layout/scheme.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/render/presets.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
@@ -57,6 +58,11 @@ std::vector<double> parse_rates(const std::string& text);
 
 /// "radiosity" or "shadow-rays". True: shadow rays.
 bool parse_direct(const std::string& text);
+
+/// "spread" or "paper".
+Scheme parse_scheme(const std::string& text);
+/// A fraction 0..1, or "auto" (absent).
+std::optional<double> parse_fraction(const std::string& text);
 
 PixelFilter parse_filter(const std::string& text);
 /// The name of a quality preset.

@@ -249,12 +249,24 @@ void add_machine_options(CLI::App& command, RenderOptions& options) {
             [&options](const std::string& text) { options.subspaces = SubspacesOption{parse_subspaces(text)}; })
       ->default_str("auto")
       ->group(group);
-  add_value(command, "--allocation", "NAME", "Which PE holds which subspace: " + std::string(kAllocations),
+  add_value(
+      command, "--scheme", "NAME",
+      "How the scene and the work are shared out: spread (copies of what is hot on every PE, work dealt to whoever "
+      "has little), or paper (as published: owners shoot, every face between PEs is a hand-over)",
+      [&options](const std::string& text) { options.scheme = parse_scheme(text); })
+      ->default_str(std::string(name_of(built_in.scheme)))
+      ->group(group);
+  add_value(command, "--allocation", "NAME",
+            "Which PE holds which subspace: " + std::string(kAllocations) + " [balanced; --scheme paper: skewed]",
             [&options](const std::string& text) {
               check_allocation(text);
               options.allocation = text;
             })
-      ->default_str(built_in.allocation)
+      ->group(group);
+  add_value(command, "--replicate", "FRACTION|auto",
+            "Most of a PE's memory for copies of subspaces that stand on every PE, 0 to 1; auto: what fits",
+            [&options](const std::string& text) { options.replicate = parse_fraction(text); })
+      ->default_str("auto")
       ->group(group);
   command
       .add_flag("--enter-empty", options.enter_empty,

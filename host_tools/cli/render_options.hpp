@@ -12,6 +12,7 @@
 #include "emulator/engines/debugging.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
+#include "host_tools/layout/scheme.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/render/presets.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
@@ -68,6 +69,8 @@ struct RenderOptions {
   std::optional<std::array<std::uint32_t, 2>> pes;
   std::optional<std::uint32_t> pe_memory;
   std::optional<SubspacesOption> subspaces;
+  std::optional<Scheme> scheme;
+  std::optional<double> replicate;  ///< absent: as much as fits
   std::optional<std::string> allocation, engine;
   Debugging debugging;
   FaultOptions faults;
@@ -94,8 +97,8 @@ void add_view_options(CLI::App& command, RenderOptions& options);
 void add_light_options(CLI::App& command, RenderOptions& options);
 /// --set: KEY=VALUE of the machine's parameters, checked, into `values`.
 void add_machine_values_option(CLI::App& command, std::vector<std::string>& values, const std::string& group);
-/// --pes, --pe-memory, --subspaces, --allocation, --enter-empty, --machine, --set, --ideal, --jitter, --fault,
-/// --threads.
+/// --pes, --pe-memory, --subspaces, --scheme, --allocation, --replicate, --enter-empty, --machine, --set, --ideal,
+/// --jitter, --fault, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
 /// --engine.
 void add_engine_option(CLI::App& command, RenderOptions& options);

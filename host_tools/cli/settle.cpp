@@ -144,6 +144,9 @@ MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   else if (scene.defaults.subspaces)
     from_scene(scene.defaults.subspaces_place, "subspaces",
                [&] { machine.subspaces = parse_subspaces(*scene.defaults.subspaces); });
+  machine.scheme = options.scheme.value_or(machine.scheme);
+  machine.replicate = options.replicate;
+  machine.allocation = allocation_of(machine.scheme);
   if (!options.allocation && scene.defaults.allocation)
     from_scene(scene.defaults.allocation_place, "allocation", [&] { check_allocation(*scene.defaults.allocation); });
   pick(machine.allocation, options.allocation, scene.defaults.allocation);

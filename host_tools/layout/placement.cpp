@@ -3,99 +3,132 @@
 #include "host_tools/layout/placement.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/layout/owners.hpp"
 
 namespace torolux {
 namespace {
 
 using protocol::PeNumber;
 
-/// Rough costs of a record in cycles, from a trial on paper (notes on load balance) and the latency table.
-constexpr double kCyclesPerVisit = 600;
-constexpr double kCyclesPerTest = 40;
-constexpr double kCyclesPerRecordMade = 400;
-
-std::vector<CellIndex> cells_of_patches(const Mesh& mesh, const Grid& grid) {
-  std::vector<CellIndex> cells;
-  cells.reserve(mesh.patches.size());
-  for (const MeshPatch& patch : mesh.patches) cells.push_back(grid.index(grid.cell_of(to_float(patch.centre))));
-  return cells;
+void sort_unique(std::vector<std::uint32_t>& numbers, std::size_t from) {
+  const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(from);
+  std::sort(begin, numbers.end());
+  numbers.erase(std::unique(begin, numbers.end()), numbers.end());
 }
 
-/// What each cell is expected to cost in the radiosity stage.
-std::vector<CellCost> predict(const Mesh& mesh, const Placement& placement, const std::vector<CellIndex>& patch_cell,
-                              double records_per_patch) {
-  const Grid& grid = placement.grid;
-  const double records = records_per_patch * static_cast<double>(mesh.patches.size());
-  const double crossed = 0.75 * (grid.cells[0] + grid.cells[1] + grid.cells[2]) / 1.5;
-  const double visits = records * crossed / grid.count();
-  std::vector<CellCost> costs(grid.count());
-  for (CellIndex cell = 0; cell < grid.count(); ++cell) {
-    const auto polygons = static_cast<double>(placement.polygons_of_cell[cell].size());
-    costs[cell].cycles = static_cast<std::uint64_t>(visits * (kCyclesPerVisit + kCyclesPerTest * polygons));
-    costs[cell].bytes = sizeof(protocol::Subspace);
-    for (const std::uint32_t t : placement.polygons_of_cell[cell]) {
-      const MeshTriangle& triangle = mesh.triangles[t];
-      costs[cell].bytes +=
-          sizeof(protocol::Polygon) + sizeof(std::uint32_t) + triangle.facets * sizeof(protocol::LatticeTriangle);
-    }
-  }
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    const MeshPatch& patch = mesh.patches[p];
-    CellCost& cost = costs[patch_cell[p]];
-    cost.cycles += static_cast<std::uint64_t>(records_per_patch * kCyclesPerRecordMade);
-    cost.bytes += sizeof(protocol::Patch) + patch.facets * sizeof(protocol::Facet);
-    for (const std::uint32_t side : patch.side) {
-      if (side == protocol::kNoSide) continue;
-      cost.bytes += sizeof(protocol::PatchSide) + patch.elements * sizeof(protocol::Element);
-    }
-  }
-  return costs;
-}
-
-void spread(const Mesh& mesh, const std::vector<CellIndex>& patch_cell, Placement& placement) {
+/// Subspaces and their polygons.
+void spread_cells(Placement& placement) {
   const unsigned pes = placement.torus.pes();
-  placement.cells_of_pe.resize(pes);
-  placement.polygons_of_pe.resize(pes);
-  placement.patches_of_pe.resize(pes);
+  std::vector<CellIndex> common;
+  std::vector<std::uint32_t> polygons;
   placement.local_of_cell.resize(placement.grid.count());
   for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
+    const auto& of_cell = placement.polygons_of_cell[cell];
+    if (!of_cell.empty()) ++placement.filled_cells;
+    placement.stop_cell.push_back(placement.scheme == Scheme::paper || !of_cell.empty());
+    if (placement.stop_cell.back()) ++placement.stops;
+    if (!placement.common_cell[cell]) continue;
+    placement.local_of_cell[cell] = static_cast<std::uint32_t>(common.size());
+    common.push_back(cell);
+    polygons.insert(polygons.end(), of_cell.begin(), of_cell.end());
+  }
+  sort_unique(polygons, 0);
+  placement.common_cells = static_cast<std::uint32_t>(common.size());
+  placement.common_polygons = static_cast<std::uint32_t>(polygons.size());
+  placement.cells_of_pe.assign(pes, common);
+  placement.polygons_of_pe.assign(pes, polygons);
+  for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
+    const auto& of_cell = placement.polygons_of_cell[cell];
+    if (placement.common_cell[cell] || !placement.stop_cell[cell]) continue;
     const PeNumber pe = placement.pe_of_cell[cell];
     placement.local_of_cell[cell] = static_cast<std::uint32_t>(placement.cells_of_pe[pe].size());
     placement.cells_of_pe[pe].push_back(cell);
-    const auto& polygons = placement.polygons_of_cell[cell];
-    if (!polygons.empty()) ++placement.filled_cells;
-    placement.polygons_of_pe[pe].insert(placement.polygons_of_pe[pe].end(), polygons.begin(), polygons.end());
+    placement.polygons_of_pe[pe].insert(placement.polygons_of_pe[pe].end(), of_cell.begin(), of_cell.end());
   }
-  for (std::uint32_t patch = 0; patch < mesh.patches.size(); ++patch) {
-    const CellIndex cell = patch_cell[patch];
-    const PeNumber pe = placement.pe_of_cell[cell];
-    placement.patch_home.push_back({pe, static_cast<std::uint32_t>(placement.patches_of_pe[pe].size()), cell});
+}
+
+/// Patches, and polygons that only they bring.
+void spread_patches(const Mesh& mesh, const std::vector<CellIndex>& patch_cell, const std::vector<PeNumber>& homes,
+                    Placement& placement) {
+  placement.patches_of_pe.resize(placement.torus.pes());
+  for (std::uint32_t patch = 0; patch < homes.size(); ++patch) {
+    const PeNumber pe = homes[patch];
+    const auto local = static_cast<std::uint32_t>(placement.patches_of_pe[pe].size());
+    placement.patch_home.push_back({pe, local, patch_cell[patch]});
     placement.patches_of_pe[pe].push_back(patch);
     // Its owner shoots from all of a patch, though a cluster's triangles may lie beyond the owner's subspaces.
     for (std::uint32_t f = 0; f < mesh.patches[patch].facets; ++f) {
       placement.polygons_of_pe[pe].push_back(mesh.facets[mesh.patches[patch].first_facet + f].triangle);
     }
   }
+}
+
+/// Leaves behind the common polygons those that are not among them.
+void order_polygons(Placement& placement) {
   for (auto& polygons : placement.polygons_of_pe) {
-    std::sort(polygons.begin(), polygons.end());
-    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+    const auto own = polygons.begin() + placement.common_polygons;
+    const auto is_common = [&](std::uint32_t t) { return std::binary_search(polygons.begin(), own, t); };
+    polygons.erase(std::remove_if(own, polygons.end(), is_common), polygons.end());
+    sort_unique(polygons, placement.common_polygons);
   }
 }
 
 }  // namespace
 
-Placement make_placement(const Mesh& mesh, const PlacementChoice& choice) {
+std::optional<std::uint32_t> Placement::local_polygon(PeNumber pe, std::uint32_t triangle) const {
+  const std::vector<std::uint32_t>& polygons = polygons_of_pe[pe];
+  const auto own = polygons.begin() + common_polygons;
+  for (const auto& [begin, end] : {std::pair(polygons.begin(), own), std::pair(own, polygons.end())}) {
+    const auto found = std::lower_bound(begin, end, triangle);
+    if (found != end && *found == triangle) return static_cast<std::uint32_t>(found - polygons.begin());
+  }
+  return std::nullopt;
+}
+
+Placement Placement::with_nobody() const {
+  Placement more = *this;
+  const auto first = [](const auto& list, std::uint32_t count) {
+    return std::remove_cvref_t<decltype(list)>(list.begin(), list.begin() + count);
+  };
+  more.cells_of_pe.push_back(first(cells_of_pe.front(), common_cells));
+  more.polygons_of_pe.push_back(first(polygons_of_pe.front(), common_polygons));
+  more.patches_of_pe.emplace_back();
+  return more;
+}
+
+std::uint32_t Placement::idle_pes() const {
+  std::uint32_t idle = 0;
+  for (unsigned pe = 0; pe < torus.pes(); ++pe) {
+    if (polygons_of_pe[pe].empty() && patches_of_pe[pe].empty()) ++idle;
+  }
+  return idle;
+}
+
+Placement make_placement(const Mesh& mesh, const Grid& grid, std::vector<std::vector<std::uint32_t>> polygons_of_cell,
+                         const PlacementChoice& choice, const StageLoad& load) {
   Placement placement;
   placement.torus = choice.torus;
-  placement.grid = make_grid(mesh.space, choice.subspaces, mesh.triangles.size(), choice.torus.pes());
-  placement.polygons_of_cell = polygons_by_cell(placement.grid, mesh.triangles);
-  const std::vector<CellIndex> patch_cell = cells_of_patches(mesh, placement.grid);
-  const std::vector<CellCost> costs = predict(mesh, placement, patch_cell, choice.records_per_patch);
-  placement.pe_of_cell = allocate(choice.allocation, placement.grid, placement.torus, costs);
-  spread(mesh, patch_cell, placement);
+  placement.grid = grid;
+  placement.scheme = choice.scheme;
+  placement.polygons_of_cell = std::move(polygons_of_cell);
+  placement.common_cell = load.common_cell;
+  placement.common_cell.resize(grid.count());
+  const std::vector<CellIndex> patch_cell = cells_of_patches(mesh, grid);
+  const Owners owners = choose_owners(mesh, placement, patch_cell, choice.allocation, load);
+  placement.pe_of_cell = owners.of_cell;
+  spread_cells(placement);
+  spread_patches(mesh, patch_cell, owners.of_patch, placement);
+  order_polygons(placement);
   return placement;
+}
+
+Placement make_placement(const Mesh& mesh, const PlacementChoice& choice) {
+  const Grid grid = make_grid(mesh.space, choice.subspaces, mesh.triangles.size(), choice.torus.pes());
+  return make_placement(mesh, grid, polygons_by_cell(grid, mesh.triangles), choice, {});
 }
 
 }  // namespace torolux

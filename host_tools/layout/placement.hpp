@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/protocol/machine.hpp"
+#include "host_tools/layout/heat.hpp"
+#include "host_tools/layout/scheme.hpp"
 #include "host_tools/mesh/mesh.hpp"
 #include "host_tools/subspace/allocation.hpp"
 #include "host_tools/subspace/grid.hpp"
@@ -16,30 +19,60 @@ namespace torolux {
 struct PatchHome {
   protocol::PeNumber pe = 0;
   std::uint32_t local = 0;  ///< local number at `pe`
-  CellIndex cell = 0;       ///< that holds its centre
+  CellIndex cell = 0;       ///< that holds its centre; scheme `spread`: not always one of the PE's
 };
 
+/// Of one stage, or (scheme `paper`) of both.
 struct Placement {
   TorusSize torus;
   Grid grid;
+  Scheme scheme = Scheme::paper;
   std::vector<std::vector<std::uint32_t>> polygons_of_cell;  ///< ascending
+  /// Of a common cell, and of one that nobody holds: any PE.
   std::vector<protocol::PeNumber> pe_of_cell;
-  std::vector<std::uint32_t> local_of_cell;
-  std::vector<std::vector<CellIndex>> cells_of_pe;         ///< ascending: local number -> cell
-  std::vector<std::vector<std::uint32_t>> polygons_of_pe;  ///< ascending: local number -> triangle
-  std::vector<std::vector<std::uint32_t>> patches_of_pe;   ///< ascending: local number -> global patch
-  std::vector<PatchHome> patch_home;                       ///< by global patch
+  std::vector<bool> stop_cell;               ///< by cell: a ray must stop there. Scheme `paper`: everywhere
+  std::uint32_t stops = 0;                   ///< such cells
+  std::vector<bool> common_cell;             ///< by cell: it stands on every PE
+  std::vector<std::uint32_t> local_of_cell;  ///< where it is held
+  /// Local number -> cell: the common ones, ascending, then the PE's own, ascending. Scheme `spread`: nobody holds the
+  /// empty ones.
+  std::vector<std::vector<CellIndex>> cells_of_pe;
+  std::uint32_t common_cells = 0;
+  /// Local number -> triangle: those of common cells, ascending, then what else the PE needs, ascending.
+  std::vector<std::vector<std::uint32_t>> polygons_of_pe;
+  std::uint32_t common_polygons = 0;
+  std::vector<std::vector<std::uint32_t>> patches_of_pe;  ///< ascending: local number -> global patch
+  std::vector<PatchHome> patch_home;                      ///< by global patch
   std::uint64_t filled_cells = 0;
+
+  /// Absent: the PE does not have it.
+  std::optional<std::uint32_t> local_polygon(protocol::PeNumber pe, std::uint32_t triangle) const;
+  /// The same with one PE more behind the others, which has what all have, and nothing of its own.
+  Placement with_nobody() const;
+  /// PEs without a cell with anything in it and without a patch.
+  std::uint32_t idle_pes() const;
 };
 
 struct PlacementChoice {
   TorusSize torus;
   std::optional<std::array<std::uint32_t, 3>> subspaces;
   std::string allocation = "skewed";
-  double records_per_patch = 12288;  ///< expected in the radiosity stage; for `balanced` only
+  Scheme scheme = Scheme::paper;
+};
+
+/// What a placement is made for.
+struct StageLoad {
+  protocol::Stage stage = protocol::Stage::radiosity;
+  const Heat* heat = nullptr;          ///< for `balanced`; null: by memory alone
+  std::vector<bool> common_cell = {};  ///< scheme `spread`; empty: none
+  /// `balanced` gives a PE at most so many times the mean of its own memory, but what is owned by one cell.
+  double most_memory = kMostMemory;
 };
 
 /// Throws UsageError: unknown allocation, grid out of range.
 Placement make_placement(const Mesh& mesh, const PlacementChoice& choice);
+/// The same on a grid whose lists are known.
+Placement make_placement(const Mesh& mesh, const Grid& grid, std::vector<std::vector<std::uint32_t>> polygons_of_cell,
+                         const PlacementChoice& choice, const StageLoad& load);
 
 }  // namespace torolux

@@ -26,23 +26,26 @@ class ImageWriter {
         pe_(pe),
         units_(units),
         layout_(layout.layout),
-        bytes_((layout.load_end - layout.layout.subspaces.address + 3) / 4 * 4) {}
+        bytes_((layout.load_end - layout.layout.cell_words.address + 3) / 4 * 4) {}
 
   std::vector<std::byte> radiosity() {
     write_subspaces();
     write_polygons(nullptr);
     write_patch_references();
     write_patches();
-    const std::vector<std::uint32_t> weights = make_hemicube_weights(layout_.hemicube_size);
-    put_all(layout_.hemicube, weights);
+    write_hemicube();
     return std::move(bytes_);
   }
 
-  std::vector<std::byte> ray_tracing(const Lattice& lattice) {
+  std::vector<std::byte> ray_tracing(const Lattice& lattice, const CameraTables& camera) {
     write_subspaces();
     write_textures();
     write_polygons(&lattice);
-    if (layout_.emitters.count > 0) put_all(layout_.emitters, emitters(scene_, mesh_, units_));
+    if (layout_.emitters.count > 0) put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
+    if (layout_.sample_places.count > 0) {
+      put_all<protocol::SamplePlace>(layout_.sample_places, camera.sample_places);
+      put_all<float>(layout_.filter, camera.filter);
+    }
     return std::move(bytes_);
   }
 
@@ -50,67 +53,55 @@ class ImageWriter {
   template <typename T>
   void put(const Store& store, std::size_t index, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const std::size_t at = store.address - layout_.subspaces.address + index * sizeof(T);
+    const std::size_t at = store.address - layout_.cell_words.address + index * sizeof(T);
     if (index >= store.count || at + sizeof(T) > bytes_.size()) throw MachineFailure("a store was laid out too small");
     std::memcpy(bytes_.data() + at, &value, sizeof(T));
   }
   template <typename T>
-  void put_all(const Store& store, const std::vector<T>& values) {
+  void put_all(const Store& store, std::span<const T> values) {
     for (std::size_t i = 0; i < values.size(); ++i) put(store, i, values[i]);
   }
 
   std::uint32_t local_polygon(std::uint32_t triangle) const {
-    const auto& polygons = placement_.polygons_of_pe[pe_];
-    const auto found = std::lower_bound(polygons.begin(), polygons.end(), triangle);
-    if (found == polygons.end() || *found != triangle) throw MachineFailure("a patch lies outside its polygon");
-    return static_cast<std::uint32_t>(found - polygons.begin());
+    const auto local = placement_.local_polygon(pe_, triangle);
+    if (!local) throw MachineFailure("a patch lies outside its polygon");
+    return *local;
   }
 
   void write_subspaces() {
-    const Grid& grid = placement_.grid;
     std::uint32_t first = 0;
     for (std::size_t local = 0; local < placement_.cells_of_pe[pe_].size(); ++local) {
-      const CellIndex index = placement_.cells_of_pe[pe_][local];
-      const auto cell = grid.cell(index);
-      protocol::Subspace subspace{};
-      for (std::uint32_t face = 0; face < protocol::kFaces; ++face) {
-        const std::uint32_t axis = face / 2;
-        const bool upper = face % 2 == 1;
-        subspace.neighbour_pe[face] = protocol::kNobody;
-        if (upper ? cell[axis] + 1 == grid.cells[axis] : cell[axis] == 0) continue;
-        auto next = cell;
-        next[axis] = upper ? cell[axis] + 1 : cell[axis] - 1;
-        subspace.neighbour[face] = placement_.local_of_cell[grid.index(next)];
-        subspace.neighbour_pe[face] = placement_.pe_of_cell[grid.index(next)];
-      }
-      for (std::size_t axis = 0; axis < 3; ++axis) subspace.cell[axis] = static_cast<std::uint16_t>(cell[axis]);
-      const auto& polygons = placement_.polygons_of_cell[index];
-      subspace.first_polygon = first;
-      subspace.polygon_count = static_cast<std::uint32_t>(polygons.size());
+      const auto& polygons = placement_.polygons_of_cell[placement_.cells_of_pe[pe_][local]];
+      put(layout_.subspaces, local, protocol::Subspace{first, static_cast<std::uint32_t>(polygons.size())});
       for (const std::uint32_t t : polygons) put(layout_.polygon_list, first++, local_polygon(t));
-      put(layout_.subspaces, local, subspace);
     }
+    write_cell_map();
   }
 
-  /// Materials that this PE's polygons use, ascending.
-  std::vector<std::uint32_t> materials() const {
-    std::vector<std::uint32_t> used;
-    for (const std::uint32_t t : placement_.polygons_of_pe[pe_]) used.push_back(mesh_.triangles[t].material);
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    return used;
+  void write_cell_map() {
+    std::vector<protocol::CellWord> words(layout_.cell_words.count);
+    std::uint32_t entries = 0;
+    for (CellIndex cell = 0; cell < placement_.grid.count(); ++cell) {
+      if (cell % 32 == 0) words[cell / 32].before = entries;
+      if (!placement_.stop_cell[cell]) continue;
+      words[cell / 32].stops |= 1U << (cell % 32);
+      const bool here = placement_.common_cell[cell] || placement_.pe_of_cell[cell] == pe_;
+      const protocol::CellEntry entry =
+          here ? protocol::held_as(placement_.local_of_cell[cell]) : protocol::CellEntry{placement_.pe_of_cell[cell]};
+      put(layout_.cell_entries, entries++, entry);
+    }
+    put_all<protocol::CellWord>(layout_.cell_words, words);
   }
 
   /// lattice: null in the radiosity stage.
   void write_polygons(const Lattice* lattice) {
-    const std::vector<std::uint32_t> used = materials();
     const std::vector<std::uint32_t> textures = textures_of_pe(mesh_, placement_, pe_);
-    for (std::size_t m = 0; m < used.size(); ++m) {
-      protocol::Material material = machine_material(scene_.materials[used[m]], units_);
-      const auto texture = std::lower_bound(textures.begin(), textures.end(), scene_.materials[used[m]].texture);
-      if (lattice != nullptr && scene_.materials[used[m]].texture != kNoImage) {
-        material.texture = static_cast<std::uint32_t>(texture - textures.begin());
-      }
+    for (std::uint32_t m = 0; m < mesh_.materials; ++m) {
+      protocol::Material material = machine_material(scene_.materials[m], units_);
+      const auto texture = std::lower_bound(textures.begin(), textures.end(), scene_.materials[m].texture);
+      // Of a texture that none of its polygons shows, a PE has nothing.
+      const bool shown = texture != textures.end() && *texture == scene_.materials[m].texture;
+      if (lattice != nullptr && shown) material.texture = static_cast<std::uint32_t>(texture - textures.begin());
       put(layout_.materials, m, material);
     }
     std::uint32_t normals = 0;
@@ -133,8 +124,7 @@ class ImageWriter {
           put(layout_.texture_points, texture_points++, mesh_.texture_points[triangle.texture_points + i]);
         }
       }
-      polygon.material =
-          static_cast<std::uint16_t>(std::lower_bound(used.begin(), used.end(), triangle.material) - used.begin());
+      polygon.material = static_cast<std::uint16_t>(triangle.material);
       polygon.sides = triangle.sides;
       polygon.patch_level = triangle.patch_level;
       if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_lattice(*lattice, t) : references;
@@ -195,6 +185,15 @@ class ImageWriter {
     return first;
   }
 
+  void write_hemicube() {
+    const std::vector<std::uint32_t> weights = make_hemicube_weights(layout_.hemicube_size);
+    for (std::uint32_t i = 0; i < weights.size(); ++i) {
+      protocol::HemicubeEntry entry = protocol::hemicube_entry(layout_.hemicube_size, i);
+      entry.weight = weights[i];
+      put(layout_.hemicube, i, entry);
+    }
+  }
+
   void write_patch_references() {
     std::uint32_t next = 0;
     for (const std::uint32_t t : placement_.polygons_of_pe[pe_]) {
@@ -223,7 +222,6 @@ class ImageWriter {
       patch.facets = from.facets;
       patch.elements = from.elements;
       patch.reflectance = from.reflectance;
-      patch.subspace = placement_.local_of_cell[placement_.patch_home[number].cell];
       for (std::uint32_t f = 0; f < from.facets; ++f) write_facet(from, mesh_.facets[from.first_facet + f], facets++);
       for (std::uint32_t side = 0; side < 2; ++side) {
         patch.side[side] = protocol::kNoSide;
@@ -270,8 +268,9 @@ std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, con
 }
 
 std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe,
-                                         const LightUnits& units, const Lattice& lattice, const PeLayout& layout) {
-  return ImageWriter(scene, mesh, placement, pe, units, layout).ray_tracing(lattice);
+                                         const LightUnits& units, const Lattice& lattice, const PeLayout& layout,
+                                         const CameraTables& camera) {
+  return ImageWriter(scene, mesh, placement, pe, units, layout).ray_tracing(lattice, camera);
 }
 
 }  // namespace torolux

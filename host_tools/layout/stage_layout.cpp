@@ -3,6 +3,7 @@
 #include "host_tools/layout/stage_layout.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "firmware/protocol/triangle_grid.hpp"
@@ -15,7 +16,8 @@ using protocol::StageLayout;
 using protocol::Store;
 
 struct Counts {
-  std::uint64_t subspaces = 0, polygon_list = 0, polygons = 0, materials = 0, normals = 0;
+  std::uint64_t cell_words = 0, cell_entries = 0, subspaces = 0, polygon_list = 0, polygons = 0, materials = 0,
+                normals = 0;
   std::uint64_t nodes = 0, patch_references = 0, patches = 0, patch_sides = 0, elements = 0, facets = 0, hemicube = 0,
                 lattice = 0;
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
@@ -23,15 +25,15 @@ struct Counts {
 
 Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Stage stage, std::uint32_t hemicube) {
   Counts counts;
+  counts.cell_words = protocol::cell_words(placement.grid.count());
+  counts.cell_entries = placement.stops;
   counts.subspaces = placement.cells_of_pe[pe].size();
   for (const CellIndex cell : placement.cells_of_pe[pe]) {
     counts.polygon_list += placement.polygons_of_cell[cell].size();
   }
   counts.polygons = placement.polygons_of_pe[pe].size();
-  std::vector<std::uint32_t> materials;
   for (const std::uint32_t t : placement.polygons_of_pe[pe]) {
     const MeshTriangle& triangle = mesh.triangles[t];
-    materials.push_back(triangle.material);
     if (triangle.normals != protocol::kNoPolygon) counts.normals += 3;
     if (triangle.texture != protocol::kNoTexture) counts.texture_points += 3;
     if (triangle.sides == 0) continue;
@@ -44,8 +46,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
       counts.lattice += std::uint64_t{triangle.side_count()} * triangle.facets;
     }
   }
-  std::sort(materials.begin(), materials.end());
-  counts.materials = static_cast<std::uint64_t>(std::unique(materials.begin(), materials.end()) - materials.begin());
+  counts.materials = mesh.materials;
   if (stage == Stage::ray_tracing) {
     for (const std::uint32_t texture : textures_of_pe(mesh, placement, pe)) {
       ++counts.textures;
@@ -88,6 +89,11 @@ class Allocator {
   PeLayout& pe_layout_;
 };
 
+/// One for each PE, as far as there are so many.
+std::uint32_t open_batches(unsigned pes) {
+  return std::min(std::bit_ceil(pes), protocol::kMostOpenBatches);
+}
+
 const char* name_of(Stage stage) {
   return stage == Stage::radiosity ? "radiosity" : "ray tracing";
 }
@@ -115,6 +121,8 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.cell_size = placement.grid.cell_size;
   layout.bounces = parameters.bounces;
   Allocator allocator(map.stores_begin, result);
+  layout.cell_words = allocator.place("cell map", counts.cell_words, sizeof(protocol::CellWord));
+  layout.cell_entries = allocator.place("cell entries", counts.cell_entries, sizeof(protocol::CellEntry));
   layout.subspaces = allocator.place("subspaces", counts.subspaces, sizeof(protocol::Subspace));
   layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(std::uint32_t));
   layout.polygons = allocator.place("polygons", counts.polygons, sizeof(protocol::Polygon));
@@ -127,18 +135,24 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.patch_sides = allocator.place("patch sides", counts.patch_sides, sizeof(protocol::PatchSide));
   layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));
   layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
-  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(std::uint32_t));
+  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(protocol::HemicubeEntry));
   layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
   layout.textures = allocator.place("textures", counts.textures, sizeof(protocol::Texture));
   layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));
   layout.texture_points = allocator.place("texture points", counts.texture_points, sizeof(protocol::TexturePoint));
   const std::uint32_t emitters = stage == Stage::ray_tracing ? parameters.emitters : 0;
+  const std::uint32_t samples = stage == Stage::ray_tracing ? parameters.pixel_samples : 0;
+  const std::uint32_t filter = stage == Stage::ray_tracing ? parameters.filter_entries : 0;
+  layout.sample_places = allocator.place("sample places", samples, sizeof(protocol::SamplePlace));
+  layout.filter = allocator.place("filter", filter, sizeof(float));
   layout.emitters = allocator.place("emitters", emitters, sizeof(protocol::Emitter));
   result.load_end = allocator.next();
-  layout.own_slots = protocol::own_slots(stage);
+  layout.open_batches = open_batches(placement.torus.pes());
+  layout.own_slots = protocol::own_slots(stage, layout.open_batches);
   layout.record_slots =
       allocator.place("record slots", std::uint64_t{layout.own_slots} + map.niu_slots, protocol::slot_bytes(stage));
   result.end = allocator.next();
+  layout.credits_kept = map.credits_per_pe;
   layout.gather_cycles = map.gather_cycles;
   layout.gather_records = map.gather_records;
   if (stage == Stage::radiosity) {
@@ -154,27 +168,30 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   return result;
 }
 
-MemoryNeed memory_need(const Mesh& mesh, const Placement& placement, const StageParameters& parameters,
-                       const MemoryMap& map) {
-  MemoryNeed need;
+void MemoryNeed::add(const Mesh& mesh, const Placement& placement, Stage stage, const StageParameters& parameters,
+                     const MemoryMap& map) {
   const unsigned pes = placement.torus.pes();
-  need.pe_bytes.assign(pes, 0);
-  std::uint64_t most = 0;
+  pe_bytes.resize(pes);
   for (unsigned pe = 0; pe < pes; ++pe) {
-    for (const Stage stage : {Stage::radiosity, Stage::ray_tracing}) {
-      const PeLayout layout = lay_out(mesh, placement, static_cast<protocol::PeNumber>(pe), stage, parameters, map);
-      const std::uint64_t bytes = layout.end - protocol::kLocalMemoryBase;
-      need.pe_bytes[pe] = std::max(need.pe_bytes[pe], bytes);
-      if (bytes <= most) continue;
-      most = bytes;
-      need.fullest = static_cast<protocol::PeNumber>(pe);
-      need.fullest_stage = stage;
-      need.fullest_stores = "image " + with_commas(map.stores_begin - protocol::kLocalMemoryBase);
-      for (const auto& [name, store_bytes] : layout.bytes) {
-        need.fullest_stores += std::string(", ") + name + " " + with_commas(store_bytes);
-      }
+    const PeLayout layout = lay_out(mesh, placement, static_cast<protocol::PeNumber>(pe), stage, parameters, map);
+    const std::uint64_t bytes = layout.end - protocol::kLocalMemoryBase;
+    const bool is_most = bytes > most();
+    pe_bytes[pe] = std::max(pe_bytes[pe], bytes);
+    if (!is_most) continue;
+    fullest = static_cast<protocol::PeNumber>(pe);
+    fullest_stage = stage;
+    fullest_stores = "image " + with_commas(map.stores_begin - protocol::kLocalMemoryBase);
+    for (const auto& [name, store_bytes] : layout.bytes) {
+      fullest_stores += std::string(", ") + name + " " + with_commas(store_bytes);
     }
   }
+}
+
+MemoryNeed memory_need(const Mesh& mesh, const Placement& radiosity, const Placement& ray_tracing,
+                       const StageParameters& parameters, const MemoryMap& map) {
+  MemoryNeed need;
+  need.add(mesh, radiosity, Stage::radiosity, parameters, map);
+  need.add(mesh, ray_tracing, Stage::ray_tracing, parameters, map);
   return need;
 }
 

@@ -23,14 +23,16 @@ struct StageParameters {
   float points_per_quantum = 1;
   float pixel_scale = 0x1p40F;
   float least_weight = 1e-4F;
-  std::uint32_t emitters = 0;  ///< that shadow rays aim at; 0: no shadow rays
-  std::uint32_t layers = 0;    ///< as protocol::StageLayout
+  std::uint32_t emitters = 0;                           ///< that shadow rays aim at; 0: no shadow rays
+  std::uint32_t layers = 0;                             ///< as protocol::StageLayout
+  std::uint32_t pixel_samples = 0, filter_entries = 0;  ///< of the camera rays that PEs make; 0: the host makes them
 };
 
 /// The machine's side of the layout.
 struct MemoryMap {
   std::uint32_t stores_begin = 0;  ///< first byte that the image leaves free
   std::uint32_t niu_slots = 0;
+  std::uint32_t credits_per_pe = 0;
   std::uint32_t gather_cycles = 0, gather_records = 0;  ///< see protocol::NiuWindow::Gather
 };
 
@@ -53,14 +55,17 @@ struct MemoryNeed {
   protocol::Stage fullest_stage = protocol::Stage::radiosity;
   std::string fullest_stores;  ///< "polygons 1,234, elements 5,678, ..." bytes
 
+  /// A stage with this placement.
+  void add(const Mesh& mesh, const Placement& placement, protocol::Stage stage, const StageParameters& parameters,
+           const MemoryMap& map);
   std::uint64_t most() const { return pe_bytes[fullest]; }
   /// What to say where a PE has only `available` bytes: which PE and stage, needed, available, what to change.
   std::string refusal(std::uint64_t available) const;
 };
 
 /// Scratch memory of the image beyond its own sections does not exist, so this is exact.
-MemoryNeed memory_need(const Mesh& mesh, const Placement& placement, const StageParameters& parameters,
-                       const MemoryMap& map);
+MemoryNeed memory_need(const Mesh& mesh, const Placement& radiosity, const Placement& ray_tracing,
+                       const StageParameters& parameters, const MemoryMap& map);
 
 /// given, or the smallest power of two from kDefaultLocalMemory that fits. Absent: it does not fit in any allowed size
 /// (or not in the one given).

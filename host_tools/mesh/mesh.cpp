@@ -43,6 +43,7 @@ void take_triangles(const Scene& scene, Mesh& mesh) {
     MeshTriangle triangle;
     triangle.position = from.position;
     triangle.material = from.material;
+    mesh.materials = std::max(mesh.materials, from.material + 1U);
     for (std::size_t i = 0; i < 3; ++i) {
       triangle.corner[i] = to_float(mesh.space.to_normalised(scene.positions[from.position[i]]));
     }

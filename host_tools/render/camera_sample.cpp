@@ -26,10 +26,15 @@ double fresnel(double cosine, double eta) {
 class CameraFollower {
  public:
   CameraFollower(const Scene& scene, const Mesh& mesh, const Placement& placement, const CameraSampleChoice& choice,
-                 PathSample& sample)
-      : scene_(scene), choice_(choice), sample_(sample), walker_(mesh, placement, sample), emitters_(scene, mesh) {}
+                 PathSample& sample, Heat* heat)
+      : scene_(scene),
+        choice_(choice),
+        sample_(sample),
+        walker_(mesh, placement, sample, heat),
+        emitters_(scene, mesh) {}
 
   void follow(const SampleRay& ray, const SampleWalker::Cell& cell, Chance& chance) {
+    walker_.begin(1);
     waiting_.assign(1, {ray, cell, 1, 0});
     SampleWalker::Cell last = cell;
     while (!waiting_.empty()) {
@@ -135,10 +140,23 @@ class CameraFollower {
 
 }  // namespace
 
+CameraSampleChoice camera_sample_choice(const Quality& quality, const MachineChoice& machine,
+                                        const StageParameters& parameters) {
+  CameraSampleChoice choice;
+  choice.pixels = std::uint64_t{quality.width} * quality.height;
+  choice.samples = quality.samples;
+  choice.bounces = quality.bounces;
+  choice.least_weight = double{parameters.least_weight} * quality.samples;
+  choice.shadow_rays = quality.shadow_rays;
+  choice.two_sided_lights = quality.two_sided_lights;
+  choice.skip_empty_subspaces = machine.skip_empty_subspaces;
+  return choice;
+}
+
 CameraSample sample_camera(const Scene& scene, const Mesh& mesh, const Placement& placement, const CameraRays& rays,
-                           const CameraSampleChoice& choice, std::uint32_t count) {
+                           const CameraSampleChoice& choice, std::uint32_t count, Heat* heat) {
   CameraSample result;
-  CameraFollower follower(scene, mesh, placement, choice, result.paths);
+  CameraFollower follower(scene, mesh, placement, choice, result.paths, heat);
   std::vector<bool> filled;
   for (const auto& polygons : placement.polygons_of_cell) filled.push_back(!polygons.empty());
   Chance chance;

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "host_tools/layout/stage_layout.hpp"
+#include "host_tools/render/render.hpp"
 #include "host_tools/render/sample_walk.hpp"
 #include "host_tools/stages/camera_rays.hpp"
 
@@ -20,13 +22,17 @@ struct CameraSampleChoice {
   bool skip_empty_subspaces = true;
 };
 
+CameraSampleChoice camera_sample_choice(const Quality& quality, const MachineChoice& machine,
+                                        const StageParameters& parameters);
+
 struct CameraSample {
   PathSample paths;  ///< means per ray that is sent; deposits: what reaches the frame buffer
   double sent = 0;   ///< of all rays: the others miss the scene
 };
 
-/// Follows `count` rays (> 0), evenly from all over the picture; the same ones for the same picture.
+/// Follows `count` rays (> 0), evenly from all over the picture; the same ones for the same picture. heat: gets their
+/// ways too, if given.
 CameraSample sample_camera(const Scene& scene, const Mesh& mesh, const Placement& placement, const CameraRays& rays,
-                           const CameraSampleChoice& choice, std::uint32_t count);
+                           const CameraSampleChoice& choice, std::uint32_t count, Heat* heat = nullptr);
 
 }  // namespace torolux

@@ -14,8 +14,9 @@ struct LightSample {
 };
 
 /// Follows `count` paths (> 0) from emitters over some diffuse surfaces; every start is cosine distributed, glass is
-/// gone straight through. The same paths for the same mesh. bounces: mirrors, glass and lobes on a path.
+/// gone straight through. The same paths for the same mesh. bounces: mirrors, glass and lobes on a path. heat: gets the
+/// paths too, if given, as many records as the radiosity stage has for each path from an emitter.
 LightSample sample_light(const Scene& scene, const Mesh& mesh, const Placement& placement, std::uint32_t bounces,
-                         std::uint32_t count);
+                         std::uint32_t count, Heat* heat = nullptr);
 
 }  // namespace torolux

@@ -14,12 +14,14 @@ RenderPlan plan(const Scene& scene, const Camera& camera, const Quality& quality
   RenderPlan plan{};
   try {
     const Image image = load_image(pe_image);
-    const RenderSetup setup = make_setup(scene, quality, machine, image);
+    const RenderSetup setup = make_setup(scene, camera, quality, machine, image);
     plan.triangles = setup.mesh.triangles.size();
     plan.patches = setup.mesh.patches.size();
     for (const MeshPatch& patch : setup.mesh.patches) plan.elements += patch.elements;
     plan.subspaces = setup.placement.grid.cells;
     plan.filled_subspaces = setup.placement.filled_cells;
+    plan.radiosity_copies = setup.radiosity_copies;
+    plan.ray_tracing_copies = setup.ray_tracing_copies;
     plan.pe_bytes = setup.need.pe_bytes;
     plan.local_memory_needed = static_cast<std::uint32_t>(std::min<std::uint64_t>(setup.need.most(), UINT32_MAX));
     const std::uint32_t available = machine.pe_memory.value_or(protocol::kLargestLocalMemory);
@@ -30,7 +32,7 @@ RenderPlan plan(const Scene& scene, const Camera& camera, const Quality& quality
     plan.notes = setup.notes;
     std::optional<RenderSetup> draft;
     if (quality.refine > 0) {
-      draft = make_setup(scene, draft_of(quality), machine, image);
+      draft = make_setup(scene, camera, draft_of(quality), machine, image);
       plan.notes.push_back("the draft of --refine adds up to " +
                            with_commas(static_cast<std::uint64_t>(quality.refine * setup.mesh.elements)) +
                            " elements; where is known only then, so the memory needed is without them");

@@ -215,15 +215,8 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
                   const MachineChoice& machine, Prediction& prediction) {
   const CameraRays rays(camera, setup.mesh.space, quality.width, quality.height,
                         PixelSamples(quality.filter, quality.samples, setup.parameters.seed), setup.parameters.seed);
-  CameraSampleChoice choice;
-  choice.pixels = std::uint64_t{quality.width} * quality.height;
-  choice.samples = quality.samples;
-  choice.bounces = quality.bounces;
-  choice.least_weight = double{setup.parameters.least_weight} * quality.samples;
-  choice.shadow_rays = quality.shadow_rays;
-  choice.two_sided_lights = quality.two_sided_lights;
-  choice.skip_empty_subspaces = machine.skip_empty_subspaces;
-  const CameraSample sample = sample_camera(scene, setup.mesh, setup.placement, rays, choice, kPaths);
+  const CameraSampleChoice choice = camera_sample_choice(quality, machine, setup.parameters);
+  const CameraSample sample = sample_camera(scene, setup.mesh, setup.ray_placement, rays, choice, kPaths);
   const double count = sample.sent * static_cast<double>(rays.count());
   const std::vector<double> cycles = cycles_of_pes(sample.paths, kCyclesToShow);
   const double busiest = *std::max_element(cycles.begin(), cycles.end());

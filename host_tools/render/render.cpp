@@ -50,11 +50,14 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
   figures.credits_home = program.credits_home();
   figures.local_memory_bytes = *setup.memory;
   figures.subspaces = setup.placement.grid.cells;
+  figures.filled_subspaces = setup.placement.filled_cells;
+  figures.radiosity_copies = setup.radiosity_copies;
+  figures.ray_tracing_copies = setup.ray_tracing_copies;
 }
 
-RenderSetup settled_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,
-                          const std::vector<Split>& splits) {
-  RenderSetup setup = make_setup(scene, quality, machine, image, splits);
+RenderSetup settled_setup(const Scene& scene, const Camera& camera, const Quality& quality,
+                          const MachineChoice& machine, const Image& image, const std::vector<Split>& splits) {
+  RenderSetup setup = make_setup(scene, camera, quality, machine, image, splits);
   if (!setup.memory) throw InputError(setup.need.refusal(machine.pe_memory.value_or(protocol::kLargestLocalMemory)));
   return setup;
 }
@@ -91,7 +94,7 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
   std::vector<Split> splits;
   std::uint64_t more = 0;
   for (std::uint32_t round = 0; round < kDraftRounds; ++round) {
-    RenderSetup setup = settled_setup(scene, quality, choice, image, splits);
+    RenderSetup setup = settled_setup(scene, camera, quality, choice, image, splits);
     DraftLight light;
     for (std::uint32_t half = 0; half < light.flux.size(); ++half) {
       setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
@@ -131,7 +134,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
     if (!chosen) return result;
     splits = std::move(*chosen);
   }
-  const RenderSetup setup = settled_setup(scene, quality, machine, image, splits);
+  const RenderSetup setup = settled_setup(scene, camera, quality, machine, image, splits);
   RenderJob job = job_of(scene, camera, quality, machine, setup, false);
   const RadiosityOrigin origin = radiosity_origin(scene, quality, setup.mesh);
   if (saved) {

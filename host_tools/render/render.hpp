@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/layout/scheme.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/picture/picture.hpp"
 #include "host_tools/scene/scene.hpp"
@@ -50,13 +51,20 @@ struct Quality {
   std::uint64_t seed = 1;
 };
 
+/// What a scheme has where nothing is said.
+constexpr const char* allocation_of(Scheme scheme) {
+  return scheme == Scheme::paper ? "skewed" : "balanced";
+}
+
 /// The machine that makes it.
 struct MachineChoice {
   MachineDescription description;
   unsigned columns = 4, rows = 4;
   std::optional<std::uint32_t> pe_memory;                 ///< bytes; absent: smallest power of two from 1 MiB that fits
   std::optional<std::array<std::uint32_t, 3>> subspaces;  ///< absent: auto
-  std::string allocation = "skewed";
+  Scheme scheme = Scheme::paper;
+  std::string allocation = allocation_of(Scheme::paper);
+  std::optional<double> replicate;   ///< most of a PE's memory for copies of subspaces, 0..1; absent: what fits
   bool skip_empty_subspaces = true;  ///< camera rays begin in the first subspace on their way with anything in it
   std::string engine = kDefaultEngine;
   Debugging debugging;
@@ -71,6 +79,12 @@ struct RenderProgress {
   double unshot_fraction;  ///< of the emitted flux
   std::uint64_t credits_home, credits_total;
   Cycles virtual_time;
+};
+
+/// Subspaces that stand on every PE in a stage.
+struct StageCopies {
+  std::uint64_t cells = 0;
+  std::uint64_t bytes = 0;  ///< that they take of each PE's memory
 };
 
 /// [W], R G B.
@@ -94,6 +108,8 @@ struct RenderFigures {
   double wall_seconds = 0;
   std::uint32_t local_memory_bytes = 0;  ///< per PE, as chosen
   std::array<std::uint32_t, 3> subspaces{};
+  std::uint64_t filled_subspaces = 0;                ///< with anything in them
+  StageCopies radiosity_copies, ray_tracing_copies;  ///< of those
   std::string picture_sha256;              ///< of the colours' sums in the frame buffer, as digest_of makes it
   std::vector<std::string> layers_sha256;  ///< likewise of the layers, in the order of kLayerNames
 };
@@ -130,6 +146,7 @@ struct RenderPlan {
   std::uint64_t triangles, patches, elements;
   std::array<std::uint32_t, 3> subspaces;
   std::uint64_t filled_subspaces;
+  StageCopies radiosity_copies, ray_tracing_copies;
   std::uint32_t local_memory_needed;    ///< of the fullest PE, both stages
   std::uint32_t local_memory_bytes;     ///< chosen or given
   std::vector<std::uint64_t> pe_bytes;  ///< needed, by PE

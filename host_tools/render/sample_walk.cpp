@@ -58,6 +58,26 @@ PathWork PathSample::sum() const {
   return all;
 }
 
+namespace {
+
+/// base^exponent for a base above 0 and up to 1, exponent 0 to 1: to some 12 digits, and by operations that every
+/// computer rounds alike, as a placement may depend on it.
+double power(double base, double exponent) {
+  int two = 0;
+  const double part = std::frexp(base, &two);  // 0.5 to 1
+  const double z = (part - 1) / (part + 1);
+  double logarithm = 0;
+  for (int i = 25; i > 0; i -= 2) logarithm = logarithm * z * z + 2.0 / i;
+  const double halvings = exponent * (two + logarithm * z / std::numbers::ln2);
+  const double whole = std::floor(halvings);
+  const double rest = (halvings - whole) * std::numbers::ln2;
+  double sum = 1;
+  for (int i = 18; i > 0; --i) sum = 1 + sum * rest / i;
+  return std::ldexp(sum, static_cast<int>(whole));
+}
+
+}  // namespace
+
 Vec3d normal_of(const MeshTriangle& triangle) {
   const Vec3d a = vec::subtract(corner_of(triangle, 1), corner_of(triangle, 0));
   return vec::unit(vec::cross(a, vec::subtract(corner_of(triangle, 2), corner_of(triangle, 0))));
@@ -67,11 +87,16 @@ Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) {
   return vec::subtract(direction, vec::scale(normal, 2 * vec::dot(normal, direction)));
 }
 
+/// Marsaglia 1972.
 Vec3d Chance::sphere_direction() {
-  const double z = 2 * uniform() - 1;
-  const double angle = 2 * std::numbers::pi * uniform();
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
+  for (;;) {
+    const double a = 2 * uniform() - 1;
+    const double b = 2 * uniform() - 1;
+    const double square = a * a + b * b;
+    if (square >= 1) continue;
+    const double r = 2 * std::sqrt(1 - square);
+    return {r * a, r * b, 1 - 2 * square};
+  }
 }
 
 /// A uniform point on the unit sphere, added to the normal.
@@ -81,7 +106,7 @@ Vec3d Chance::cosine_direction(const Vec3d& normal) {
 }
 
 Vec3d Chance::lobe_direction(const Vec3d& axis, double exponent) {
-  const double cosine = std::pow(1 - uniform(), 1 / (exponent + 1));
+  const double cosine = power(1 - uniform(), 1 / (exponent + 1));
   const Vec3d any = sphere_direction();
   const Vec3d aside = vec::subtract(any, vec::scale(axis, vec::dot(any, axis)));
   if (!(vec::length(aside) > 1e-6)) return axis;
@@ -114,10 +139,23 @@ EmitterPoints::Point EmitterPoints::point(Chance& chance) const {
   return {&triangle, place};
 }
 
-SampleWalker::SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample)
-    : mesh_(mesh), placement_(placement), sample_(sample) {
+SampleWalker::SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample, Heat* heat)
+    : mesh_(mesh), placement_(placement), sample_(sample), heat_(heat) {
   sample_.of_pe.resize(placement.torus.pes());
   sample_.hits.resize(mesh.triangles.size());
+}
+
+void SampleWalker::begin(double records) {
+  records_ = static_cast<float>(records);
+  first_ = true;
+}
+
+void SampleWalker::add_to_heat(CellIndex cell) {
+  if (heat_ == nullptr) return;
+  // Empty subspaces are stepped over.
+  if (placement_.scheme == Scheme::spread && placement_.polygons_of_cell[cell].empty()) return;
+  heat_->steps.push_back({cell, records_, first_});
+  first_ = false;
 }
 
 SampleWalker::Cell SampleWalker::cell_of(const Vec3d& point) const {
@@ -129,6 +167,7 @@ Meeting SampleWalker::walk(const SampleRay& ray, Cell& cell) {
   work_at(cell).starts += 1;
   for (;;) {
     const auto& polygons = placement_.polygons_of_cell[grid.index(cell)];
+    add_to_heat(grid.index(cell));
     work_at(cell).visits += 1;
     work_at(cell).polygons += static_cast<double>(polygons.size());
     double out = HUGE_VAL;
@@ -159,6 +198,7 @@ std::uint32_t SampleWalker::deposit(const Meeting& met, const Cell& at) {
   const std::uint32_t patch = mesh_.parts[met.triangle->first_part + path].patch;
   const protocol::PeNumber owner = placement_.patch_home[patch].pe;
   sample_.of_pe[owner].deposits += 1;
+  if (heat_ != nullptr) heat_->deposits[patch] += static_cast<double>(records_) * (kHeatPerDeposit + kHeatPerHandOver);
   if (owner != pe_of(at)) {
     sample_.of_pe[owner].arrivals += 1;
     sample_.forwarded += 1;

@@ -86,8 +86,11 @@ class SampleWalker {
  public:
   using Cell = std::array<std::uint32_t, 3>;
 
-  /// sample: gets room for all PEs and triangles.
-  SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample);
+  /// sample: gets room for all PEs and triangles. heat: gets the ways of records too, if given.
+  SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample, Heat* heat = nullptr);
+
+  /// A record begins. records: that it stands for.
+  void begin(double records);
 
   /// From subspace to subspace until something is met; `cell` ends there.
   Meeting walk(const SampleRay& ray, Cell& cell);
@@ -101,9 +104,14 @@ class SampleWalker {
   protocol::PeNumber pe_of(const Cell& cell) const { return placement_.pe_of_cell[placement_.grid.index(cell)]; }
 
  private:
+  void add_to_heat(CellIndex cell);
+
   const Mesh& mesh_;
   const Placement& placement_;
   PathSample& sample_;
+  Heat* heat_;
+  float records_ = 1;
+  bool first_ = true;
 };
 
 }  // namespace torolux

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
+#include "host_tools/render/placements.hpp"
 
 namespace torolux {
 namespace {
@@ -78,8 +80,8 @@ MeshChoice mesh_choice(const Quality& quality, const std::vector<Split>& splits)
           quality.patch_factor, quality.element_factor, quality.cluster_factor};
 }
 
-RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,
-                       const std::vector<Split>& splits) {
+RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+                       const Image& image, const std::vector<Split>& splits) {
   check(quality, machine);
   RenderSetup setup;
   setup.mesh = make_mesh(scene, mesh_choice(quality, splits));
@@ -95,22 +97,30 @@ RenderSetup make_setup(const Scene& scene, const Quality& quality, const Machine
     setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
   }
   setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.samples);
-  PlacementChoice placement;
-  placement.torus = {machine.columns, machine.rows};
-  placement.subspaces = machine.subspaces;
-  placement.allocation = machine.allocation;
-  // Some four shots of each patch.
-  placement.records_per_patch =
-      4.0 * quality.shot_points * quality.shot_points * protocol::hemicube_pixels(quality.hemicube);
-  setup.placement = make_placement(setup.mesh, placement);
   const MachineDescription::Records& records = machine.description.records;
-  setup.map = {image.stores_begin, records.niu_slots, records.gather_cycles, records.gather_records};
-  setup.need = memory_need(setup.mesh, setup.placement, setup.parameters, setup.map);
-  setup.memory = choose_memory(setup.need, machine.pe_memory);
+  setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,
+               records.gather_records};
+  setup.paper = machine.scheme == Scheme::paper;
+  if (!setup.paper) {
+    setup.parameters.pixel_samples = quality.samples;
+    setup.parameters.filter_entries = PixelSamples::entries(quality.filter, quality.samples);
+  }
+  Placements placements = choose_placements(scene, camera, quality, machine, setup.mesh, setup.parameters, setup.map);
+  setup.placement = std::move(placements.radiosity);
+  setup.ray_placement = std::move(placements.ray_tracing);
+  setup.radiosity_copies = placements.radiosity_copies;
+  setup.ray_tracing_copies = placements.ray_tracing_copies;
+  setup.need = std::move(placements.need);
+  setup.memory = placements.memory;
   setup.credits = std::uint64_t{machine.description.records.credits_per_pe} * setup.placement.torus.pes();
   if (!machine.pe_memory && setup.memory) {
     setup.notes.push_back("memory of each PE: " + with_commas(*setup.memory) + " bytes (the fullest, PE " +
                           std::to_string(setup.need.fullest) + ", needs " + with_commas(setup.need.most()) + ")");
+  }
+  if (const std::uint32_t idle = setup.placement.idle_pes(); idle > 0) {
+    setup.notes.push_back(with_commas(idle) + " of " + with_commas(setup.placement.torus.pes()) +
+                          " PEs hold nothing of the scene, and have little to do or nothing: use fewer --pes, finer "
+                          "--subspaces, or --allocation balanced");
   }
   for (const SceneMaterial& material : scene.materials) {
     if (material.kind != SurfaceKind::diffuse && material.emission != Vec3d{0, 0, 0}) {
@@ -138,6 +148,10 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
       }
     }
   }
+  settings.shot_points = setup.parameters.shot_points;
+  settings.emission_points = setup.parameters.emission_points;
+  settings.points_per_quantum = setup.parameters.points_per_quantum;
+  settings.points_travel = !setup.paper;
   settings.emitted = emitted;
   settings.enough_unshot = static_cast<std::int64_t>(emitted * quality.unshot);
   // Where no side has more than this, emitted or reflected, all of them together have no more than `enough_unshot`.

@@ -17,22 +17,29 @@ namespace torolux {
 struct RenderSetup {
   Mesh mesh;
   LightUnits units;
-  Placement placement;
+  bool paper = true;        ///< scheme `paper`
+  Placement placement;      ///< radiosity stage
+  Placement ray_placement;  ///< ray tracing stage
+  StageCopies radiosity_copies, ray_tracing_copies;
   StageParameters parameters;
   MemoryMap map;
   MemoryNeed need;
   std::optional<std::uint32_t> memory;  ///< absent: does not fit
   std::uint64_t credits = 0;            ///< W
   std::vector<std::string> notes;
+
+  const Placement& placement_of(protocol::Stage stage) const {
+    return stage == protocol::Stage::radiosity ? placement : ray_placement;
+  }
 };
 
 /// What the mesh is made of, and made the same again. splits: of elements, ascending.
 MeshChoice mesh_choice(const Quality& quality, const std::vector<Split>& splits);
 
 /// splits: of elements, ascending. Throws UsageError (settings out of range) and InputError (no surface, no light, too
-/// many elements).
-RenderSetup make_setup(const Scene& scene, const Quality& quality, const MachineChoice& machine, const Image& image,
-                       const std::vector<Split>& splits = {});
+/// many elements). camera: what it sees most is copied to all PEs.
+RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+                       const Image& image, const std::vector<Split>& splits = {});
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);
 

@@ -112,7 +112,9 @@ Words render_words(const Json& settings) {
   add(words, "--pes", joined(settings.at("pes"), 'x'));
   if (!automatic(settings, "pe_memory")) add(words, "--pe-memory", text(settings.at("pe_memory")));
   add(words, "--subspaces", automatic(settings, "subspaces") ? "auto" : joined(settings.at("subspaces"), 'x'));
+  add(words, "--scheme", text(settings.at("scheme")));
   add(words, "--allocation", text(settings.at("allocation")));
+  add(words, "--replicate", text(settings.at("replicate")));
   if (!settings.at("skip_empty_subspaces").get<bool>()) words.emplace_back("--enter-empty");
   return words;
 }

@@ -36,6 +36,9 @@ struct RunDescription {
 /// where it is greatest. 0 where nothing was emitted.
 double closing_error(const EnergyBalance& energy);
 
+/// Of a PE's memory, 0..1.
+double copies_share(const StageCopies& copies, const RenderFigures& figures);
+
 /// busy / (busy + idle), 0..1; 0 for a PE that did not run.
 double busy_share(const PeFigures& pe);
 

@@ -98,7 +98,9 @@ void add_machine(Json& json, const RunDescription& run, const RenderFigures* fig
   json["automatic"] = Json::array();
   if (!machine.pe_memory) json["automatic"].push_back("pe_memory");
   if (!machine.subspaces) json["automatic"].push_back("subspaces");
+  json["scheme"] = name_of(machine.scheme);
   json["allocation"] = machine.allocation;
+  json["replicate"] = value_or_auto(machine.replicate);
   json["skip_empty_subspaces"] = machine.skip_empty_subspaces;
   if (!machine.debugging.qemu_pes.empty()) json["qemu_pes"] = machine.debugging.qemu_pes;
   json["machine"] = machine_json(machine.description);

@@ -24,6 +24,11 @@ Json energy_json(const EnergyBalance& energy) {
           {"closing_error", closing_error(energy)}};
 }
 
+/// Subspaces on every PE in a stage.
+Json copies_json(const StageCopies& copies, const RenderFigures& figures) {
+  return {{"subspaces", copies.cells}, {"bytes", copies.bytes}, {"fraction", copies_share(copies, figures)}};
+}
+
 Json picture_json(const RunDescription& run, const RenderFigures& figures) {
   Json json = {{"sha256", figures.picture_sha256}};
   const std::vector<LayerName> layers = layers_in(run.quality.layers);
@@ -51,6 +56,9 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["records"]["created"] = figures.radiosity_records + figures.rays;
   json["credits"] = {{"total", figures.credits_total}, {"home", figures.credits_home}};
   json["energy"] = energy_json(figures.energy);
+  json["copies"] = {{"of_subspaces", figures.filled_subspaces},
+                    {"radiosity", copies_json(figures.radiosity_copies, figures)},
+                    {"ray_tracing", copies_json(figures.ray_tracing_copies, figures)}};
   json["shots"] = figures.shots;
   json["rays"] = figures.rays;
   json["picture"] = picture_json(run, figures);

@@ -122,6 +122,15 @@ std::string energy_table(const EnergyBalance& energy) {
          right(significant(closing_error(energy), 2), 14) + "\n";
 }
 
+std::string copies_text(const RunDescription& run, const RenderFigures& figures) {
+  if (run.machine.scheme == Scheme::paper) return "";
+  const auto stage = [&](const StageCopies& copies) {
+    return grouped(copies.cells) + " (" + percent(copies_share(copies, figures), 0) + " of memory)";
+  };
+  return left("on every PE", kLabel) + "  " + stage(figures.radiosity_copies) + " and " +
+         stage(figures.ray_tracing_copies) + " of " + grouped(figures.filled_subspaces) + " subspaces\n";
+}
+
 }  // namespace
 
 double closing_error(const EnergyBalance& energy) {
@@ -133,6 +142,11 @@ double closing_error(const EnergyBalance& energy) {
     worst = std::max(worst, std::fabs(energy.emitted[c] - found) / energy.emitted[c]);
   }
   return worst;
+}
+
+double copies_share(const StageCopies& copies, const RenderFigures& figures) {
+  const std::uint32_t memory = figures.local_memory_bytes;
+  return memory > 0 ? static_cast<double>(copies.bytes) / memory : 0;
 }
 
 double busy_share(const PeFigures& pe) {
@@ -150,6 +164,7 @@ std::string summary(const RunDescription& run, const RenderFigures& figures) {
           std::to_string(run.machine.rows) + " PEs of " + bytes_text(figures.local_memory_bytes) + " on " +
           run.machine.engine + "; " + std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " +
           std::to_string(cells[2]) + " subspaces, " + run.machine.allocation + "\n";
+  text += copies_text(run, figures);
   const NetworkMemory network = network_memory(run.machine.description);
   text += left("network memory", kLabel) + "  NIU " + bytes_text(network.niu()) + ", router " +
           bytes_text(network.router()) + " of each PE\n";

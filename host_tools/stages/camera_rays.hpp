@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Camera rays: from pixel and sample to origin, direction and the subspace where the ray begins.
+// Camera rays: from pixel and sample to origin, direction and the subspace where the ray begins. By the code of
+// firmware/protocol/camera_ray.hpp, so that rays are the same wherever they are made.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "firmware/protocol/camera_ray.hpp"
 #include "firmware/protocol/records.hpp"
 #include "host_tools/mesh/normalise.hpp"
 #include "host_tools/scene/scene.hpp"
@@ -26,16 +28,16 @@ class CameraRays {
   CameraRays(const Camera& camera, const SceneSpace& space, std::uint32_t width, std::uint32_t height,
              PixelSamples samples, std::uint32_t seed);
 
-  std::uint64_t count() const { return std::uint64_t{width_} * height_ * samples_.count(); }
-  std::size_t table_entries() const { return samples_.table_entries(); }
-  /// pixel: row * width + column, row 0 on top.
+  std::uint64_t count() const { return std::uint64_t{view_.width} * view_.height * view_.samples; }
+  /// What a PE must have to make the same rays.
+  const protocol::CameraView& view() const { return view_; }
+  const PixelSamples& samples() const { return samples_; }
+  /// pixel: row * width + column, row 0 on top. sample: below the view's number of them.
   CameraRay ray(std::uint32_t pixel, std::uint32_t sample) const;
 
  private:
-  std::uint32_t width_, height_, seed_;
   PixelSamples samples_;
-  protocol::Vec3f eye_;
-  Vec3d forward_, right_, down_;  ///< right and down reach from the middle to the edge of the picture
+  protocol::CameraView view_;
 };
 
 struct FirstSubspace {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Loading: each PE's layout and stores over the bus. Enters: images; leaves: every PE ready.
+// Loading: each PE's layout and stores over the bus. Enters: images; leaves: every PE ready. What all PEs hold alike is
+// sent once, to all; to each goes only what it has of its own.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "host_tools/layout/stage_layout.hpp"
@@ -12,13 +14,21 @@ namespace torolux {
 
 struct PeLoad {
   protocol::StageLayout layout;
-  std::vector<std::byte> image;  ///< from layout.subspaces.address on
+  std::vector<std::byte> image;  ///< from layout.cell_words.address on
+};
+
+/// Where the loads come from. Each function is called once for each PE, the second when its turn comes.
+struct Loads {
+  std::function<protocol::StageLayout(PeNumber)> layout;
+  std::function<std::vector<std::byte>(PeNumber)> image;
+  /// As of a PE that has nothing of its own: its stores stand at the beginning of every PE's, but where those differ.
+  /// Absent: nothing is sent to all.
+  std::optional<PeLoad> common;
 };
 
 class LoadPhase : public Phase {
  public:
-  /// load_of: called once for each PE, when its turn comes.
-  LoadPhase(unsigned pes, std::function<PeLoad(PeNumber)> load_of);
+  LoadPhase(unsigned pes, Loads loads);
 
   void start(HostPort& port) override;
   void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
@@ -28,10 +38,12 @@ class LoadPhase : public Phase {
   double fraction() const { return static_cast<double>(ready_) / pes_; }
 
  private:
-  void load(HostPort& port, PeNumber pe) const;
+  void send_common(HostPort& port) const;
+  void load(HostPort& port, PeNumber pe);
 
   unsigned pes_;
-  std::function<PeLoad(PeNumber)> load_of_;
+  Loads loads_;
+  std::vector<protocol::StageLayout> layouts_;
   unsigned started_ = 0;
   unsigned ready_ = 0;
 };

@@ -6,8 +6,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
+
+#include "firmware/protocol/camera_ray.hpp"
 
 namespace torolux {
 
@@ -29,7 +32,7 @@ std::string_view name_of(PixelFilter filter);
 /// Nothing where there is none of this name.
 std::optional<PixelFilter> filter_named(std::string_view name);
 
-/// A place on the picture from a pixel's upper left corner, in pixels, x rightwards, y downwards.
+/// A place in a pixel, from its upper left corner, in pixels, x rightwards, y downwards.
 struct PixelPlace {
   double x, y;
 };
@@ -42,23 +45,26 @@ PixelPlace pixel_place(std::uint32_t sample, std::uint32_t samples, std::uint32_
 /// Distance from the middle, in pixels, below which the part `u` (0..1) of the filter lies. Rises with u.
 double filter_distance(PixelFilter filter, double u);
 
-/// The places of all samples of all pixels. Each pixel has the same pattern, moved by a part of the pixel's square that
-/// neighbours share out evenly (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018): were it
-/// not moved, an edge along a row of pixels would be wrong by the same in all of them.
+/// What firmware/protocol/camera_ray.hpp needs to place the samples of all pixels: the pattern that all have, and the
+/// filter as a table.
 class PixelSamples {
  public:
   PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint32_t seed);
 
-  std::size_t table_entries() const { return distances_.size(); }
-  std::uint32_t count() const { return static_cast<std::uint32_t>(uniform_.size()); }
-  /// Some lie outside the pixel's square.
-  PixelPlace place(std::uint32_t column, std::uint32_t row, std::uint32_t sample) const;
+  /// Of the filter's table.
+  static std::uint32_t entries(PixelFilter filter, std::uint32_t samples);
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(places_.size()); }
+  std::span<const protocol::SamplePlace> places() const { return places_; }  ///< by sample
+  std::uint32_t filter_bits() const { return filter_bits_; }
+  /// filter_distance at 2^filter_bits equal steps of u from 0 to 1. Nothing but zeros where there is one sample: it
+  /// stands in the pixel's middle.
+  std::span<const float> distances() const { return distances_; }
 
  private:
-  double distance(double u) const;
-
-  std::vector<PixelPlace> uniform_;  ///< by sample, 0..1
-  std::vector<double> distances_;    ///< filter_distance at equal steps of u from 0 to 1
+  std::vector<protocol::SamplePlace> places_;
+  std::uint32_t filter_bits_;
+  std::vector<float> distances_;
 };
 
 }  // namespace torolux

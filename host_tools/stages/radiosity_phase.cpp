@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/shot_grid.hpp"
 
 namespace torolux {
 namespace {
@@ -17,10 +18,9 @@ using protocol::Flux;
 using protocol::MessageKind;
 using protocol::ShotKind;
 
-/// A PE turns a grant into records at once, and hears of nothing else meanwhile: so it is small.
-constexpr std::uint64_t kGrant = 32;
-/// Grants on their way to one PE: more would only wait there while another shooter could use them.
-constexpr std::size_t kGrantsUnderWay = 2;
+/// Points that a PE has at a time: while the next one is on its way, it works on the others.
+constexpr std::uint32_t kSupply = 3;
+static_assert(kSupply <= protocol::kPointPlaces);
 
 /// Compares of a sort [n log2 n, rounded up].
 std::uint64_t compares_to_sort(std::uint64_t n) {
@@ -38,7 +38,11 @@ bool before(const Candidate& a, const Candidate& b) {
 }  // namespace
 
 RadiosityPhase::RadiosityPhase(RadiositySettings settings)
-    : settings_(std::move(settings)), waiting_(settings_.pes), pool_(settings_.credits) {}
+    : settings_(std::move(settings)),
+      shots_of_(settings_.pes),
+      deals_(settings_.pes),
+      supplied_(settings_.pes),
+      pool_(settings_.credits) {}
 
 void RadiosityPhase::start(HostPort& port) {
   select(port);
@@ -65,15 +69,13 @@ void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kin
     port.work(HostWork::entry, 1);
     pool_ += contents_as<protocol::Credits>(contents).count;
     if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
-    grant(port);
+    feed(port);
     end_round_if_over(port);
-  } else if (state_ == State::shooting && kind == MessageKind::shot_done) {
-    port.work(HostWork::entry, shooting_.size());
-    rounds_.back().records += contents_as<protocol::ShotDone>(contents).records;
-    rounds_.back().last_shot_done = port.now();
-    std::erase(shooting_, source);
-    if (!waiting_[source].empty()) begin_shot(port, source);
-    grant(port);
+  } else if (state_ == State::shooting && kind == MessageKind::need) {
+    hungry_.push_back(source);
+    feed(port);
+  } else if (state_ == State::shooting && kind == MessageKind::work_done) {
+    take_work_done(port, source, contents_as<protocol::WorkDone>(contents));
     end_round_if_over(port);
   } else {
     unexpected(source, kind, state_ == State::selecting ? "selecting shooters" : "shooting");
@@ -114,65 +116,126 @@ void RadiosityPhase::begin_round(HostPort& port) {
     return;
   }
   state_ = State::shooting;
-  turn_ = 0;
-  for (const Chosen& chosen : candidates_) {
-    if (waiting_[chosen.pe].empty()) ++round.pes;
-    waiting_[chosen.pe].push_back(chosen.candidate);
-  }
   round.shooters = static_cast<std::uint32_t>(candidates_.size());
-  for (unsigned pe = 0; pe < settings_.pes; ++pe) {
-    if (!waiting_[pe].empty()) begin_shot(port, static_cast<PeNumber>(pe));
+  add_shots();
+  round.pes = static_cast<std::uint32_t>(owners_.size());
+  hungry_.clear();
+  wanting_.clear();
+  for (std::uint32_t i = 0; i < kSupply; ++i) {
+    for (unsigned pe = 0; pe < settings_.pes; ++pe) wanting_.push_back(static_cast<PeNumber>(pe));
   }
-  grant(port);
+  deal(port);
+  const std::uint64_t each = std::max<std::uint64_t>(1, settings_.credits / settings_.pes);
+  for (unsigned pe = 0; pe < settings_.pes; ++pe) {
+    if (supplied_[pe] > 0 && pool_ > 0) grant(port, static_cast<PeNumber>(pe), each);
+  }
+  note_credits(port);
 }
 
-void RadiosityPhase::begin_shot(HostPort& port, PeNumber pe) {
-  const Candidate candidate = waiting_[pe].front();
-  waiting_[pe].pop_front();
-  // The number seeds the shot's random numbers, so it follows the order of choice and not the order of starting.
-  const auto chosen = std::find_if(candidates_.begin(), candidates_.end(), [&](const Chosen& other) {
-    return !before(other.candidate, candidate) && !before(candidate, other.candidate);
-  });
-  const auto place = static_cast<std::uint64_t>(chosen - candidates_.begin());
-  port.work(HostWork::compare, place + 1);
-  const protocol::Shoot message{candidate.amount, candidate.patch, candidate.side, candidate.kind,
-                                static_cast<std::uint32_t>(shots_ + place)};
-  torolux::send(port, pe, MessageKind::shoot, message);
-  shooting_.push_back(pe);
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (candidate.kind == ShotKind::emitted) {
-      emitted_shot_[c] += candidate.amount[c];
-    } else {
-      reflected_shot_[c] += protocol::scale_down(candidate.amount[c], settings_.reflectance[candidate.number][c]);
+/// The number of a shot seeds its random numbers, so it follows the order of choice.
+void RadiosityPhase::add_shots() {
+  owners_.clear();
+  turn_ = 0;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i].candidate;
+    Flux flux = candidate.amount;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (candidate.kind == ShotKind::reflected) {
+        flux[c] = protocol::scale_down(flux[c], settings_.reflectance[candidate.number][c]);
+        reflected_shot_[c] += flux[c];
+      } else {
+        emitted_shot_[c] += flux[c];
+      }
     }
+    shots_of_[candidates_[i].pe].push_back(
+        {candidate, static_cast<std::uint32_t>(shots_ + i),
+         protocol::points_of_shot(candidate.kind, flux, settings_.points_per_quantum, settings_.shot_points,
+                                  settings_.emission_points)});
   }
+  for (unsigned pe = 0; pe < settings_.pes; ++pe) {
+    if (!shots_of_[pe].empty()) owners_.push_back(static_cast<PeNumber>(pe));
+  }
+}
+
+void RadiosityPhase::take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done) {
+  if (done.points > supplied_[source]) {
+    throw MachineFailure("PE " + std::to_string(source) + " has done more than it was dealt");
+  }
+  rounds_.back().records += done.records;
+  rounds_.back().last_shot_done = port.now();
+  supplied_[source] -= done.points;
+  under_way_ -= done.points;
+  for (std::uint32_t i = 0; i < done.points; ++i) wanting_.push_back(source);
+  deal(port);
+}
+
+/// A point to each PE that wants one, as long as there are points; their owners make them in turn.
+void RadiosityPhase::deal(HostPort& port) {
+  while (!wanting_.empty() && !owners_.empty()) {
+    port.work(HostWork::entry, 1);
+    const PeNumber to = wanting_.front();
+    wanting_.pop_front();
+    turn_ = turn_ < owners_.size() ? turn_ : 0;
+    const PeNumber owner = settings_.points_travel ? owners_[turn_++] : to;
+    if (!shots_of_[owner].empty()) deal_point(port, owner, to);
+  }
+  for (const PeNumber owner : std::exchange(dealing_, {})) send_deal(port, owner);
+}
+
+void RadiosityPhase::deal_point(HostPort& port, PeNumber owner, PeNumber to) {
+  RoundShot& shot = shots_of_[owner].front();
+  if (!shot.begun) begin_shot(port, owner, shot);
+  protocol::Deal& deal = deals_[owner];
+  if (deal.count == 0) dealing_.push_back(owner);
+  deal.pe[deal.count++] = to;
+  ++supplied_[to];
+  ++under_way_;
+  const bool last = --shot.points == 0;
+  if (last || deal.count == protocol::Deal::kMost) send_deal(port, owner);
+  if (!last) return;
+  shots_of_[owner].pop_front();
+  if (shots_of_[owner].empty()) std::erase(owners_, owner);
+}
+
+void RadiosityPhase::send_deal(HostPort& port, PeNumber owner) {
+  protocol::Deal& deal = deals_[owner];
+  if (deal.count == 0) return;
+  const std::size_t bytes = offsetof(protocol::Deal, pe) + deal.count * sizeof(PeNumber);
+  port.send_message(owner, static_cast<std::uint16_t>(MessageKind::deal),
+                    std::as_bytes(std::span(&deal, 1)).first(bytes));
+  deal.count = 0;
+}
+
+void RadiosityPhase::begin_shot(HostPort& port, PeNumber owner, RoundShot& shot) {
+  const Candidate& candidate = shot.candidate;
+  torolux::send(port, owner, MessageKind::shoot,
+                protocol::Shoot{candidate.amount, candidate.patch, candidate.side, candidate.kind, shot.number});
+  shot.begun = true;
 }
 
 void RadiosityPhase::note_credits(HostPort& port) const {
   port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
 }
 
-void RadiosityPhase::grant(HostPort& port) {
-  // In turn to all shooters; one that has grants waiting is passed over, and asked again when more credits come home.
-  std::size_t passed_over = 0;
-  while (pool_ > 0 && !shooting_.empty() && passed_over < shooting_.size()) {
-    port.work(HostWork::entry, 1);
-    turn_ = turn_ < shooting_.size() ? turn_ : 0;
-    const PeNumber pe = shooting_[turn_++];
-    if (port.queued(pe) >= kGrantsUnderWay) {
-      ++passed_over;
-      continue;
-    }
-    passed_over = 0;
-    const auto credits = static_cast<std::uint32_t>(std::min(kGrant, pool_));
-    pool_ -= credits;
-    torolux::send(port, pe, MessageKind::grant, protocol::Grant{credits});
+void RadiosityPhase::grant(HostPort& port, PeNumber pe, std::uint64_t credits) {
+  port.work(HostWork::entry, 1);
+  const auto granted = static_cast<std::uint32_t>(std::min(credits, pool_));
+  pool_ -= granted;
+  torolux::send(port, pe, MessageKind::grant, protocol::Grant{granted});
+}
+
+/// PEs without credits get some, half of an equal share each.
+void RadiosityPhase::feed(HostPort& port) {
+  while (pool_ > 0 && !hungry_.empty()) {
+    const PeNumber pe = hungry_.front();
+    hungry_.pop_front();
+    grant(port, pe, std::max<std::uint64_t>(1, settings_.credits / settings_.pes / 2));
   }
   note_credits(port);
 }
 
 void RadiosityPhase::end_round_if_over(HostPort& port) {
-  if (!shooting_.empty() || pool_ < settings_.credits) return;
+  if (!owners_.empty() || under_way_ > 0 || pool_ < settings_.credits) return;
   shots_ += candidates_.size();
   rounds_.back().end = port.now();
   if (settings_.max_shots > 0 && shots_ >= settings_.max_shots) {

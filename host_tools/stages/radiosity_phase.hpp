@@ -21,6 +21,9 @@ struct RadiositySettings {
   double emitted = 0;              ///< all that the emitters have [quanta, R + G + B]
   std::uint32_t max_shots = 0;     ///< 0: no limit
   std::vector<std::array<protocol::Fraction, 3>> reflectance;  ///< by global patch
+  std::uint32_t shot_points = 1, emission_points = 1;          ///< as in protocol::StageLayout
+  float points_per_quantum = 1;
+  bool points_travel = true;  ///< to whoever has little work; else each is expanded by the patch's owner
 };
 
 class RadiosityPhase : public Phase {
@@ -46,13 +49,26 @@ class RadiosityPhase : public Phase {
     PeNumber pe;
     protocol::Candidate candidate;
   };
+  /// A shot of this round at its owner.
+  struct RoundShot {
+    protocol::Candidate candidate;
+    std::uint32_t number;  ///< of the shot, over the stage
+    std::uint32_t points;  ///< left to be dealt
+    bool begun = false;    ///< its owner has been told
+  };
 
   void select(HostPort& port);
   void take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   void begin_round(HostPort& port);
-  void begin_shot(HostPort& port, PeNumber pe);
+  void add_shots();
+  void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
+  void deal(HostPort& port);
+  void deal_point(HostPort& port, PeNumber owner, PeNumber to);
+  void send_deal(HostPort& port, PeNumber owner);
+  void begin_shot(HostPort& port, PeNumber owner, RoundShot& shot);
   void note_credits(HostPort& port) const;
-  void grant(HostPort& port);
+  void grant(HostPort& port, PeNumber pe, std::uint64_t credits);
+  void feed(HostPort& port);
   void end_round_if_over(HostPort& port);
 
   RadiositySettings settings_;
@@ -60,10 +76,16 @@ class RadiosityPhase : public Phase {
   std::vector<Chosen> candidates_;
   unsigned answers_ = 0;  ///< PEs whose candidates are all here
   std::int64_t unshot_ = 0;
-  std::vector<std::deque<protocol::Candidate>> waiting_;  ///< shots to come, by PE
-  std::vector<PeNumber> shooting_;                        ///< PEs with a shot in progress, in the order of starting
-  std::size_t turn_ = 0;                                  ///< of shooting_: who gets credits next
-  std::uint64_t pool_;                                    ///< credits at home
+  std::vector<std::deque<RoundShot>> shots_of_;  ///< with points left, by owner
+  std::vector<PeNumber> owners_;                 ///< of those, in the order of PEs
+  std::size_t turn_ = 0;                         ///< of owners_: who makes the next point
+  std::vector<protocol::Deal> deals_;            ///< being filled, by owner
+  std::vector<PeNumber> dealing_;                ///< owners whose deal is being filled
+  std::deque<PeNumber> wanting_;                 ///< PEs that could do with a point more, longest ago first
+  std::vector<std::uint32_t> supplied_;          ///< points that a PE has been dealt and not finished
+  std::uint64_t under_way_ = 0;                  ///< of those, in all
+  std::deque<PeNumber> hungry_;                  ///< PEs that have work and no credits
+  std::uint64_t pool_;                           ///< credits at home
   std::uint64_t shots_ = 0;
   std::vector<RoundFigures> rounds_;
   protocol::Flux emitted_shot_{};

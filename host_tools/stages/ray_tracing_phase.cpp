@@ -2,7 +2,6 @@
 // See ray_tracing_phase.hpp.
 #include "host_tools/stages/ray_tracing_phase.hpp"
 
-#include <numeric>
 #include <utility>
 
 namespace torolux {
@@ -13,15 +12,6 @@ using protocol::RayRecord;
 
 constexpr std::size_t kPacket = protocol::records_per_packet(protocol::Stage::ray_tracing);
 
-/// Pixels are taken in steps of about the golden section of their number, so that neighbours in time see different
-/// parts of the scene and the load spreads over the PEs. The step shares no divisor with the number: each pixel once.
-std::uint64_t stride_for(std::uint64_t pixels) {
-  auto stride = static_cast<std::uint64_t>(static_cast<double>(pixels) * 0.6180339887498949);
-  stride = stride == 0 ? 1 : stride;
-  while (std::gcd(stride, pixels) != 1) ++stride;
-  return stride;
-}
-
 }  // namespace
 
 RayTracingPhase::RayTracingPhase(const Placement& placement, CameraRays rays, const RayTracingSettings& settings)
@@ -29,7 +19,8 @@ RayTracingPhase::RayTracingPhase(const Placement& placement, CameraRays rays, co
       rays_(std::move(rays)),
       settings_(settings),
       packet_(placement.torus.pes()),
-      stride_(stride_for(std::uint64_t{settings.width} * settings.height)),
+      // Neighbours in time see different parts of the scene: so the load spreads over the PEs.
+      stride_(golden_step(std::uint64_t{settings.width} * settings.height)),
       pool_(settings.credits) {
   filled_.reserve(placement.polygons_of_cell.size());
   for (const auto& polygons : placement.polygons_of_cell) filled_.push_back(!polygons.empty());
@@ -72,7 +63,8 @@ void RayTracingPhase::make_ray(HostPort& port) {
   record.direction = ray.direction;
   const float weight = 1.0F / static_cast<float>(settings_.samples);
   record.weight = {weight, weight, weight};
-  record.subspace = placement_.local_of_cell[start->cell];
+  const auto cell = placement_.grid.cell(start->cell);
+  record.place = protocol::cell_code(cell[0], cell[1], cell[2]);
   record.polygon = protocol::kNoPolygon;
   record.key = ray.key;
   record.pixel = pixel;

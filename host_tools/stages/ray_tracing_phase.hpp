@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The ray tracing stage as the host conducts it: camera rays go out as long as there are credits.
+// The ray tracing stage where the host makes the camera rays: they go out as long as there are credits.
 #pragma once
 
 #include <vector>
 
 #include "host_tools/layout/placement.hpp"
 #include "host_tools/stages/camera_rays.hpp"
-#include "host_tools/stages/phase.hpp"
+#include "host_tools/stages/ray_phase.hpp"
 
 namespace torolux {
 
-struct RayTracingSettings {
-  std::uint64_t credits = 256;  ///< W, > 0
-  std::uint32_t width = 1, height = 1, samples = 1;
-  bool skip_empty_subspaces = true;
-};
-
-class RayTracingPhase : public Phase {
+class RayTracingPhase : public RayPhase {
  public:
   RayTracingPhase(const Placement& placement, CameraRays rays, const RayTracingSettings& settings);
 
@@ -26,10 +20,10 @@ class RayTracingPhase : public Phase {
   bool done() const override { return next_ == rays_.count() && pool_ == settings_.credits; }
   const char* waiting_for() const override { return "credits of camera rays"; }
 
-  std::uint64_t made() const { return next_; }  ///< rays considered so far, in order
-  std::uint64_t count() const { return rays_.count(); }
-  std::uint64_t sent() const { return sent_; }  ///< that met the object space
-  std::uint64_t credits_home() const { return pool_; }
+  std::uint64_t made() const override { return next_; }
+  std::uint64_t count() const override { return rays_.count(); }
+  std::uint64_t sent() const override { return sent_; }
+  std::uint64_t credits_home() const override { return pool_; }
 
  private:
   void make_rays(HostPort& port);

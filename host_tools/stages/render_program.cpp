@@ -11,6 +11,7 @@
 #include "host_tools/stages/load_phase.hpp"
 #include "host_tools/stages/read_phase.hpp"
 #include "host_tools/stages/report_phase.hpp"
+#include "host_tools/stages/tile_phase.hpp"
 
 namespace torolux {
 
@@ -24,7 +25,7 @@ RenderProgram::~RenderProgram() = default;
 
 void RenderProgram::start(HostPort& port) {
   port.begin_stage(name_of(step_));
-  port.work(HostWork::filter_entry, job_.rays.table_entries());
+  port.work(HostWork::filter_entry, job_.rays.samples().distances().size());
   enter(port, step_);
 }
 
@@ -88,7 +89,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       port.work(HostWork::irradiance_fit, lattice_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
-      return std::make_unique<RayTracingPhase>(setup.placement, job_.rays, job_.ray_tracing);
+      if (!setup.paper) return std::make_unique<TilePhase>(setup.placement.torus.pes(), job_.ray_tracing);
+      return std::make_unique<RayTracingPhase>(setup.ray_placement, job_.rays, job_.ray_tracing);
     case Step::report:
       return std::make_unique<ReportPhase>(setup.placement.torus.pes());
     case Step::finished:
@@ -98,15 +100,29 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
 }
 
 std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
-  return std::make_unique<LoadPhase>(job_.setup.placement.torus.pes(), [this, stage](PeNumber pe) {
-    const RenderSetup& setup = job_.setup;
-    const PeLayout layout = lay_out(setup.mesh, setup.placement, pe, stage, setup.parameters, setup.map);
-    std::vector<std::byte> image =
-        stage == Stage::radiosity
-            ? radiosity_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, layout)
-            : ray_tracing_image(job_.scene, setup.mesh, setup.placement, pe, setup.units, lattice_, layout);
-    return PeLoad{layout.layout, std::move(image)};
-  });
+  const RenderSetup& setup = job_.setup;
+  const auto layout_at = [this, &setup, stage](const Placement& placement, PeNumber pe) {
+    PeLayout layout = lay_out(setup.mesh, placement, pe, stage, setup.parameters, setup.map);
+    layout.layout.view = job_.rays.view();
+    return layout;
+  };
+  const auto image_at = [this, &setup, stage, layout_at](const Placement& placement, PeNumber pe) {
+    const PeLayout layout = layout_at(placement, pe);
+    return stage == Stage::radiosity
+               ? radiosity_image(job_.scene, setup.mesh, placement, pe, setup.units, layout)
+               : ray_tracing_image(job_.scene, setup.mesh, placement, pe, setup.units, lattice_, layout,
+                                   {job_.rays.samples().places(), job_.rays.samples().distances()});
+  };
+  const Placement& placement = setup.placement_of(stage);
+  Loads loads;
+  loads.layout = [&placement, layout_at](PeNumber pe) { return layout_at(placement, pe).layout; };
+  loads.image = [&placement, image_at](PeNumber pe) { return image_at(placement, pe); };
+  if (!setup.paper) {
+    const Placement common = placement.with_nobody();
+    const auto nobody = static_cast<PeNumber>(placement.torus.pes());
+    loads.common = PeLoad{layout_at(common, nobody).layout, image_at(common, nobody)};
+  }
+  return std::make_unique<LoadPhase>(placement.torus.pes(), std::move(loads));
 }
 
 void RenderProgram::leave(HostPort& port) {
@@ -141,7 +157,7 @@ void RenderProgram::leave(HostPort& port) {
       enter(port, Step::ray_tracing);
       break;
     case Step::ray_tracing:
-      rays_ = static_cast<const RayTracingPhase&>(*phase_).sent();
+      rays_ = static_cast<const RayPhase&>(*phase_).sent();
       enter(port, Step::report);
       break;
     case Step::report:
@@ -156,8 +172,7 @@ void RenderProgram::leave(HostPort& port) {
 
 /// In the order of record_kind: those of the radiosity stage, then those of the ray tracing stage.
 std::span<const std::string_view> RenderProgram::record_kinds() const {
-  static constexpr std::array<std::string_view, 6> kNames = {"light", "light_seeking", "deposit",
-                                                             "ray",   "shadow_ray",    "branch"};
+  static constexpr std::array<std::string_view, 5> kNames = {"light", "point", "deposit", "ray", "shadow_ray"};
   return kNames;
 }
 
@@ -165,11 +180,9 @@ std::size_t RenderProgram::record_kind(std::span<const std::byte> record) const 
   using protocol::RecordKind;
   if (record.size() == sizeof(protocol::RadiosityRecord)) {
     const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RadiosityRecord, kind)]);
-    return kind == RecordKind::deposit ? 2 : kind == RecordKind::seek ? 1 : 0;
+    return kind == RecordKind::deposit ? 2 : kind == RecordKind::point ? 1 : 0;
   }
   if (record.size() != sizeof(protocol::RayRecord)) throw MachineFailure("a PE sends records of another size");
-  const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RayRecord, kind)]);
-  if (kind == RecordKind::branch) return 5;
   const auto flags = std::to_integer<std::uint8_t>(record[offsetof(protocol::RayRecord, flags)]);
   return (flags & protocol::kShadow) != 0 ? 4 : 3;
 }
@@ -180,7 +193,7 @@ const char* RenderProgram::waiting_for() const {
 
 std::uint64_t RenderProgram::credits_home() const {
   if (step_ == Step::radiosity) return static_cast<const RadiosityPhase&>(*phase_).credits_home();
-  if (step_ == Step::ray_tracing) return static_cast<const RayTracingPhase&>(*phase_).credits_home();
+  if (step_ == Step::ray_tracing) return static_cast<const RayPhase&>(*phase_).credits_home();
   return job_.setup.credits;
 }
 
@@ -204,7 +217,7 @@ RenderProgress RenderProgram::progress(Cycles now) const {
     // Unshot flux falls about exponentially.
     progress.fraction = start > target ? std::log(start / now_unshot) / std::log(start / target) : 0;
   } else if (step_ == Step::ray_tracing) {
-    const auto& rays = static_cast<const RayTracingPhase&>(*phase_);
+    const auto& rays = static_cast<const RayPhase&>(*phase_);
     progress.stage = RenderStage::ray_tracing;
     progress.unshot_fraction = 0;
     progress.fraction = static_cast<double>(rays.made()) / static_cast<double>(rays.count());

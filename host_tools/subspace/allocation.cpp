@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "emulator/torus/shape.hpp"
@@ -49,41 +50,94 @@ std::function<std::array<std::uint32_t, 2>(const Cell&)> formula(std::string_vie
   return {};
 }
 
-std::vector<PeNumber> balanced(const Grid& grid, const TorusSize& torus, std::span<const CellCost> costs) {
-  CellCost total;
-  for (const CellCost& cost : costs) {
-    total.bytes += cost.bytes;
-    total.cycles += cost.cycles;
+/// Of the mean load: what a PE may have to do more than the least loaded one and still be chosen for its place.
+constexpr double kEquallyLoaded = 0.02;
+
+class Balancer {
+ public:
+  Balancer(const Grid& grid, const TorusSize& torus, std::span<const CellCost> costs, double most_memory)
+      : grid_(grid), torus_(torus), costs_(costs), bytes_(torus.pes()), load_(torus.pes()), pe_of_cell_(grid.count()) {
+    double all_bytes = 0;
+    double all_cycles = 0;
+    for (const CellCost& cost : costs) {
+      all_bytes += static_cast<double>(cost.bytes);
+      all_cycles += cost.cycles;
+    }
+    by_bytes_ = !(all_cycles > 0);
+    most_bytes_ = by_bytes_ ? all_bytes : most_memory * all_bytes / torus.pes();
+    tolerance_ = kEquallyLoaded * (by_bytes_ ? all_bytes : all_cycles) / torus.pes();
   }
-  // Shares of the whole, so that neither outweighs the other.
-  const auto part = [](std::uint64_t value, std::uint64_t whole) {
-    return whole == 0 ? 0.0 : static_cast<double>(value) / static_cast<double>(whole);
-  };
-  std::vector<CellIndex> order(grid.count());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto weight = [&](CellIndex cell) {
-    return std::max(part(costs[cell].bytes, total.bytes), part(costs[cell].cycles, total.cycles));
-  };
-  std::stable_sort(order.begin(), order.end(), [&](CellIndex a, CellIndex b) { return weight(a) > weight(b); });
-  std::vector<CellCost> sum(torus.pes());
-  std::vector<PeNumber> pe_of_cell(grid.count());
-  for (const CellIndex cell : order) {
-    unsigned best = 0;
-    double best_fill = 0;
-    for (unsigned pe = 0; pe < torus.pes(); ++pe) {
-      const double fill = std::max(part(sum[pe].bytes + costs[cell].bytes, total.bytes),
-                                   part(sum[pe].cycles + costs[cell].cycles, total.cycles));
-      if (pe == 0 || fill < best_fill) {
-        best = pe;
-        best_fill = fill;
+
+  std::vector<PeNumber> allocate() {
+    std::vector<CellIndex> order;
+    for (CellIndex cell = 0; cell < grid_.count(); ++cell) {
+      pe_of_cell_[cell] = static_cast<PeNumber>(cell % torus_.pes());
+      if (costs_[cell].bytes > 0 || costs_[cell].cycles > 0) order.push_back(cell);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](CellIndex a, CellIndex b) {
+      return cycles(a) != cycles(b) ? cycles(a) > cycles(b) : costs_[a].bytes > costs_[b].bytes;
+    });
+    placed_.resize(grid_.count());
+    for (const CellIndex cell : order) place(cell);
+    return std::move(pe_of_cell_);
+  }
+
+ private:
+  double cycles(CellIndex cell) const {
+    return by_bytes_ ? static_cast<double>(costs_[cell].bytes) : costs_[cell].cycles;
+  }
+
+  void place(CellIndex cell) {
+    const auto bytes = static_cast<double>(costs_[cell].bytes);
+    const double least_bytes = *std::min_element(bytes_.begin(), bytes_.end());
+    const double most_before = std::max(most_bytes_ - bytes, least_bytes);
+    double least = HUGE_VAL;
+    for (std::size_t pe = 0; pe < load_.size(); ++pe) {
+      if (bytes_[pe] <= most_before) least = std::min(least, load_[pe]);
+    }
+    const std::vector<PeNumber> near = placed_neighbours(cell);
+    std::size_t best = 0;
+    std::optional<std::pair<unsigned, double>> best_place;  // hops, load
+    for (std::size_t pe = 0; pe < load_.size(); ++pe) {
+      if (bytes_[pe] > most_before || load_[pe] > least + tolerance_) continue;
+      unsigned hops = 0;
+      for (const PeNumber neighbour : near) hops += torus_.hops(static_cast<PeNumber>(pe), neighbour);
+      const std::pair place(hops, load_[pe]);
+      if (best_place && !(place < *best_place)) continue;
+      best = pe;
+      best_place = place;
+    }
+    bytes_[best] += bytes;
+    load_[best] += cycles(cell);
+    pe_of_cell_[cell] = static_cast<PeNumber>(best);
+    placed_[cell] = true;
+  }
+
+  /// PEs of the face-adjacent cells that have been placed.
+  std::vector<PeNumber> placed_neighbours(CellIndex index) const {
+    std::vector<PeNumber> pes;
+    const Cell cell = grid_.cell(index);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const bool upper : {false, true}) {
+        if (upper ? cell[axis] + 1 == grid_.cells[axis] : cell[axis] == 0) continue;
+        Cell next = cell;
+        next[axis] = upper ? cell[axis] + 1 : cell[axis] - 1;
+        if (placed_[grid_.index(next)]) pes.push_back(pe_of_cell_[grid_.index(next)]);
       }
     }
-    sum[best].bytes += costs[cell].bytes;
-    sum[best].cycles += costs[cell].cycles;
-    pe_of_cell[cell] = static_cast<PeNumber>(best);
+    return pes;
   }
-  return pe_of_cell;
-}
+
+  const Grid& grid_;
+  const TorusSize& torus_;
+  std::span<const CellCost> costs_;
+  bool by_bytes_ = false;
+  double most_bytes_ = 0;
+  double tolerance_ = 0;
+  std::vector<double> bytes_, load_;  ///< by PE
+  std::vector<PeNumber> pe_of_cell_;
+  std::vector<bool> placed_;
+};
 
 }  // namespace
 
@@ -96,8 +150,8 @@ bool is_allocation(std::string_view name) {
 }
 
 std::vector<PeNumber> allocate(std::string_view name, const Grid& grid, const TorusSize& torus,
-                               std::span<const CellCost> costs) {
-  if (name == "balanced") return balanced(grid, torus, costs);
+                               std::span<const CellCost> costs, double most_memory) {
+  if (name == "balanced") return Balancer(grid, torus, costs, most_memory).allocate();
   const auto place = formula(name, grid, torus);
   if (!place) {
     throw UsageError("--allocation: '" + std::string(name) +

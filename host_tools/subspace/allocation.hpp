@@ -20,11 +20,14 @@ struct TorusSize {
   unsigned hops(protocol::PeNumber a, protocol::PeNumber b) const;
 };
 
-/// What a subspace is expected to cost; for `balanced` only.
+/// What a subspace is expected to cost its owner; for `balanced` only. Nothing at all: it does not matter who has it.
 struct CellCost {
   std::uint64_t bytes = 0;
-  std::uint64_t cycles = 0;
+  double cycles = 0;
 };
+
+/// What `balanced` keeps to unless a machine's memory asks for less.
+inline constexpr double kMostMemory = 1.25;
 
 /// PE of each cell. Names, x y z counted from 0 on P columns and Q rows:
 ///   skewed       ((x + z) mod P, y mod Q): face-adjacent subspaces on the same or adjacent PEs
@@ -32,10 +35,12 @@ struct CellCost {
 ///   skewed-both  ((x + z) mod P, (y + z) mod Q)
 ///   modulo       (x mod P, y mod Q)
 ///   block        (x P / Gx, y Q / Gy): blocks of neighbours
-///   balanced     dearest subspace first, each to the PE that is then the least full in memory and load
+///   balanced     the subspace that costs most cycles first, each to the PE that has least to do; among those that have
+///                little more, to the one with the fewest hops to its neighbours. No PE gets more than `most_memory`
+///                times the mean of bytes, while there is another. Without cycles: bytes in their place
 /// Throws UsageError for another name.
 std::vector<protocol::PeNumber> allocate(std::string_view name, const Grid& grid, const TorusSize& torus,
-                                         std::span<const CellCost> costs);
+                                         std::span<const CellCost> costs, double most_memory = kMostMemory);
 
 /// For checks on the command line and its help.
 bool is_allocation(std::string_view name);

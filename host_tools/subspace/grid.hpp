@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "firmware/protocol/first_cell.hpp"
 #include "firmware/protocol/records.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
@@ -19,6 +20,7 @@ struct Grid {
   std::array<std::uint32_t, 3> cells{1, 1, 1};
   protocol::Vec3f cell_size{1, 1, 1};  ///< plane i of an axis lies at float(i) * cell_size
 
+  protocol::GridShape shape() const { return {cells, cell_size}; }
   std::uint32_t count() const { return cells[0] * cells[1] * cells[2]; }
   CellIndex index(const std::array<std::uint32_t, 3>& cell) const {
     return cell[0] + cells[0] * (cell[1] + cells[1] * cell[2]);
@@ -40,6 +42,11 @@ inline constexpr std::uint32_t kMostCells = 1U << 22U;
 /// longest axis to 32, finer where there would be fewer than four cells for each PE.
 Grid make_grid(const SceneSpace& space, std::optional<std::array<std::uint32_t, 3>> cells, std::size_t triangles,
                std::size_t pes);
+
+/// Scheme `spread`: by the number of triangles, from 8 along the longest axis to 64, coarser where the map of the cells
+/// would take too much of a PE's memory [bytes]. Finer than automatic: who steps over empty cells need not be told of
+/// them by others, and fewer polygons stand in the full ones.
+std::array<std::uint32_t, 3> spread_cells(const SceneSpace& space, std::size_t triangles, std::uint32_t memory);
 
 /// For each cell, ascending numbers of the polygons that stand in it: those that touch its box grown by
 /// protocol::kSubspaceMargin on all sides.

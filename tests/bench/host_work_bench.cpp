@@ -39,7 +39,7 @@ Prepared prepare(const char* name) {
   prepared.scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / name, {});
   const Image image = load_image(std::filesystem::path(TOROLUX_FIRMWARE_DIR) / "pe.elf");
   MachineChoice machine;
-  prepared.setup = make_setup(prepared.scene, prepared.quality, machine, image);
+  prepared.setup = make_setup(prepared.scene, prepared.scene.camera.value_or(Camera{}), prepared.quality, machine, image);
   return prepared;
 }
 
@@ -204,7 +204,7 @@ BENCHMARK(hemicube_table);
 
 void filter_table(benchmark::State& state) {
   std::size_t entries = 0;
-  for (auto _ : state) entries = PixelSamples(PixelFilter::gaussian, 4, 1).table_entries();
+  for (auto _ : state) entries = PixelSamples(PixelFilter::gaussian, 4, 1).distances().size();
   per_item(state, static_cast<double>(entries));
 }
 BENCHMARK(filter_table);

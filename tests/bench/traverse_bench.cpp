@@ -19,7 +19,7 @@ void traverse_room(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
     pe::Segment segment = segments[next++ % segments.size()];
-    benchmark::DoNotOptimize(pe::traverse(scene, 0, segment));
+    benchmark::DoNotOptimize(pe::traverse(scene, segment));
   }
   state.SetItemsProcessed(state.iterations());
 }

@@ -27,8 +27,9 @@ bool has_trapped(const TranslatedPe& pe) {
 }
 
 std::string name_of_hint(std::int32_t immediate) {
-  constexpr std::array<const char*, 10> kNames = {"",      "send_records", "send_message", "receive", "receive_if_any",
-                                                  "clock", "set_slots",    "halt",         "fail",    "receive_more"};
+  constexpr std::array<const char*, 11> kNames = {
+      "",          "send_records", "send_message", "receive",      "receive_if_any", "clock",
+      "set_slots", "halt",         "fail",         "receive_more", "receive_due"};
   const bool known = immediate > 0 && immediate < static_cast<std::int32_t>(kNames.size());
   return known ? kNames[static_cast<std::size_t>(immediate)] : "unknown (" + std::to_string(immediate) + ")";
 }

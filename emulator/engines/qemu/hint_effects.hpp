@@ -26,7 +26,10 @@ void for_each_written(std::int32_t immediate, std::span<const std::byte> local_m
   write_field(&window.released, sizeof window.released);
   const auto hint = static_cast<Hint>(immediate);
   if (hint == Hint::clock) write_field(&window.clock, sizeof window.clock);
-  if (hint != Hint::receive && hint != Hint::receive_if_any && hint != Hint::receive_more) return;
+  if (hint != Hint::receive && hint != Hint::receive_if_any && hint != Hint::receive_more &&
+      hint != Hint::receive_due) {
+    return;
+  }
   write_field(&window.arrival, sizeof window.arrival);
   if (window.arrival.kind == protocol::ArrivalKind::message) {
     write_field(&window.message, sizeof window.message + window.message.bytes);

@@ -38,6 +38,13 @@ TEST(ParsePes, AtMostAsManyAsHaveNumbers) {
 TEST(ParseSubspaces, TakesThreeNumbersOrAuto) {
   EXPECT_EQ(parse_subspaces("8x4x2"), (std::array<std::uint32_t, 3>{8, 4, 2}));
   EXPECT_EQ(parse_subspaces("auto"), std::nullopt);
+  EXPECT_EQ(parse_scheme("paper"), Scheme::paper);
+  EXPECT_EQ(parse_scheme("spread"), Scheme::spread);
+  EXPECT_THROW(parse_scheme("Paper"), UsageError);
+  EXPECT_EQ(parse_fraction("auto"), std::nullopt);
+  EXPECT_EQ(parse_fraction("0.25"), 0.25);
+  EXPECT_THROW(parse_fraction("1.5"), InputError);
+  EXPECT_THROW(parse_fraction("half"), UsageError);
   EXPECT_THROW(parse_subspaces("8x8"), UsageError);
   EXPECT_THROW(parse_subspaces("8x0x8"), InputError);
 }

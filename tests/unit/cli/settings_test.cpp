@@ -128,7 +128,9 @@ void any_machine(RenderOptions& o) {
   perhaps([&] { o.pe_memory = 4096 * whole<std::uint32_t>(64, 16384); });
   perhaps([&] { o.subspaces = SubspacesOption{}; });
   perhaps([&] { o.subspaces = SubspacesOption{{{whole<std::uint32_t>(1, 1024), 7, 9}}}; });
+  perhaps([&] { o.scheme = *rc::gen::element(Scheme::spread, Scheme::paper); });
   perhaps([&] { o.allocation = allocation(); });
+  perhaps([&] { o.replicate = real(0, 1); });
   perhaps([&] { o.engine = "qemu"; });
   perhaps([&] { o.debugging.qemu_pes = {0, 1, 7}; });
   o.enter_empty = *rc::gen::arbitrary<bool>();

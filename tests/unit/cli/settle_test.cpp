@@ -64,6 +64,20 @@ TEST(Settle, BuiltInValues) {
   EXPECT_THAT(settled.outputs, testing::ElementsAre("bare.png"));
 }
 
+TEST(Settle, AllocationFollowsTheScheme) {
+  RenderOptions options;
+  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, allocation_of(MachineChoice().scheme));
+  options.scheme = Scheme::spread;
+  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "balanced");
+  options.scheme = Scheme::paper;
+  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "skewed");
+  EXPECT_EQ(settle(options, scene_with_defaults()).machine.allocation, "block") << "the scene's";
+  options.allocation = "modulo";
+  options.replicate = 0.25;
+  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "modulo");
+  EXPECT_EQ(settle(options, bare_scene()).machine.replicate, 0.25);
+}
+
 TEST(Settle, SceneOutweighsBuiltIn) {
   const Settled settled = settle({}, scene_with_defaults());
   const Quality& q = settled.quality;

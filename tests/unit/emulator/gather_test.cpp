@@ -139,6 +139,58 @@ TEST(Gather, ABusyProcessorTakesWhatATickWouldHaveBroughtIt) {
   EXPECT_LT(got[2].woken, 9020U);
 }
 
+/// What `receive_due` brings, one look after another until there is none.
+std::uint32_t look(Niu& niu) {
+  std::uint32_t arrivals = 0;
+  while (niu.receive_due().kind != ArrivalKind::none) ++arrivals;
+  return arrivals;
+}
+
+/// A processor that never sleeps, and looks at these times: how many arrivals it gets at each.
+std::vector<std::uint32_t> looks(const std::vector<Cycles>& arrive, const std::vector<Cycles>& at, std::uint32_t cycles,
+                                 const std::function<void(HostPort&)>& at_start = {}) {
+  ListeningHost host(1);
+  host.at_start = at_start;
+  NativeOptions options;
+  options.cycles_per_hint = 1;
+  std::vector<std::uint32_t> got;
+  run(
+      small_machine(2, 1), host,
+      [&](Niu& niu, NativeClock& clock) {
+        set_test_slots(niu, 64);
+        if (niu.pe() == 0) {
+          send_to_arrive(niu, clock, arrive);
+        } else {
+          niu.gather(cycles, 64);
+          for (const Cycles time : at) {
+            clock.spend(time - 1 - clock.cycles());  // the look itself takes one
+            got.push_back(look(niu));
+          }
+          niu.send(static_cast<protocol::MessageKind>(kDone));
+        }
+        sleep_for_ever(niu);
+      },
+      options);
+  return got;
+}
+
+TEST(Due, ABusyProcessorSeesWhatHadComeAQuarterBeforeItsLastTick) {
+  // Two have come at 2000 - 250, the third 30 cycles later: whoever looks before 2000 sees none, up to 2999 two of
+  // them.
+  const std::vector<Cycles> arrive = {1300, 2000 - kLead, 2000 - kLead + 30};
+  EXPECT_EQ(looks(arrive, {1500, 1990, 2000, 2020, 2980, 3000}, kTick), (std::vector<std::uint32_t>{0, 0, 2, 0, 0, 1}));
+  EXPECT_EQ(looks(arrive, {100, 9000}, kTick), (std::vector<std::uint32_t>{0, 3})) << "late, and all at once";
+}
+
+TEST(Due, WithoutTicksItIsWhatHasCome) {
+  EXPECT_EQ(looks({1300, 1400}, {1299, 1300, 1399, 1450}, 0), (std::vector<std::uint32_t>{0, 1, 0, 1}));
+}
+
+TEST(Due, MessagesWaitForItLikeRecords) {
+  const auto go = [](HostPort& port) { port.send_message(1, kGo, {}); };  // it comes before 200
+  EXPECT_EQ(looks({1300}, {900, 1000, 1020, 2000}, kTick, go), (std::vector<std::uint32_t>{0, 1, 0, 1}));
+}
+
 TEST(Gather, MoreThanTheRingHoldsIsStillOneBatch) {
   // More than kManyPes PEs, so the rings are small: 1500 packets overflow PE 0's by far.
   constexpr std::uint32_t kEach = 21;
@@ -206,12 +258,42 @@ NativeProgram gatherers(std::uint32_t per_pe, std::uint32_t life, std::uint32_t 
   };
 }
 
+/// As gatherers, but with work of their own: each record that a PE makes takes it some time, after which it looks for
+/// what is due. It sleeps when there is no more to make.
+NativeProgram workers(std::uint32_t per_pe, std::uint32_t life, std::uint32_t cycles, std::uint32_t enough) {
+  return [=](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, 256);
+    niu.gather(cycles, enough);
+    for (std::uint32_t made = 0;;) {
+      const bool busy = made < per_pe;
+      if (busy) {
+        clock.spend(40 + 13 * (made % 7));
+        set_out(niu, made++, life);
+      }
+      std::uint32_t died = 0;
+      const auto* arrival = busy ? &niu.receive_due() : &niu.receive();
+      for (; arrival->kind != ArrivalKind::none; arrival = busy ? &niu.receive_due() : &niu.receive_more()) {
+        const auto slots = arrival->slots;
+        const std::uint32_t count = arrival->count;
+        for (std::uint32_t i = 0; i < count; ++i) died += wander_on(niu, clock, slots[i]) ? 1 : 0;
+      }
+      if (died != 0) niu.send(static_cast<protocol::MessageKind>(kDone), died);
+    }
+  };
+}
+
 class GatherRepeats : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(GatherRepeats, SameRunWhateverTheThreadsDo) {
   MachineSetup setup = small_machine(3, 3);
   setup.description.torus.send_queue_packets = 2;
   expect_same_runs(setup, gatherers(60, 12, GetParam(), 20), 9 * 60, 5);
+}
+
+TEST_P(GatherRepeats, SameRunOfBusyProcessorsToo) {
+  MachineSetup setup = small_machine(3, 3);
+  setup.description.torus.send_queue_packets = 2;
+  expect_same_runs(setup, workers(60, 12, GetParam(), 20), 9 * 60, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ticks, GatherRepeats, testing::Values(0U, 100U, 5'000U));

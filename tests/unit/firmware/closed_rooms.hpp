@@ -30,8 +30,8 @@ class Aim {
     glm::vec3 direction = target - origin;
     if (random_() % 16 == 0) direction[static_cast<int>(random_() % 3)] = 0.0F;
     if (glm::dot(direction, direction) < 1e-12F) direction = {1, 0, 0};
-    pe::Segment s{origin, glm::normalize(direction), 0, protocol::kNoPolygon, false, true, 0};
-    s.subspace = local_subspace(scene_, scene_.cell_of({s.origin.x, s.origin.y, s.origin.z}));
+    pe::Segment s{origin, glm::normalize(direction), 0, protocol::kNoPolygon, true, 0};
+    s.place = scene_.place_of(s.origin);
     return s;
   }
   float uniform() { return static_cast<float>(random_() >> 8U) * 0x1p-24F; }
@@ -78,7 +78,7 @@ inline void no_ray_escapes(Case& c, std::uint32_t seed) {
   for (std::uint32_t i = 0; i < c.rays; ++i) {
     const pe::Segment start = aim.from(origin_in(aim, c.low, c.high));
     pe::Segment s = start;
-    const pe::Way way = pe::traverse(scene, 0, s);
+    const pe::Way way = pe::traverse(scene, s);
     ASSERT_EQ(way.end, pe::WayEnd::hit) << "ray " << i << " escaped";
     if (i % 16 == 0) {
       const Found all = brute_force(scene, start);

@@ -207,7 +207,7 @@ RayRecord ray_to(const TestScene& scene, const glm::vec3& origin, const glm::vec
   r.origin = pe::to_array(origin);
   r.direction = pe::to_array(glm::normalize(target - origin));
   r.weight = {1, 1, 1};
-  r.subspace = local_subspace(scene, scene.cell_of({origin.x, origin.y, origin.z}));
+  r.place = scene.place_of(origin);
   r.polygon = protocol::kNoPolygon;
   r.key = sample;
   r.sample = static_cast<std::uint16_t>(sample);

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <string>
 
+#include "firmware/protocol/shot_grid.hpp"
+
 namespace torolux::test {
 namespace {
 
@@ -67,6 +69,7 @@ void FakePe::hint(std::int32_t immediate) {
       return receive(true);
     case Hint::receive_if_any:
     case Hint::receive_more:
+    case Hint::receive_due:
       return receive(false);
     case Hint::set_slots:
       return set_slots();
@@ -237,6 +240,8 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
     next = round_up(next + static_cast<std::uint32_t>(blocks.back().second.size()), 8);
   };
   protocol::StageLayout& l = s.layout;
+  place(l.cell_words, s.cell_words);
+  place(l.cell_entries, s.cell_entries);
   place(l.subspaces, s.subspaces);
   place(l.polygon_list, s.polygon_list);
   place(l.polygons, s.polygons);
@@ -281,18 +286,82 @@ std::uint32_t FakeMachine::take_credits() {
   return sum;
 }
 
-std::uint32_t FakeMachine::shoot(std::uint16_t pe, const protocol::Shoot& shoot, std::uint32_t credits) {
-  const std::uint64_t before = tally(pe).rays;
-  message(pe, MessageKind::shoot, shoot);
-  run();
-  while (take(MessageKind::shot_done).empty()) {
-    message(pe, MessageKind::grant, protocol::Grant{credits});
-    run();
-    const std::uint32_t home = take_credits();
-    require(home == credits, "credits lost or made");
-    for (const auto& p : pes) require(p->free_niu_slots() == p->niu_slots(), "record slots lost");
+std::uint32_t FakeMachine::points_of(std::uint16_t pe, const protocol::Shoot& shoot) const {
+  const protocol::StageLayout& l = stores[pe].layout;
+  protocol::Flux flux = shoot.amount;
+  if (shoot.kind == protocol::ShotKind::reflected) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      flux[c] = protocol::scale_down(flux[c], stores[pe].patches[shoot.patch].reflectance[c]);
+    }
   }
-  return static_cast<std::uint32_t>(tally(pe).rays - before);
+  return protocol::points_of_shot(shoot.kind, flux, l.points_per_quantum, l.shot_points, l.emission_points);
+}
+
+void FakeMachine::deal(std::uint16_t owner, std::span<const std::uint16_t> to) {
+  protocol::Deal deal{static_cast<std::uint32_t>(to.size()), {}};
+  std::copy(to.begin(), to.end(), deal.pe.begin());
+  message(owner, MessageKind::deal,
+          std::as_bytes(std::span(&deal, 1)).first(offsetof(protocol::Deal, pe) + to.size_bytes()));
+}
+
+std::uint32_t FakeMachine::grant_to_all_in_need(std::uint32_t credits) {
+  std::vector<bool> asked(pes.size());
+  std::uint32_t granted = 0;
+  for (const HostMessage& m : take(MessageKind::need)) {
+    require(!asked[m.source], "asked for credits twice");
+    asked[m.source] = true;
+    message(m.source, MessageKind::grant, protocol::Grant{credits});
+    granted += credits;
+  }
+  for (std::size_t p = 0; p < pes.size(); ++p) {
+    require(asked[p] || !pe::has_work(pes[p]->state()), "asleep without credits, and not asked for any");
+  }
+  return granted;
+}
+
+std::uint32_t FakeMachine::shoot(std::uint16_t owner, const protocol::Shoot& shoot, std::uint32_t credits) {
+  const std::uint64_t before = rays();
+  message(owner, MessageKind::shoot, shoot);
+  const std::uint32_t points = points_of(owner, shoot);
+  std::vector<std::uint32_t> supplied(pes.size());
+  std::uint32_t dealt = 0;
+  protocol::WorkDone done{};
+  while (done.points < points) {
+    std::vector<std::uint16_t> to;
+    while (dealt < points && to.size() < protocol::Deal::kMost) {
+      const auto next = static_cast<std::uint16_t>(points_travel ? (owner + dealt) % pes.size() : owner);
+      if (supplied[next] == protocol::kPointPlaces) break;
+      ++supplied[next];
+      to.push_back(next);
+      ++dealt;
+    }
+    if (!to.empty()) deal(owner, to);
+    run();
+    const std::uint32_t granted = grant_to_all_in_need(credits);
+    run();
+    require(take_credits() == granted, "credits lost or made");
+    for (const auto& p : pes) require(p->free_niu_slots() == p->niu_slots(), "record slots lost");
+    for (const HostMessage& m : take(MessageKind::work_done)) {
+      const auto part = m.as<protocol::WorkDone>();
+      require(part.points <= supplied[m.source], "more points done than dealt");
+      supplied[m.source] -= part.points;
+      done.points += part.points;
+      done.records += part.records;
+    }
+  }
+  // Who asked may have finished with the credits of records that died there since.
+  const std::uint32_t granted = grant_to_all_in_need(credits);
+  run();
+  require(take_credits() == granted, "credits kept without work");
+  require(take(MessageKind::need).empty(), "asked for credits without work");
+  require(rays() - before == done.records, "records made and not told of");
+  return done.records;
+}
+
+std::uint64_t FakeMachine::rays() {
+  std::uint64_t sum = 0;
+  for (std::uint16_t p = 0; p < pes.size(); ++p) sum += tally(p).rays;
+  return sum;
 }
 
 std::vector<protocol::Candidate> FakeMachine::select(std::uint16_t pe, std::uint32_t count, std::int64_t threshold) {

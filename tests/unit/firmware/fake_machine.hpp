@@ -120,8 +120,12 @@ class FakeMachine {
   std::vector<HostMessage> take(protocol::MessageKind kind);
   /// Sum of all `credits` messages since the last call.
   std::uint32_t take_credits();
-  /// Shoots, granting `credits` at a time; returns how many records were created. Checks that their credits come home.
-  std::uint32_t shoot(std::uint16_t pe, const protocol::Shoot& shoot, std::uint32_t credits = 100);
+  /// Shoots, as a host would: deals the points, and grants `credits` at a time to each PE that asks. Returns how many
+  /// records were created. Checks that credits come home, and that PEs ask when they should.
+  std::uint32_t shoot(std::uint16_t owner, const protocol::Shoot& shoot, std::uint32_t credits = 100);
+  /// The owner's next points, one to each of these PEs.
+  void deal(std::uint16_t owner, std::span<const std::uint16_t> to);
+  std::uint32_t points_of(std::uint16_t pe, const protocol::Shoot& shoot) const;
   std::vector<protocol::Candidate> select(std::uint16_t pe, std::uint32_t count, std::int64_t threshold);
   protocol::Tally tally(std::uint16_t pe);
   /// A store of a PE as it stands in its memory.
@@ -141,8 +145,11 @@ class FakeMachine {
   Pixels pixels;                             ///< colours
   std::map<protocol::Plane, Pixels> layers;  ///< other planes
   std::uint64_t records_sent = 0, largest_packet = 0;
+  bool points_travel = true;  ///< shoot deals them to all PEs in turn; else to their owner
 
  private:
+  std::uint32_t grant_to_all_in_need(std::uint32_t credits);
+  std::uint64_t rays();  ///< records made so far by all PEs
   void load_stores(std::uint16_t pe, std::uint32_t niu_slots);
   void load_bytes(std::uint16_t pe, std::uint32_t address, std::span<const std::byte> bytes);
 };

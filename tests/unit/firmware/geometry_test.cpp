@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Proves: the triangle test's hand cases, edges and vertices inclusive, sides by winding; and the walk's: the intervals
-// of the subspaces along a ray meet exactly, whoever computes them, and a seeking record finds its origin's subspace.
+// of the subspaces along a ray meet exactly, whoever computes them and wherever it stops; a point's cell is the one
+// between whose planes it lies; and the map of cells knows what stands where.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "firmware/pe/intersect.hpp"
 #include "firmware/pe/traverse.hpp"
 #include "firmware/pe/walk.hpp"
+#include "firmware/protocol/random.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "tests/unit/firmware/test_scene.hpp"
 
@@ -117,14 +121,36 @@ GridCase random_grid_case() {
   return g;
 }
 
-std::array<std::uint16_t, 3> cell_of(const GridCase& g) {
-  std::array<std::uint16_t, 3> cell{};
-  for (std::uint32_t guard = 0;; ++guard) {
-    RC_ASSERT(guard < 200U);
-    const std::uint32_t face = pe::seek_face(g.layout, g.segment.origin, cell);
-    if (face == protocol::kFaces) return cell;
-    cell[face / 2] = static_cast<std::uint16_t>(cell[face / 2] + (face % 2 == 1 ? 1 : -1));
+/// A map of so many cells, of which a ray stops in those that `stops` says.
+struct TestMap {
+  std::vector<protocol::CellWord> words;
+  template <class Stops>
+  TestMap(std::uint32_t cells, const Stops& stops) : words(protocol::cell_words(cells)) {
+    for (std::uint32_t c = 0; c < cells; ++c) words[c / 32].stops |= stops(c) ? 1U << (c % 32) : 0U;
   }
+  pe::CellMap view() const { return {words, {}}; }
+};
+
+std::uint32_t cells_of(const protocol::StageLayout& layout) {
+  return layout.cells[0] * layout.cells[1] * layout.cells[2];
+}
+
+void assert_same(const pe::Walk& walk, const pe::Walk& other) {
+  RC_ASSERT(pe::bits(walk.t_in()) == pe::bits(other.t_in()));
+  RC_ASSERT(pe::bits(walk.t_out()) == pe::bits(other.t_out()));
+  RC_ASSERT(walk.index() == other.index());
+  RC_ASSERT(walk.place() == other.place());
+  RC_ASSERT(walk.entry_axis() == other.entry_axis());
+  RC_ASSERT(walk.goes_outside() == other.goes_outside());
+  RC_ASSERT(walk.came_from_outside() == other.came_from_outside());
+}
+
+Segment handed_over(const Segment& segment, const pe::Walk& walk) {
+  Segment handed = segment;
+  handed.place = walk.place();
+  handed.first = walk.first();
+  handed.entry_axis = walk.entry_axis();
+  return handed;
 }
 
 // The partition: each interval begins at the very float at which the last one ended, also when it is computed afresh
@@ -132,30 +158,45 @@ std::array<std::uint16_t, 3> cell_of(const GridCase& g) {
 TEST(Walk, IntervalsOfTheSubspacesMeetExactly) {
   const bool holds = rc::check([] {
     GridCase g = random_grid_case();
-    protocol::Subspace here{};
-    here.cell = cell_of(g);
-    pe::Walk walk(g.layout, g.segment, here);
-    float last = walk.t_out();
-    RC_ASSERT(last >= 0.0F);
-    for (std::uint32_t step = 0;; ++step) {
-      RC_ASSERT(step < 130U);
-      const std::uint32_t axis = walk.exit_axis();
-      const bool up = walk.exit_face() % 2 == 1;
-      RC_ASSERT(walk.exit_face() / 2 == axis);
-      if (up ? here.cell[axis] + 1U == g.layout.cells[axis] : here.cell[axis] == 0) break;
-      here.cell[axis] = static_cast<std::uint16_t>(here.cell[axis] + (up ? 1 : -1));
-      walk.cross(here);
-      RC_ASSERT(walk.t_in() == last);
+    const TestMap all(cells_of(g.layout), [](std::uint32_t) { return true; });
+    g.segment.place = pe::cell_of(g.layout, g.segment.origin);
+    pe::Walk walk(g.layout, g.segment);
+    RC_ASSERT(walk.first());
+    RC_ASSERT(walk.index() == pe::cell_index(g.layout, g.segment.place));
+    RC_ASSERT(walk.t_out() >= 0.0F);
+    std::uint32_t steps = 0;
+    for (float last = walk.t_out(); walk.advance(all.view()); last = walk.t_out(), ++steps) {
+      RC_ASSERT(steps < 120U);
+      RC_ASSERT(!walk.first());
+      RC_ASSERT(pe::bits(walk.t_in()) == pe::bits(last));
       RC_ASSERT(walk.t_out() >= last);
-      Segment handed = g.segment;
-      handed.first = false;
-      handed.entry_axis = static_cast<std::uint8_t>(axis);
-      const pe::Walk fresh(g.layout, handed, here);
-      RC_ASSERT(fresh.t_in() == walk.t_in());
-      RC_ASSERT(fresh.t_out() == walk.t_out());
-      RC_ASSERT(fresh.exit_face() == walk.exit_face());
-      last = walk.t_out();
+      RC_ASSERT(walk.index() == pe::cell_index(g.layout, walk.place()));
+      assert_same(pe::Walk(g.layout, handed_over(g.segment, walk)), walk);
     }
+    RC_ASSERT(walk.goes_outside());
+  });
+  EXPECT_TRUE(holds);
+}
+
+// Stepping over cells changes nothing, to the bit: whoever stops in few of them comes to those as who stops in all.
+TEST(Walk, StepsOverCellsAsIfItStopped) {
+  const bool holds = rc::check([] {
+    GridCase g = random_grid_case();
+    const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+    const auto often = *rc::gen::inRange<std::uint32_t>(1, 12);
+    const auto stops = [=](std::uint32_t c) { return protocol::hash_combine(seed, c) % often == 0; };
+    const TestMap all(cells_of(g.layout), [](std::uint32_t) { return true; });
+    const TestMap some(cells_of(g.layout), stops);
+    g.segment.place = pe::cell_of(g.layout, g.segment.origin);
+    pe::Walk walk(g.layout, g.segment);
+    std::optional<pe::Walk> leaping(std::in_place, g.layout, g.segment);
+    while (walk.advance(all.view())) {
+      if (!stops(walk.index())) continue;
+      RC_ASSERT(leaping->advance(some.view()));
+      assert_same(*leaping, walk);
+      leaping.emplace(g.layout, handed_over(g.segment, *leaping));  // at another PE
+    }
+    RC_ASSERT(!leaping->advance(some.view()));
   });
   EXPECT_TRUE(holds);
 }
@@ -166,24 +207,97 @@ TEST(Walk, CornersAreCrossedXBeforeYBeforeZ) {
   layout.cells = {2, 2, 2};
   layout.cell_size = {0.5F, 0.5F, 0.5F};
   const float d = 1.0F / std::sqrt(3.0F);
-  const Segment s{{0.25F, 0.25F, 0.25F}, {d, d, d}, 0, protocol::kNoPolygon, false, true, 0};
-  protocol::Subspace here{};
-  pe::Walk walk(layout, s, here);
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    ASSERT_EQ(walk.exit_face(), 2 * axis + 1);
-    here.cell[axis] = 1;
-    walk.cross(here);
+  const Segment s{{0.25F, 0.25F, 0.25F}, {d, d, d}, 0, protocol::kNoPolygon, true, 0};
+  pe::Walk walk(layout, s);
+  const TestMap all(8, [](std::uint32_t) { return true; });
+  for (std::uint8_t axis = 0; axis < 3; ++axis) {
+    ASSERT_TRUE(walk.advance(all.view()));
+    ASSERT_EQ(walk.entry_axis(), axis);
+  }
+  EXPECT_EQ(walk.place(), protocol::cell_code(1, 1, 1));
+  EXPECT_FALSE(walk.advance(all.view()));
+}
+
+/// Number of the planes 1 .. last along an axis at or below x: found one by one.
+std::uint32_t planes_below(const protocol::StageLayout& layout, std::uint32_t axis, float x) {
+  std::uint32_t cell = 0;
+  while (cell + 1U < layout.cells[axis] && x >= pe::plane(layout, axis, cell + 1U)) ++cell;
+  return cell;
+}
+
+TEST(Cells, APointsCellLiesBetweenItsPlanes) {
+  const bool holds = rc::check([] {
+    GridCase g = random_grid_case();
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      float& x = g.segment.origin[static_cast<int>(a)];
+      const float at = pe::plane(g.layout, a, *rc::gen::inRange<std::uint32_t>(0, g.layout.cells[a] + 1U));
+      switch (*rc::gen::inRange(0, 6)) {  // on a plane, the floats beside it, outside
+        case 0:
+          x = at;
+          break;
+        case 1:
+          x = std::nextafter(at, 2.0F);
+          break;
+        case 2:
+          x = std::nextafter(at, -2.0F);
+          break;
+        case 3:
+          x = x * 4.0F - 1.5F;
+          break;
+        default:
+          break;
+      }
+    }
+    const protocol::CellCode code = pe::cell_of(g.layout, g.segment.origin);
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      RC_ASSERT(protocol::cell_along(code, a) == planes_below(g.layout, a, g.segment.origin[static_cast<int>(a)]));
+    }
+  });
+  EXPECT_TRUE(holds);
+}
+
+TEST(Cells, WhatIsNoNumberOrFarAwayHasACell) {
+  protocol::StageLayout layout{};
+  layout.cells = {7, 1, 1024};
+  layout.cell_size = {0.125F, 1.0F, 0x1p-10F};
+  const float huge = std::numeric_limits<float>::max();
+  const float infinite = std::numeric_limits<float>::infinity();
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(pe::cell_of(layout, {huge, huge, huge}), protocol::cell_code(6, 0, 1023));
+  EXPECT_EQ(pe::cell_of(layout, {infinite, infinite, infinite}), protocol::cell_code(6, 0, 1023));
+  EXPECT_EQ(pe::cell_of(layout, {-huge, -infinite, -infinite}), 0U);
+  EXPECT_EQ(pe::cell_of(layout, {none, none, none}), 0U);
+}
+
+TEST(Cells, CodesKeepTheirPartsApart) {
+  for (const auto& [x, y, z] :
+       {std::array{0U, 0U, 0U}, {1023U, 0U, 0U}, {0U, 1023U, 0U}, {0U, 0U, 1023U}, {5U, 6U, 7U}}) {
+    const protocol::CellCode code = protocol::cell_code(x, y, z);
+    EXPECT_EQ((std::array{protocol::cell_along(code, 0), protocol::cell_along(code, 1), protocol::cell_along(code, 2)}),
+              (std::array{x, y, z}));
   }
 }
 
-TEST(Walk, SeekFindsTheCellThatHoldsTheOrigin) {
+// The map against a list: which cells stop a ray, and the entry of each.
+TEST(Cells, TheMapKnowsWhatStandsWhere) {
   const bool holds = rc::check([] {
-    GridCase g = random_grid_case();
-    const auto cell = cell_of(g);
-    for (std::uint32_t a = 0; a < 3; ++a) {
-      const float x = g.segment.origin[static_cast<int>(a)];
-      RC_ASSERT(cell[a] == 0 || pe::plane(g.layout, a, cell[a]) <= x);
-      RC_ASSERT(cell[a] + 1U == g.layout.cells[a] || x < pe::plane(g.layout, a, cell[a] + 1U));
+    const auto cells = *rc::gen::inRange<std::uint32_t>(1, 200);
+    std::vector<protocol::CellWord> words(protocol::cell_words(cells));
+    std::vector<protocol::CellEntry> entries;
+    std::vector<bool> stops;
+    std::vector<protocol::CellEntry> expected;
+    for (std::uint32_t c = 0; c < cells; ++c) {
+      if (c % 32 == 0) words[c / 32].before = static_cast<std::uint32_t>(entries.size());
+      stops.push_back(*rc::gen::inRange(0, 3) == 0);
+      expected.push_back(stops.back() ? *rc::gen::inRange<std::uint32_t>(0, 1000) : 0);
+      if (!stops.back()) continue;
+      words[c / 32].stops |= 1U << (c % 32);
+      entries.push_back(expected.back());
+    }
+    const pe::CellMap map{words, entries};
+    for (std::uint32_t c = 0; c < cells; ++c) {
+      RC_ASSERT(map.stops(c) == stops[c]);
+      RC_ASSERT(!stops[c] || map.entry(c) == expected[c]);
     }
   });
   EXPECT_TRUE(holds);

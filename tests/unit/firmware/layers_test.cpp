@@ -23,7 +23,7 @@ RayRecord ray_to(const TestScene& scene, const glm::vec3& origin, const glm::vec
   r.origin = pe::to_array(origin);
   r.direction = pe::to_array(glm::normalize(target - origin));
   r.weight = {0.5F, 0.5F, 0.5F};
-  r.subspace = local_subspace(scene, scene.cell_of({origin.x, origin.y, origin.z}));
+  r.place = scene.place_of(origin);
   r.polygon = protocol::kNoPolygon;
   r.key = 7 * pixel + sample;
   r.pixel = pixel;

@@ -59,7 +59,19 @@ TEST(Malformed, LayoutsThatDoNotHoldAreRefused) {
       [](StageLayout& l) { l.record_slots.address = l.elements.address; },
       [](StageLayout& l) { l.record_slots.count = l.own_slots; },
       [](StageLayout& l) { l.record_slots.count = 0x10'0000; },
-      [](StageLayout& l) { l.own_slots = protocol::kOwnSlots - 1; },
+      [](StageLayout& l) { l.own_slots -= 1; },
+      [](StageLayout& l) { l.open_batches = 0; },
+      [](StageLayout& l) {
+        l.open_batches = 24;
+        l.own_slots = protocol::own_slots(l.stage, 24);
+      },
+      [](StageLayout& l) {
+        l.open_batches = 2 * protocol::kMostOpenBatches;
+        l.own_slots = protocol::own_slots(l.stage, l.open_batches);
+      },
+      [](StageLayout& l) { l.cells[0] = protocol::kMostCellsPerAxis + 1; },
+      [](StageLayout& l) { l.cell_words.address = l.cell_entries.address; },
+      [](StageLayout& l) { l.credits_kept = 0; },
       [](StageLayout& l) { l.bounces = 0; },
       [](StageLayout& l) { l.bounces = 256; },
       [](StageLayout& l) { l.hemicube_size = 5; },
@@ -100,11 +112,6 @@ TEST(Malformed, LayersThatThereAreNotAreRefused) {
 
 TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
   const std::vector<std::function<void(PeStores&)>> changes = {
-      [](PeStores& s) { s.subspaces[1].cell[0] = 2; },
-      [](PeStores& s) { s.subspaces[1].cell[1] = 1; },
-      [](PeStores& s) { s.subspaces[0].neighbour[1] = 8; },
-      [](PeStores& s) { s.subspaces[0].neighbour[1] = 0; },
-      [](PeStores& s) { s.subspaces[0].neighbour_pe[1] = 1; },
       [](PeStores& s) { s.subspaces[3].polygon_count = 0xFFFF'FFFF; },
       [](PeStores& s) { s.polygon_list[0] = 0xFFFF; },
       [](PeStores& s) { std::swap(s.polygon_list[0], s.polygon_list[1]); },
@@ -132,10 +139,9 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
       [](PeStores& s) { s.facets[5].element = 4; },
       [](PeStores& s) { s.facets[5].of_patch = 0; },
       [](PeStores& s) { s.facets[5].of_element = std::numeric_limits<float>::quiet_NaN(); },
-      [](PeStores& s) { s.patches[1].subspace = 8; },
       [](PeStores& s) { s.patches[1].side[0] = 0x1000'0000; },
       [](PeStores& s) { s.sides[0].first_element = static_cast<std::uint32_t>(s.elements.size()) - 3; },
-      [](PeStores& s) { s.hemicube[0] += 1; },
+      [](PeStores& s) { s.hemicube[0].weight += 1; },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {
     FakeMachine machine(1);
@@ -147,6 +153,45 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
               code(FaultCode::outside_store))
         << "change " << i;
   }
+}
+
+// Of 36 cells, 30 are not empty: two words. What the map promises, the PE has.
+TEST(Malformed, MapsOfCellsThatDoNotHoldAreRefused) {
+  const auto fault = [](const std::function<void(PeStores&)>& change) {
+    TestScene scene = small_scene();
+    scene.cells = {3, 3, 4};
+    scene.pes = 2;
+    FakeMachine machine(2);
+    machine.load(scene, Stage::radiosity, 64, 1, change);
+    return fault_of([&] {
+      for (const std::uint16_t p : {std::uint16_t{0}, std::uint16_t{1}}) machine.message(p, MessageKind::begin);
+      machine.run();
+    });
+  };
+  EXPECT_EQ(fault([](PeStores&) {}), 0U);
+  const std::vector<std::function<void(PeStores&)>> changes = {
+      [](PeStores& s) { s.cell_words.pop_back(); },
+      [](PeStores& s) {
+        s.cell_words.push_back({0, static_cast<std::uint32_t>(s.cell_entries.size())});
+      },
+      [](PeStores& s) { s.cell_words[0].before = 1; },
+      [](PeStores& s) { s.cell_words[1].before -= 1; },
+      [](PeStores& s) { s.cell_words[1].before += 1; },
+      [](PeStores& s) { s.cell_words[0].stops &= s.cell_words[0].stops - 1U; },  // one less than entries
+      [](PeStores& s) {  // of the last word: 4 cells; as many bits as before, one of them beyond the grid
+        s.cell_words[1].stops = (s.cell_words[1].stops & (s.cell_words[1].stops - 1U)) | 16U;
+      },
+      [](PeStores& s) { s.cell_entries.pop_back(); },
+      [](PeStores& s) { s.cell_entries.push_back(s.cell_entries.back()); },
+      [](PeStores& s) { s.cell_entries[3] = protocol::held_as(static_cast<std::uint32_t>(s.subspaces.size())); },
+      [](PeStores& s) { s.cell_entries[3] = 2; },  // of two PEs
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
+  }
+  // What another PE has is no PE's own to name itself for: the record would never leave.
+  std::uint16_t pe = 0;
+  EXPECT_EQ(fault([&pe](PeStores& s) { s.cell_entries[3] = pe++; }), code(FaultCode::outside_store));
 }
 
 TEST(Malformed, EmittersThatDoNotHoldAreRefused) {
@@ -219,6 +264,8 @@ TEST(Malformed, MessagesOutOfTurnOrShapeAreRefused) {
   };
   EXPECT_EQ(fault(MessageKind::begin, 0), code(FaultCode::unexpected_message));
   EXPECT_EQ(fault(MessageKind::shoot, sizeof(protocol::Shoot)), code(FaultCode::unexpected_message));
+  EXPECT_EQ(fault(MessageKind::deal, sizeof(protocol::Deal)), code(FaultCode::unexpected_message));
+  EXPECT_EQ(fault(MessageKind::grant, sizeof(protocol::Grant)), code(FaultCode::unexpected_message));
   EXPECT_EQ(fault(MessageKind{9}, 0), code(FaultCode::unknown_message));
   EXPECT_EQ(fault(MessageKind::ready, 0), code(FaultCode::unknown_message));
   EXPECT_EQ(fault(MessageKind::configure, 20), code(FaultCode::short_message));
@@ -240,6 +287,54 @@ TEST(Malformed, MessagesOutOfTurnOrShapeAreRefused) {
   EXPECT_EQ(shot({{0, 0, 0}, 9999, 0, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store));
   EXPECT_EQ(shot({{0, 0, 0}, 0, 1, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store)) << "no such side";
   EXPECT_EQ(shot({{0, 0, 0}, 0, 2, protocol::ShotKind::emitted, 0}), code(FaultCode::outside_store));
+}
+
+// A shot has one point here: it can be dealt once, to a PE that there is; another shot must wait for that.
+TEST(Malformed, PointsAreDealtAsOftenAsThereAre) {
+  const protocol::Shoot shoot{{0, 0, 0}, 0, 0, protocol::ShotKind::emitted, 0};
+  const auto fault = [&](const std::function<void(FakeMachine&)>& act) {
+    FakeMachine machine(2);
+    TestScene scene = small_scene();
+    scene.pes = 2;
+    machine.begin(scene, Stage::radiosity);
+    machine.message(0, MessageKind::shoot, shoot);
+    machine.run();
+    return fault_of([&] {
+      act(machine);
+      machine.run();
+    });
+  };
+  const auto deal = [](std::vector<std::uint16_t> to) {
+    return [to = std::move(to)](FakeMachine& machine) { machine.deal(0, to); };
+  };
+  EXPECT_EQ(fault(deal({1})), 0U);
+  EXPECT_EQ(fault(deal({2})), code(FaultCode::outside_store)) << "of two PEs";
+  EXPECT_EQ(fault(deal({0, 1})), code(FaultCode::outside_store)) << "of one point";
+  EXPECT_EQ(fault(deal({})), code(FaultCode::short_message)) << "nobody";
+  EXPECT_EQ(fault([&](FakeMachine& machine) {
+              machine.message(0, MessageKind::deal, protocol::Deal{65, {}});
+            }),
+            code(FaultCode::short_message))
+      << "more than a message holds";
+  EXPECT_EQ(fault([](FakeMachine& machine) {
+              const std::array<std::uint32_t, 2> cut{4, 0};  // of four entries two are there
+              machine.message(0, MessageKind::deal, cut);
+            }),
+            code(FaultCode::short_message));
+  EXPECT_EQ(fault([&](FakeMachine& machine) {
+              machine.deal(0, std::array<std::uint16_t, 1>{1});
+              machine.deal(0, std::array<std::uint16_t, 1>{1});
+            }),
+            code(FaultCode::unexpected_message))
+      << "after the last";
+  EXPECT_EQ(fault([&](FakeMachine& machine) { machine.message(0, MessageKind::shoot, shoot); }),
+            code(FaultCode::unexpected_message))
+      << "a shot in the midst of another";
+  EXPECT_EQ(fault([](FakeMachine& machine) {
+              machine.message(1, MessageKind::deal, protocol::Deal{1, {}});
+            }),
+            code(FaultCode::unexpected_message))
+      << "of no shot";
 }
 
 TEST(Malformed, BlocksStayInsideFreeMemory) {
@@ -286,15 +381,18 @@ TEST(Malformed, RecordsThatNameWhatIsNotThereAreRefused) {
   };
   EXPECT_EQ(fault([](RadiosityRecord&) {}), 0U);
   const std::uint32_t bad = code(FaultCode::bad_record);
-  EXPECT_EQ(fault([](RadiosityRecord& r) { r.subspace = 8; }), bad);
-  EXPECT_EQ(fault([](RadiosityRecord& r) { r.kind = protocol::RecordKind::branch; }), bad);
+  EXPECT_EQ(fault([](RadiosityRecord& r) { r.place = protocol::cell_code(1, 1, 1); }), 0U);
+  for (const protocol::CellCode place :
+       {protocol::cell_code(2, 0, 0), protocol::cell_code(0, 2, 0), protocol::cell_code(0, 0, 2)}) {
+    EXPECT_EQ(fault([=](RadiosityRecord& r) { r.place = place; }), bad) << place;
+  }
   EXPECT_EQ(fault([](RadiosityRecord& r) { r.kind = protocol::RecordKind{77}; }), bad);
   EXPECT_EQ(fault([](RadiosityRecord& r) { r.flags = protocol::kEntryAxisMask; }), bad);
   EXPECT_EQ(fault([](RadiosityRecord& r) { r.flux[1] = -1; }), bad);
   const auto deposit = [&](std::uint32_t patch, std::uint32_t element, std::uint8_t flags) {
     return fault([=](RadiosityRecord& r) {
       r.kind = protocol::RecordKind::deposit;
-      r.subspace = patch;
+      r.place = patch;
       r.polygon = element;
       r.flags = flags;
     });
@@ -303,7 +401,36 @@ TEST(Malformed, RecordsThatNameWhatIsNotThereAreRefused) {
   EXPECT_EQ(deposit(0, 4, 0), bad);
   EXPECT_EQ(deposit(9999, 0, 0), bad);
   EXPECT_EQ(deposit(0, 0, protocol::kBackSide), bad);
+}
 
+TEST(Malformed, PointsThatDoNotHoldAreRefused) {
+  const auto fault = [](const std::function<void(protocol::PointRecord&)>& change, std::uint32_t times = 1) {
+    FakeMachine machine(1);
+    machine.begin(small_scene(), Stage::radiosity);
+    protocol::PointRecord p{};
+    p.kind = protocol::RecordKind::point;
+    p.origin = {0.5F, 0.5F, 0.1F};
+    p.normal = {0, 0, 1};
+    p.flux = {1'000, 1'000, 1'000};
+    change(p);
+    return fault_of([&] {
+      for (std::uint32_t i = 0; i < times; ++i) send(machine, p);
+      machine.message(0, MessageKind::grant, protocol::Grant{1'000});
+      machine.run();
+    });
+  };
+  const std::uint32_t bad = code(FaultCode::bad_record);
+  EXPECT_EQ(fault([](protocol::PointRecord&) {}), 0U);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.place = protocol::cell_code(1, 1, 2); }), bad);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flux[2] = -1; }), bad);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flux[0] = (std::int64_t{1} << 56U) + 1; }), bad);
+  // As many as there are places, with the one whose records are being made.
+  EXPECT_EQ(fault([](protocol::PointRecord&) {}, protocol::kPointPlaces), 0U);
+  EXPECT_EQ(fault([](protocol::PointRecord&) {}, protocol::kPointPlaces + 1U), bad);
+}
+
+TEST(Malformed, RaysThatNameWhatIsNotThereAreRefused) {
+  const std::uint32_t bad = code(FaultCode::bad_record);
   const auto ray = [](const std::function<void(RayRecord&)>& change) {
     FakeMachine machine(1);
     machine.begin(small_scene(), Stage::ray_tracing);
@@ -313,18 +440,13 @@ TEST(Malformed, RecordsThatNameWhatIsNotThereAreRefused) {
     return fault_of([&] { send(machine, r); });
   };
   EXPECT_EQ(ray([](RayRecord&) {}), 0U);
-  EXPECT_EQ(ray([](RayRecord& r) { r.subspace = 8; }), bad);
+  EXPECT_EQ(ray([](RayRecord& r) { r.place = protocol::cell_code(0, 2, 0); }), bad);
   EXPECT_EQ(ray([](RayRecord& r) { r.waiting = 3; }), bad);
-  EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::branch; }), bad);
+  EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::point; }), bad);
   EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::deposit; }), bad);
   EXPECT_EQ(ray([](RayRecord& r) {
               r.waiting = 1;
-              r.branches[0].pe = 5;
-            }),
-            bad);
-  EXPECT_EQ(ray([](RayRecord& r) {
-              r.waiting = 1;
-              r.branches[0].subspace = 8;
+              r.branches[0].place = protocol::cell_code(0, 0, 2);
             }),
             bad);
 }
@@ -333,7 +455,8 @@ TEST(Malformed, RecordsThatNameWhatIsNotThereAreRefused) {
 TEST(Malformed, RandomBytesNeverLeaveMemory) {
   std::mt19937 random(11);
   std::uint32_t survived = 0;
-  const auto garble = [&](auto& record) {
+  const auto cell = [](auto& from) { return protocol::cell_code(from() % 2, from() % 2, from() % 2); };
+  const auto garble = [&](auto& record, std::uint32_t kinds) {
     auto* words = reinterpret_cast<std::uint32_t*>(&record);
     for (std::size_t w = 0; w < sizeof(record) / 4; ++w) {
       const std::uint32_t kind = static_cast<std::uint32_t>(random() % 8);
@@ -341,8 +464,8 @@ TEST(Malformed, RandomBytesNeverLeaveMemory) {
       if (kind == 1) words[w] = 0x7FC0'0000;
       if (kind == 2) words[w] = 0xFF80'0000;
     }
-    record.subspace = static_cast<std::uint32_t>(random() % 9);
-    record.kind = static_cast<protocol::RecordKind>(random() % 16 == 0 ? random() % 4 : random() % 2);
+    record.place = static_cast<std::uint32_t>(random() % 16 == 0 ? random() : cell(random));
+    record.kind = static_cast<protocol::RecordKind>(random() % 16 == 0 ? random() % 4 : random() % kinds);
     record.flags = static_cast<std::uint8_t>(random() & (random() % 64 == 0 ? 0xFFU : 0xDFU));
   };
   for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -353,18 +476,17 @@ TEST(Malformed, RandomBytesNeverLeaveMemory) {
       for (std::uint32_t k = 0; k < 8; ++k) {
         if (stage == Stage::radiosity) {
           RadiosityRecord r{{0.4F, 0.5F, 0.6F}, {0, 0.6F, 0.8F}, {1000, 10, 1}, 0, 0, 0, {}, 0, 0, 0};
-          garble(r);
+          garble(r, 3);
           for (auto& f : r.flux) f &= (std::int64_t{1} << 50) - 1;
           send(machine, r);
         } else {
           RayRecord r{};
           r.origin = {0.4F, 0.5F, 0.6F};
           r.direction = {0, 0.6F, 0.8F};
-          garble(r);
+          garble(r, 1);
           r.waiting = static_cast<std::uint8_t>(random() % 3);
           for (auto& b : r.branches) {
-            b.pe = 0;
-            b.subspace %= 8;
+            b.place = cell(random);
           }
           send(machine, r);
         }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Proves, with whole PEs and fake NIUs: flux is neither lost nor made, every credit comes home exactly once, and the
-// sums are the same bits for any number of PEs, grid and number of slots.
+// sums are the same bits for any number of PEs, grid, number of slots, copies, stops, and whoever makes a point's
+// records.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <map>
 
 #include "tests/unit/firmware/fake_machine.hpp"
@@ -12,6 +14,7 @@ namespace torolux::test {
 namespace {
 
 using protocol::Flux;
+using protocol::MessageKind;
 using protocol::ShotKind;
 using protocol::Stage;
 
@@ -93,8 +96,10 @@ void gather(FakeMachine& machine, Outcome& out) {
 }
 
 /// Shoots the best side of the whole machine `shots` times, as a host would, one at a time.
-Outcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits) {
+Outcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits,
+                bool points_travel = true) {
   FakeMachine machine(scene.pes);
+  machine.points_travel = points_travel;
   machine.load(scene, Stage::radiosity, niu_slots, 1, light_lamp);
   for (std::uint16_t p = 0; p < scene.pes; ++p) machine.message(p, protocol::MessageKind::begin);
   machine.run();
@@ -157,10 +162,19 @@ TEST(Radiosity, SameSumsWhateverTheMachine) {
     std::uint32_t pes;
     std::array<std::uint32_t, 3> cells;
     std::uint32_t slots, credits;
+    bool stop_everywhere, copy_all, points_travel;
+    std::uint32_t open_batches;
   };
-  for (const Machine& m : {Machine{1, {5, 3, 4}, 64, 77}, Machine{2, {2, 2, 2}, 64, 100},
-                           Machine{5, {4, 7, 3}, 200, 999}, Machine{12, {6, 6, 6}, 16, 300}}) {
-    const Outcome other = radiate(room_with_balls(m.pes, m.cells), 10, m.slots, m.credits);
+  for (const Machine& m :
+       {Machine{1, {5, 3, 4}, 64, 77, true, true, true, 64}, Machine{2, {2, 2, 2}, 64, 100, false, false, true, 2},
+        Machine{5, {4, 7, 3}, 200, 999, true, false, true, 8}, Machine{12, {6, 6, 6}, 16, 300, false, true, true, 16},
+        Machine{4, {6, 6, 6}, 64, 50, true, false, false, 1}, Machine{4, {6, 6, 6}, 64, 1, false, true, true, 4},
+        Machine{7, {3, 9, 5}, 64, 64, false, false, false, 4}}) {
+    TestScene scene = room_with_balls(m.pes, m.cells);
+    scene.stop_everywhere = m.stop_everywhere;
+    scene.copy_all = m.copy_all;
+    scene.open_batches = m.open_batches;
+    const Outcome other = radiate(scene, 10, m.slots, m.credits, m.points_travel);
     EXPECT_EQ(other.flux, one.flux) << m.pes << " PEs";
     EXPECT_EQ(other.specular, one.specular);
     EXPECT_EQ(other.glossy, one.glossy);
@@ -244,34 +258,173 @@ TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
       polygon.element_level = static_cast<std::uint8_t>(polygon.patch_level + pick(0, 3));
       s.polygons.push_back(polygon);
     }
-    expect_balance(radiate(s, 3, pick(16, 65), pick(1, 200)));
+    s.stop_everywhere = pick(0, 2) == 1;
+    s.copy_all = pick(0, 2) == 1;
+    s.open_batches = 1U << pick(0, 7);
+    s.credits_kept = pick(1, 100);
+    expect_balance(radiate(s, 3, pick(16, 65), pick(1, 200), pick(0, 2) == 1));
     RC_ASSERT(!::testing::Test::HasFailure());
   });
   EXPECT_TRUE(holds);
 }
 
-// A shot that is over before its credits are used gives them back before it says so; one without flux needs none.
-TEST(Radiosity, UnusedCreditsComeHomeBeforeShotDone) {
-  const TestScene scene = room_with_balls(2, {2, 2, 2});
-  FakeMachine machine(2);
-  machine.load(scene, Stage::radiosity, 64, 1, light_lamp);
-  for (std::uint16_t p = 0; p < 2; ++p) machine.message(p, protocol::MessageKind::begin);
-  machine.run();
-  for (std::uint16_t p = 0; p < 2; ++p) {
-    const auto best = machine.select(p, 1, 0);
-    if (best.empty()) continue;
-    machine.message(p, protocol::MessageKind::shoot,
-                    protocol::Shoot{{0, 0, 0}, best[0].patch, 0, ShotKind::emitted, 0});
+/// A machine with a lamp to shoot from, and what it can shoot.
+struct Lamp {
+  TestScene scene = room_with_balls(3, {2, 2, 2});
+  FakeMachine machine{3};
+  std::uint16_t owner = 0;
+  protocol::Shoot shoot{};
+
+  explicit Lamp(std::uint32_t points = 2, std::uint32_t kept = 16) {
+    scene.points = points;
+    scene.credits_kept = kept;
+    machine.load(scene, Stage::radiosity, 64, 1, light_lamp);
+    for (std::uint16_t p = 0; p < 3; ++p) machine.message(p, MessageKind::begin);
     machine.run();
-    EXPECT_EQ(machine.take(protocol::MessageKind::shot_done).size(), 1U);
-    machine.message(p, protocol::MessageKind::shoot,
-                    protocol::Shoot{best[0].amount, best[0].patch, 0, ShotKind::emitted, 1});
-    machine.message(p, protocol::MessageKind::grant, protocol::Grant{1'000'000});
-    machine.message(p, protocol::MessageKind::grant, protocol::Grant{17});  // sent before the host knew
-    machine.run();
-    EXPECT_EQ(machine.take_credits(), 1'000'017U);
-    EXPECT_EQ(machine.take(protocol::MessageKind::shot_done).size(), 1U);
+    for (std::uint16_t p = 0; p < 3; ++p) {
+      const auto best = machine.select(p, 1, 0);
+      if (best.empty()) continue;
+      owner = p;
+      shoot = {best[0].amount, best[0].patch, best[0].side, ShotKind::emitted, 1};
+    }
+    machine.message(owner, MessageKind::shoot, shoot);
   }
+  void deal(std::vector<std::uint16_t> to) {
+    machine.deal(owner, to);
+    machine.run();
+  }
+  void grant(std::uint16_t pe, std::uint32_t credits) {
+    machine.message(pe, MessageKind::grant, protocol::Grant{credits});
+    machine.run();
+  }
+  /// PEs that have asked for credits since the last call.
+  std::vector<std::uint16_t> asked() {
+    std::vector<std::uint16_t> out;
+    for (const HostMessage& m : machine.take(MessageKind::need)) out.push_back(m.source);
+    return out;
+  }
+  std::uint32_t points_done() {
+    std::uint32_t sum = 0;
+    for (const HostMessage& m : machine.take(MessageKind::work_done)) sum += m.as<protocol::WorkDone>().points;
+    return sum;
+  }
+};
+
+TEST(Credits, APeWithoutWorkSendsAllHome) {
+  Lamp lamp(2, 1'000'000);
+  for (std::uint16_t p = 0; p < 3; ++p) lamp.grant(p, 17);
+  EXPECT_EQ(lamp.machine.take_credits(), 3 * 17U);
+  lamp.deal({1});
+  lamp.grant(1, 1'000'000);  // far more than a point needs
+  EXPECT_EQ(lamp.points_done(), 1U);
+  EXPECT_EQ(lamp.machine.take_credits(), 1'000'000U);
+  EXPECT_FALSE(pe::has_work(lamp.machine.pes[1]->state()));
+}
+
+TEST(Credits, APeWithWorkAndNoneAsksOnce) {
+  Lamp lamp;
+  EXPECT_TRUE(lamp.asked().empty()) << "nobody has work";
+  lamp.deal({2});
+  EXPECT_EQ(lamp.asked(), std::vector<std::uint16_t>{2});
+  lamp.deal({2});
+  EXPECT_TRUE(lamp.asked().empty()) << "it has asked, and none came";
+  lamp.grant(2, 1);
+  // With one credit each record's end allows for the next where it ends: here or at another PE, which sends it home.
+  EXPECT_LE(lamp.asked().size(), 1U);
+  while (lamp.points_done() < 2) {
+    lamp.grant(2, 5);
+    EXPECT_LE(lamp.asked().size(), 1U);
+  }
+}
+
+// Until it has none; then it asks again, with the rest of its work still there.
+TEST(Credits, OneCreditIsEnoughAndIsNeverLost) {
+  Lamp lamp;
+  lamp.deal({0, 1, 2, 0});
+  std::uint32_t done = 0;
+  std::vector<std::uint16_t> in_need = lamp.asked();
+  EXPECT_EQ(in_need.size(), 3U);
+  for (int turn = 0; done < 4; ++turn) {
+    ASSERT_LT(turn, 10'000);
+    ASSERT_FALSE(in_need.empty());
+    lamp.grant(in_need.front(), 1);
+    in_need.erase(in_need.begin());
+    ASSERT_EQ(lamp.machine.take_credits(), 1U) << "it comes home whenever everybody sleeps";
+    for (const std::uint16_t pe : lamp.asked()) in_need.push_back(pe);
+    done += lamp.points_done();
+  }
+  EXPECT_TRUE(in_need.empty());
+}
+
+// While a PE has work it keeps what it is told to, and sends home what is far beyond, before it works on.
+TEST(Credits, SurplusGoesHome) {
+  for (const std::uint32_t surplus : {63U, 64U, 900U}) {
+    Lamp lamp(2, 1'000);
+    lamp.deal({1});
+    lamp.machine.to_host.clear();
+    lamp.grant(1, 1'000 + surplus);
+    const auto& heard = lamp.machine.to_host;
+    const auto kind_is = [](MessageKind kind) { return [kind](const HostMessage& m) { return m.kind == kind; }; };
+    const auto done = std::find_if(heard.begin(), heard.end(), kind_is(MessageKind::work_done));
+    const auto home = std::find_if(heard.begin(), heard.end(), kind_is(MessageKind::credits));
+    ASSERT_NE(done, heard.end());
+    ASSERT_NE(home, heard.end());
+    EXPECT_EQ(home < done, surplus >= 64) << surplus << " are no longer worth keeping";
+    if (home < done) {
+      EXPECT_EQ(home->as<protocol::Credits>().count, surplus);
+    }
+    EXPECT_EQ(lamp.machine.take_credits(), 1'000 + surplus);
+  }
+}
+
+// Whoever makes a point's records, they are the same ones: the sums of all elements are those that the owner alone
+// makes, and each PE tells the host of its own.
+TEST(Points, SameRecordsWhoeverMakesThem) {
+  const auto shot_by = [](const std::vector<std::uint16_t>& to) {
+    Lamp lamp;
+    lamp.deal(to);
+    std::map<std::uint16_t, protocol::WorkDone> done;
+    std::uint32_t points = 0;
+    for (int turn = 0; points < 4 && turn < 1'000; ++turn) {
+      for (const std::uint16_t pe : lamp.asked()) lamp.grant(pe, 40);
+      for (const HostMessage& m : lamp.machine.take(MessageKind::work_done)) {
+        const auto part = m.as<protocol::WorkDone>();
+        done[m.source].points += part.points;
+        done[m.source].records += part.records;
+        points += part.points;
+      }
+    }
+    EXPECT_EQ(points, 4U);
+    Outcome out;
+    gather(lamp.machine, out);
+    for (const auto& [pe, part] : done) {
+      EXPECT_EQ(part.points, std::count(to.begin(), to.end(), pe));
+      EXPECT_EQ(part.records, lamp.machine.tally(pe).rays);
+      out.records += part.records;
+    }
+    return out;
+  };
+  const Outcome alone = shot_by({0, 0, 0, 0});
+  EXPECT_GT(alone.records, 500U);
+  for (const std::vector<std::uint16_t>& to :
+       {std::vector<std::uint16_t>{1, 1, 1, 1}, {2, 2, 2, 2}, {0, 1, 2, 0}, {2, 1, 0, 1}}) {
+    const Outcome other = shot_by(to);
+    EXPECT_EQ(other.flux, alone.flux);
+    EXPECT_EQ(other.specular, alone.specular);
+    EXPECT_EQ(other.glossy, alone.glossy);
+    EXPECT_EQ(other.records, alone.records);
+  }
+}
+
+// A shot without flux has points all the same, and they are done without a record.
+TEST(Points, WithoutFluxMakeNoRecords) {
+  Lamp lamp;
+  lamp.deal({0, 1, 2, 0});  // the rest of the shot before
+  while (lamp.points_done() < 4) {
+    for (const std::uint16_t pe : lamp.asked()) lamp.grant(pe, 1'000);
+  }
+  lamp.shoot.amount = {0, 0, 0};
+  EXPECT_EQ(lamp.machine.shoot(lamp.owner, lamp.shoot), 0U);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ RayRecord ray_from(const TestScene& scene, const glm::vec3& origin, const glm::v
   r.origin = pe::to_array(origin);
   r.direction = pe::to_array(glm::normalize(target - origin));
   r.weight = {1, 1, 1};
-  r.subspace = local_subspace(scene, scene.cell_of({origin.x, origin.y, origin.z}));
+  r.place = scene.place_of(origin);
   r.polygon = protocol::kNoPolygon;
   r.key = protocol::hash_combine(scene.seed, pixel);
   r.pixel = pixel;

@@ -25,7 +25,7 @@ TEST(Hemicube, WeightsAddUpToExactlyOne) {
     const auto table = hemicube_table(n);
     std::uint64_t sum = 0;
     for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p)
-      sum += table[pe::weight_of(n, pe::hemicube_pixel(n, p))];
+      sum += table[pe::entry_of(n, pe::hemicube_pixel(pe::HemicubeGrid(n), p))].weight;
     EXPECT_EQ(sum, protocol::kOne) << n;
   }
 }
@@ -36,20 +36,26 @@ glm::vec3 on_cube(const glm::vec3& d) {
 }
 constexpr pe::Frame kAxes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
+glm::vec3 direction(const std::vector<protocol::HemicubeEntry>& table, std::uint32_t n, const pe::HemicubePixel& pixel,
+                    pe::PixelPoint at) {
+  return pe::pixel_direction(kAxes, pe::HemicubeGrid(n), pixel, table[pe::entry_of(n, pixel)], at);
+}
+
 // Every direction is on its own side of the surface, and the pixel's weight is its delta form factor there.
 TEST(Hemicube, PixelsLieWhereTheirWeightsSay) {
   const std::uint32_t n = 32;
+  const pe::HemicubeGrid grid(n);
   const auto table = hemicube_table(n);
   for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p) {
-    const pe::HemicubePixel pixel = pe::hemicube_pixel(n, p);
-    const glm::vec3 at = on_cube(pe::pixel_direction(kAxes, n, pixel, {}));
+    const pe::HemicubePixel pixel = pe::hemicube_pixel(grid, p);
+    const glm::vec3 at = on_cube(direction(table, n, pixel, {}));
     ASSERT_GT(at.z, 0.0F);
     const double r2 = static_cast<double>(glm::dot(at, at));
     const double area = 4.0 / (n * n);  // cos * cos' / (pi r^2) * area at a point, cos' = 1 / r on any face
     const double mid = static_cast<double>(at.z) * area / (std::numbers::pi * r2 * r2);
     // At the half of its light in either direction, which for a pixel at a side's foot is off its middle.
     const bool foot = pixel.face != pe::HemicubePixel::kTop && pixel.row == 0;
-    ASSERT_NEAR(table[pe::weight_of(n, pixel)] * 0x1p-32, mid, (foot ? 0.45 : 0.06) * mid + 1e-9) << p;
+    ASSERT_NEAR(table[pe::entry_of(n, pixel)].weight * 0x1p-32, mid, (foot ? 0.45 : 0.06) * mid + 1e-9) << p;
   }
 }
 
@@ -58,19 +64,19 @@ TEST(Hemicube, PixelsLieWhereTheirWeightsSay) {
 // surface like z).
 TEST(Hemicube, LightIsSpreadOverAPixelAsItsFormFactor) {
   const std::uint32_t n = 8;
+  const auto table = hemicube_table(n);
   std::mt19937 random(5);
   const auto uniform = [&] { return static_cast<float>(random() >> 8U) * 0x1p-24F; };
   int low = 0;
   int top_inner = 0;
   constexpr int kDraws = 20'000;
   for (int i = 0; i < kDraws; ++i) {
-    const glm::vec3 side = on_cube(pe::pixel_direction(kAxes, n, {0, 0, 3}, {uniform(), uniform()}));
+    const glm::vec3 side = on_cube(direction(table, n, {0, 0, 3}, {uniform(), uniform()}));
     ASSERT_NEAR(side.x, 1.0F, 1e-6F);
     ASSERT_GE(side.y, -0.25F - 1e-6F);
     ASSERT_LE(side.y, 1e-6F);
     low += side.z < 0.125F ? 1 : 0;
-    const glm::vec3 top =
-        on_cube(pe::pixel_direction(kAxes, n, {pe::HemicubePixel::kTop, 7, 7}, {uniform(), uniform()}));
+    const glm::vec3 top = on_cube(direction(table, n, {pe::HemicubePixel::kTop, 7, 7}, {uniform(), uniform()}));
     ASSERT_GE(top.x, 0.75F - 1e-6F);
     top_inner += top.x < 0.875F ? 1 : 0;
   }
@@ -87,6 +93,7 @@ TEST(Hemicube, LightIsSpreadOverAPixelAsItsFormFactor) {
 TEST(Hemicube, LightFollowsTheBendAcrossALargePixel) {
   const auto is_middle = [](double v) { return v >= 0.125 && v < 0.375; };
   constexpr int kSteps = 400;
+  const auto table = hemicube_table(4);
   double all = 0;
   double middle = 0;
   int drawn = 0;
@@ -98,8 +105,8 @@ TEST(Hemicube, LightFollowsTheBendAcrossALargePixel) {
     const double density = std::pow(1 + (a * a + b * b) / 4, -2);
     all += density;
     if (is_middle(a / 2) && is_middle(b / 2)) middle += density;
-    const glm::vec3 at = on_cube(
-        pe::pixel_direction(kAxes, 4, {pe::HemicubePixel::kTop, 2, 2}, {static_cast<float>(a), static_cast<float>(b)}));
+    const glm::vec3 at =
+        on_cube(direction(table, 4, {pe::HemicubePixel::kTop, 2, 2}, {static_cast<float>(a), static_cast<float>(b)}));
     if (is_middle(static_cast<double>(at.x)) && is_middle(static_cast<double>(at.y))) ++drawn;
   }
   EXPECT_NEAR(drawn / double{kSteps * kSteps} / (middle / all), 1, 0.01) << "what is left is the bend's own error";
@@ -109,6 +116,7 @@ TEST(Hemicube, DirectionsFollowTheCosineLaw) {
   const double x = 0.5, a = std::sqrt(1 + x * x);
   const double expected = 4 / (2 * std::numbers::pi) * 2 * (x / a * std::atan(x / a));
   const std::uint32_t n = 32;
+  const pe::HemicubeGrid grid(n);
   const auto table = hemicube_table(n);
   std::mt19937 random(1);
   double sum = 0;
@@ -116,11 +124,12 @@ TEST(Hemicube, DirectionsFollowTheCosineLaw) {
   for (int s = 0; s < spins; ++s) {
     const pe::Frame frame = pe::spun(kAxes, static_cast<float>(random() >> 8U) * 0x1p-24F);
     for (std::uint32_t p = 0; p < protocol::hemicube_pixels(n); ++p) {
-      const pe::HemicubePixel pixel = pe::hemicube_pixel(n, p);
-      const glm::vec3 d = pe::pixel_direction(frame, n, pixel, {});
+      const pe::HemicubePixel pixel = pe::hemicube_pixel(grid, p);
+      const glm::vec3 d = pe::pixel_direction(frame, grid, pixel, table[pe::entry_of(n, pixel)], {});
       ASSERT_NEAR(glm::length(d), 1.0F, 2e-7F);
       ASSERT_GT(d.z, 0.0F);
-      if (std::abs(d.x / d.z) < 0.5F && std::abs(d.y / d.z) < 0.5F) sum += table[pe::weight_of(n, pixel)] * 0x1p-32;
+      if (std::abs(d.x / d.z) < 0.5F && std::abs(d.y / d.z) < 0.5F)
+        sum += table[pe::entry_of(n, pixel)].weight * 0x1p-32;
     }
   }
   EXPECT_NEAR(sum / spins, expected, 0.005 * expected);  // 64 spins of 32 pixels: some 0.1 % of noise
@@ -151,18 +160,18 @@ struct PointsOfAPatch {
     for (std::size_t e = 0; e < 4; ++e) view.elements[e].unshot = unshot[e];
     shot.command.kind = kind;
     shot.flux = {1'000'003, 600'011, 7};
-    shot.grid = k;
+    shot.points = k * k;
+    shot.key = 77;
     pe::begin_points(view, shot);
   }
 
-  void place(std::uint32_t point) {
-    shot.point = point;
-    shot.key = protocol::hash_combine(77, point);
-    pe::place_point(view, shot);
+  protocol::PointRecord next() { return pe::make_point(view, shot); }
+  static protocol::Weights weights(const protocol::PointRecord& point) {
+    return {1.0F - point.origin[0] - point.origin[1], point.origin[0], point.origin[1]};
   }
   /// Which element the point lies on.
-  std::uint32_t element() const {
-    protocol::Weights at{1.0F - shot.origin.x - shot.origin.y, shot.origin.x, shot.origin.y};
+  static std::uint32_t element(const protocol::PointRecord& point) {
+    protocol::Weights at = weights(point);
     return protocol::enter_level(at, 1);
   }
 };
@@ -174,13 +183,12 @@ TEST(ShotPoints, EmittedLightLeavesFromEqualParts) {
     std::vector<std::uint32_t> seen;
     protocol::Flux sum{};
     for (std::uint32_t p = 0; p < k * k; ++p) {
-      points.place(p);
-      protocol::Weights at{1.0F - points.shot.origin.x - points.shot.origin.y, points.shot.origin.x,
-                           points.shot.origin.y};
+      const protocol::PointRecord point = points.next();
+      protocol::Weights at = PointsOfAPatch::weights(point);
       ASSERT_GT(std::min({at.b0, at.b1, at.b2}), 0.0F);
       seen.push_back(protocol::enter_level(at, static_cast<std::uint32_t>(std::bit_width(k)) - 1U));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += points.shot.share[c];
-      EXPECT_NEAR(static_cast<double>(points.shot.share[0]), 1'000'003.0 / (k * k), 2.0);
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += point.flux[c];
+      EXPECT_NEAR(static_cast<double>(point.flux[0]), 1'000'003.0 / (k * k), 2.0);
     }
     std::sort(seen.begin(), seen.end());
     EXPECT_EQ(std::unique(seen.begin(), seen.end()), seen.end()) << k;
@@ -196,13 +204,14 @@ TEST(ShotPoints, ReflectedLightLeavesWhereItCame) {
   protocol::Flux sum{};
   std::array<int, 4> count{};
   for (std::uint32_t p = 0; p < 64; ++p) {
-    points.place(p);
+    const protocol::PointRecord point = points.next();
+    const std::uint32_t element = PointsOfAPatch::element(point);
     for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_GE(points.shot.share[c], 0);
-      by_element[points.element()][c] += points.shot.share[c];
-      sum[c] += points.shot.share[c];
+      EXPECT_GE(point.flux[c], 0);
+      by_element[element][c] += point.flux[c];
+      sum[c] += point.flux[c];
     }
-    ++count[points.element()];
+    ++count[element];
   }
   EXPECT_EQ(sum, points.shot.flux);
   EXPECT_EQ(count, (std::array{16, 0, 48, 0}));
@@ -217,8 +226,8 @@ TEST(ShotPoints, WhatNoElementKnowsOfLeavesByArea) {
   PointsOfAPatch points(3, {}, protocol::ShotKind::reflected);
   protocol::Flux sum{};
   for (std::uint32_t p = 0; p < 9; ++p) {
-    points.place(p);
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += points.shot.share[c];
+    const protocol::PointRecord point = points.next();
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += point.flux[c];
   }
   EXPECT_EQ(sum, points.shot.flux);
 }

@@ -45,7 +45,6 @@ Vec3f plus(const Vec3f& a, const Vec3f& b, float s) {
 struct PatchPlace {
   std::uint16_t pe;
   std::uint32_t local;
-  std::uint32_t subspace;
 };
 std::vector<std::vector<PatchPlace>> place_patches(const TestScene& scene) {
   std::vector<std::vector<PatchPlace>> places;
@@ -55,7 +54,7 @@ std::vector<std::vector<PatchPlace>> place_patches(const TestScene& scene) {
     for (std::uint32_t path = 0; path < protocol::triangles_of_level(polygon.patch_level); ++path) {
       const auto cell = scene.cell_of(patch_centre(polygon, path));
       const std::uint16_t pe = scene.pe_of(cell[0], cell[1], cell[2]);
-      of_polygon.push_back({pe, count[pe]++, local_subspace(scene, cell)});
+      of_polygon.push_back({pe, count[pe]++});
     }
     places.push_back(std::move(of_polygon));
   }
@@ -73,10 +72,7 @@ class Builder {
     out.materials = scene_.materials;
     if (stage_ == protocol::Stage::ray_tracing) out.emitters = scene_.emitters;
     for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) add_polygon(out, pe, p);
-    for (std::uint32_t z = 0; z < scene_.cells[2]; ++z)
-      for (std::uint32_t y = 0; y < scene_.cells[1]; ++y)
-        for (std::uint32_t x = 0; x < scene_.cells[0]; ++x)
-          if (scene_.pe_of(x, y, z) == pe) add_subspace(out, {x, y, z});
+    add_cells(out, pe);
     if (stage_ == protocol::Stage::radiosity) out.hemicube = hemicube_table(scene_.hemicube_size);
     return out;
   }
@@ -88,7 +84,9 @@ class Builder {
     l.seed = scene_.seed;
     l.cells = scene_.cells;
     for (std::size_t a = 0; a < 3; ++a) l.cell_size[a] = scene_.size[a] / static_cast<float>(scene_.cells[a]);
-    l.own_slots = protocol::own_slots(stage_);
+    l.open_batches = scene_.open_batches;
+    l.own_slots = protocol::own_slots(stage_, scene_.open_batches);
+    l.credits_kept = scene_.credits_kept;
     l.bounces = scene_.bounces;
     l.hemicube_size = scene_.hemicube_size;
     l.shot_points = l.emission_points = scene_.points;
@@ -150,13 +148,8 @@ class Builder {
       if (places_[number][path].pe != pe) continue;
       const std::uint32_t levels = from.element_level - from.patch_level;
       const std::uint32_t elements = protocol::triangles_of_level(levels);
-      protocol::Patch patch{global + path,
-                            static_cast<std::uint32_t>(out.facets.size()),
-                            elements,
-                            elements,
-                            places_[number][path].subspace,
-                            {protocol::kNoSide, protocol::kNoSide},
-                            {}};
+      protocol::Patch patch{global + path, static_cast<std::uint32_t>(out.facets.size()), elements,
+                            elements,      {protocol::kNoSide, protocol::kNoSide},        {}};
       for (std::uint32_t e = 0; e < elements; ++e) {
         const std::uint32_t code = protocol::location_code((path << (2U * levels)) | e, from.element_level);
         out.facets.push_back({number, code, e, 1.0F / static_cast<float>(elements), 1.0F});
@@ -175,22 +168,29 @@ class Builder {
     }
   }
 
-  void add_subspace(PeStores& out, const std::array<std::uint32_t, 3>& cell) {
-    protocol::Subspace s{};
-    for (std::size_t a = 0; a < 3; ++a) s.cell[a] = static_cast<std::uint16_t>(cell[a]);
-    for (std::size_t face = 0; face < protocol::kFaces; ++face) {
-      auto next = cell;
-      next[face / 2] += face % 2 == 1 ? 1U : 0xFFFF'FFFFU;
-      const bool outside = next[face / 2] >= scene_.cells[face / 2];
-      s.neighbour_pe[face] = outside ? protocol::kNobody : scene_.pe_of(next[0], next[1], next[2]);
-      s.neighbour[face] = outside ? 0 : local_subspace(scene_, next);
-    }
-    s.first_polygon = static_cast<std::uint32_t>(out.polygon_list.size());
-    for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
-      if (stands_in(scene_.polygons[p], out.layout.cell_size, cell)) out.polygon_list.push_back(p);
-    }
-    s.polygon_count = static_cast<std::uint32_t>(out.polygon_list.size()) - s.first_polygon;
-    out.subspaces.push_back(s);
+  /// The subspaces that the PE holds, and its map of all.
+  void add_cells(PeStores& out, std::uint16_t pe) const {
+    std::uint32_t index = 0;
+    for (std::uint32_t z = 0; z < scene_.cells[2]; ++z)
+      for (std::uint32_t y = 0; y < scene_.cells[1]; ++y)
+        for (std::uint32_t x = 0; x < scene_.cells[0]; ++x, ++index) {
+          if (index % 32 == 0) out.cell_words.push_back({0, static_cast<std::uint32_t>(out.cell_entries.size())});
+          const auto first = static_cast<std::uint32_t>(out.polygon_list.size());
+          std::vector<std::uint32_t> list;
+          for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
+            if (stands_in(scene_.polygons[p], out.layout.cell_size, {x, y, z})) list.push_back(p);
+          }
+          if (list.empty() && !scene_.stop_everywhere) continue;
+          out.cell_words.back().stops |= 1U << (index % 32);
+          const std::uint16_t owner = scene_.pe_of(x, y, z);
+          if (owner != pe && !scene_.copy_all) {
+            out.cell_entries.push_back(owner);
+            continue;
+          }
+          out.cell_entries.push_back(protocol::held_as(static_cast<std::uint32_t>(out.subspaces.size())));
+          out.subspaces.push_back({first, static_cast<std::uint32_t>(list.size())});
+          out.polygon_list.insert(out.polygon_list.end(), list.begin(), list.end());
+        }
   }
 
   const TestScene& scene_;
@@ -265,6 +265,7 @@ void aim_at(TestScene& scene, std::uint16_t material) {
 pe::Scene PeStores::scene() {
   pe::Scene s;
   s.layout = layout;
+  s.map = {cell_words, cell_entries};
   s.subspaces = subspaces;
   s.polygon_list = polygon_list;
   s.polygons = polygons;
@@ -292,19 +293,7 @@ std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage
   return all;
 }
 
-std::uint32_t local_subspace(const TestScene& scene, const std::array<std::uint32_t, 3>& cell) {
-  const std::uint16_t pe = scene.pe_of(cell[0], cell[1], cell[2]);
-  std::uint32_t number = 0;
-  for (std::uint32_t z = 0; z < scene.cells[2]; ++z)
-    for (std::uint32_t y = 0; y < scene.cells[1]; ++y)
-      for (std::uint32_t x = 0; x < scene.cells[0]; ++x) {
-        if (std::array{x, y, z} == cell) return number;
-        number += scene.pe_of(x, y, z) == pe ? 1 : 0;
-      }
-  return protocol::kNoPolygon;
-}
-
-std::vector<std::uint32_t> hemicube_table(std::uint32_t n) {
+std::vector<protocol::HemicubeEntry> hemicube_table(std::uint32_t n) {
   // Form factor from a point to the rectangle (0,0)..(x,y) of a face: the corner formula of a differential area.
   const auto top = [](double x, double y) {
     const double a = std::sqrt(1 + x * x), b = std::sqrt(1 + y * y);
@@ -318,19 +307,23 @@ std::vector<std::uint32_t> hemicube_table(std::uint32_t n) {
     return f(u * (i + 1), u * (j + 1)) - f(u * i, u * (j + 1)) - f(u * (i + 1), u * j) + f(u * i, u * j);
   };
   const std::uint32_t half = n / 2;
-  std::vector<std::uint32_t> table;
+  std::vector<protocol::HemicubeEntry> table;
+  const auto add = [&](double weight) {
+    table.push_back(protocol::hemicube_entry(n, static_cast<std::uint32_t>(table.size())));
+    table.back().weight = static_cast<std::uint32_t>(std::lround(weight * 0x1p32));
+  };
   std::uint64_t sum = 0;
   for (std::uint32_t j = 0; j < half; ++j)
     for (std::uint32_t i = 0; i < half; ++i) {
-      table.push_back(static_cast<std::uint32_t>(std::lround(cell(top, i, j) * 0x1p32)));
-      sum += 4ULL * table.back();
+      add(cell(top, i, j));
+      sum += 4ULL * table.back().weight;
     }
   for (std::uint32_t j = 0; j < half; ++j)
     for (std::uint32_t i = 0; i < half; ++i) {
-      table.push_back(static_cast<std::uint32_t>(std::lround(cell(side, i, j) * 0x1p32)));
-      sum += 8ULL * table.back();
+      add(cell(side, i, j));
+      sum += 8ULL * table.back().weight;
     }
-  table[0] += static_cast<std::uint32_t>(((std::int64_t{1} << 32) - static_cast<std::int64_t>(sum)) / 4);
+  table[0].weight += static_cast<std::uint32_t>(((std::int64_t{1} << 32) - static_cast<std::int64_t>(sum)) / 4);
   return table;
 }
 

@@ -36,11 +36,20 @@ struct TestScene {
   float pixel_scale = 0x1p20F;
   float least_weight = 0;
   std::uint32_t layers = 0;
+  bool stop_everywhere = false;  ///< rays stop in every cell, not only where a polygon stands
+  bool copy_all = false;         ///< every PE holds all of these cells
+  std::uint32_t open_batches = protocol::kMostOpenBatches;
+  std::uint32_t credits_kept = 16;
 
   std::uint16_t pe_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
     return static_cast<std::uint16_t>((x + 3 * y + 5 * z) % pes);
   }
   std::array<std::uint32_t, 3> cell_of(const std::array<double, 3>& point) const;
+  /// Code of the cell that holds a point.
+  protocol::CellCode place_of(const glm::vec3& point) const {
+    const auto cell = cell_of({point.x, point.y, point.z});
+    return protocol::cell_code(cell[0], cell[1], cell[2]);
+  }
 };
 
 protocol::Material diffuse_material(float reflectance, float emission = 0);
@@ -54,6 +63,8 @@ void aim_at(TestScene& scene, std::uint16_t material);
 /// The stores of one PE.
 struct PeStores {
   protocol::StageLayout layout{};  ///< its stores' addresses are not set
+  std::vector<protocol::CellWord> cell_words;
+  std::vector<protocol::CellEntry> cell_entries;
   std::vector<protocol::Subspace> subspaces;
   std::vector<std::uint32_t> polygon_list;
   std::vector<protocol::Polygon> polygons;
@@ -65,7 +76,7 @@ struct PeStores {
   std::vector<protocol::PatchSide> sides;
   std::vector<protocol::Element> elements;
   std::vector<protocol::Facet> facets;
-  std::vector<std::uint32_t> hemicube;
+  std::vector<protocol::HemicubeEntry> hemicube;
   std::vector<protocol::LatticeTriangle> lattice;  ///< all `lattice_value`
   std::vector<protocol::Texture> textures;         ///< none, as those that follow
   std::vector<protocol::Texel> texels;
@@ -79,11 +90,8 @@ struct PeStores {
 /// By PE. lattice_value: irradiance / pi at every lattice vertex.
 std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float lattice_value = 1);
 
-/// Local number of the subspace at a cell, at its PE.
-std::uint32_t local_subspace(const TestScene& scene, const std::array<std::uint32_t, 3>& cell);
-
 /// Exact delta form factors, normalised (see stores.hpp).
-std::vector<std::uint32_t> hemicube_table(std::uint32_t n);
+std::vector<protocol::HemicubeEntry> hemicube_table(std::uint32_t n);
 
 /// Two triangles for each of n * n cells of a wall. a, b: edge vectors; the front is where a x b points.
 void add_wall(TestScene& scene, const protocol::Vec3f& corner, const protocol::Vec3f& a, const protocol::Vec3f& b,

@@ -63,7 +63,7 @@ protocol::RayRecord ray_to(const TestScene& scene, const glm::vec3& target, std:
   r.origin = pe::to_array(origin);
   r.direction = pe::to_array(glm::normalize(target - origin));
   r.weight = {1, 1, 1};
-  r.subspace = local_subspace(scene, scene.cell_of({0.5, 0.5, static_cast<double>(origin.z)}));
+  r.place = scene.place_of(origin);
   r.polygon = protocol::kNoPolygon;
   r.pixel = pixel;
   r.flags = protocol::kFirst;

@@ -53,48 +53,65 @@ TEST(Watertight, NoRayEscapesFromABall) {
   }
 }
 
-// Every hand-over between PEs leaves the ray's hit as it was, bit for bit.
+/// A ray's way over all PEs, through the record, as on the torus. hand_overs: added to.
+pe::Way follow(const std::vector<pe::Scene>& scenes, const TestScene& many, const Segment& start, std::uint16_t& at,
+               std::uint32_t& hand_overs) {
+  const auto cell = many.cell_of({start.origin.x, start.origin.y, start.origin.z});
+  at = many.pe_of(cell[0], cell[1], cell[2]);
+  protocol::RayRecord record{};
+  record.origin = pe::to_array(start.origin);
+  record.direction = pe::to_array(start.direction);
+  record.place = start.place;
+  record.polygon = start.polygon;
+  record.flags = protocol::kFirst;
+  for (;;) {
+    Segment segment = pe::segment_of(record);
+    const pe::Way way = pe::traverse(scenes[at], segment);
+    pe::note_progress(record, segment);
+    if (way.end != pe::WayEnd::handed_on) return way;
+    at = way.next;
+    ++hand_overs;
+  }
+}
+
+// Every hand-over between PEs leaves the ray's hit as it was, bit for bit; so does stepping over what is empty, and who
+// holds copies of what. Fewer stops, fewer hand-overs; with copies of all there are none.
 TEST(Watertight, HandOverChangesNothing) {
   Case one = room(4, {5, 6, 7}, {1, 1, 1});
   add_ball(one.scene, {0.5F, 0.4F, 0.6F}, 0.2F, 8, 0, true);
-  TestScene many = one.scene;
-  many.pes = 6;
   std::vector<PeStores> single = build_stores(one.scene, protocol::Stage::ray_tracing);
-  std::vector<PeStores> spread = build_stores(many, protocol::Stage::ray_tracing);
-  std::vector<pe::Scene> scenes;
-  for (PeStores& s : spread) scenes.push_back(s.scene());
   const pe::Scene alone = single[0].scene();
-  Aim aim(one.scene, 5);
-  std::uint32_t hand_overs = 0;
-  for (std::uint32_t i = 0; i < 50'000; ++i) {
-    const Segment start = aim.from(origin_in(aim, one.low, one.high));
-    Segment a = start;
-    const pe::Way expected = pe::traverse(alone, 0, a);
-    const auto cell = many.cell_of({start.origin.x, start.origin.y, start.origin.z});
-    std::uint16_t at = many.pe_of(cell[0], cell[1], cell[2]);
-    protocol::RayRecord record{};  // through the record, as on the torus
-    record.origin = pe::to_array(start.origin);
-    record.direction = pe::to_array(start.direction);
-    record.subspace = local_subspace(many, cell);
-    record.polygon = start.polygon;
-    record.flags = protocol::kFirst;
-    pe::Way way{};
-    for (;;) {
-      Segment b = pe::segment_of(record);
-      way = pe::traverse(scenes[at], at, b);
-      pe::note_progress(record, b);
-      if (way.end != pe::WayEnd::handed_on) break;
-      at = way.next;
-      ++hand_overs;
+  std::vector<std::uint32_t> hand_overs;
+  for (const auto& [stop_everywhere, copy_all] :
+       {std::pair{true, false}, {false, false}, {true, true}, {false, true}}) {
+    TestScene many = one.scene;
+    many.pes = 6;
+    many.stop_everywhere = stop_everywhere;
+    many.copy_all = copy_all;
+    std::vector<PeStores> spread = build_stores(many, protocol::Stage::ray_tracing);
+    std::vector<pe::Scene> scenes;
+    for (PeStores& s : spread) scenes.push_back(s.scene());
+    Aim aim(one.scene, 5);
+    hand_overs.push_back(0);
+    for (std::uint32_t i = 0; i < 30'000; ++i) {
+      const Segment start = aim.from(origin_in(aim, one.low, one.high));
+      Segment a = start;
+      const pe::Way expected = pe::traverse(alone, a);
+      std::uint16_t at = 0;
+      const pe::Way way = follow(scenes, many, start, at, hand_overs.back());
+      ASSERT_EQ(way.end, expected.end);
+      ASSERT_EQ(scenes[at].polygons[way.hit.polygon].number, alone.polygons[expected.hit.polygon].number);
+      ASSERT_EQ(way.hit.t, expected.hit.t);
+      ASSERT_EQ(way.hit.b1, expected.hit.b1);
+      ASSERT_EQ(way.hit.b2, expected.hit.b2);
+      ASSERT_EQ(way.hit.front, expected.hit.front);
     }
-    ASSERT_EQ(way.end, expected.end);
-    ASSERT_EQ(scenes[at].polygons[way.hit.polygon].number, alone.polygons[expected.hit.polygon].number);
-    ASSERT_EQ(way.hit.t, expected.hit.t);
-    ASSERT_EQ(way.hit.b1, expected.hit.b1);
-    ASSERT_EQ(way.hit.b2, expected.hit.b2);
-    ASSERT_EQ(way.hit.front, expected.hit.front);
   }
-  EXPECT_GT(hand_overs, 50'000U);
+  EXPECT_GT(hand_overs[0], 60'000U);
+  EXPECT_GT(hand_overs[1], 30'000U);
+  EXPECT_LT(hand_overs[1], 9 * (hand_overs[0] / 10)) << "inside the room most cells are empty";
+  EXPECT_EQ(hand_overs[2], 0U);
+  EXPECT_EQ(hand_overs[3], 0U);
 }
 
 // From outside, through the outer faces, in which the walls lie: each ray meets the room.
@@ -107,9 +124,9 @@ TEST(Watertight, RaysFromOutsideMeetWallsInTheOuterFaces) {
     for (std::uint32_t i = 0; i < 50'000; ++i) {
       const glm::vec3 origin{-0.3F - aim.uniform(), aim.uniform(), aim.uniform()};
       const glm::vec3 target{0.0F, 0.01F + 0.98F * aim.uniform(), 0.01F + 0.98F * aim.uniform()};
-      Segment s{origin, glm::normalize(target - origin), 0, protocol::kNoPolygon, false, false, 0};
-      s.subspace = local_subspace(c.scene, c.scene.cell_of({0, target.y, target.z}));
-      const pe::Way way = pe::traverse(scene, 0, s);
+      Segment s{origin, glm::normalize(target - origin), 0, protocol::kNoPolygon, false, 0};
+      s.place = c.scene.place_of({0, target.y, target.z});
+      const pe::Way way = pe::traverse(scene, s);
       ASSERT_EQ(way.end, pe::WayEnd::hit) << "ray " << i;
       ASSERT_LT(std::abs((origin + s.direction * way.hit.t).x), 1e-6F) << "ray " << i << " went through the first wall";
     }
@@ -132,9 +149,9 @@ TEST(Watertight, RoundedOriginsBehindTheNextWallDoNotLeak) {
       behind += origin.x > 1.0F ? 1U : 0U;
       const glm::vec3 direction =
           glm::normalize(glm::vec3{0.05F + aim.uniform(), 0.02F + aim.uniform(), aim.uniform() - 0.5F});
-      Segment s{origin, direction, 0, protocol::kNoPolygon, false, true, 0};
-      s.subspace = local_subspace(c.scene, c.scene.cell_of({origin.x, origin.y, origin.z}));
-      const pe::Way way = pe::traverse(scene, 0, s);
+      Segment s{origin, direction, 0, protocol::kNoPolygon, true, 0};
+      s.place = c.scene.place_of(origin);
+      const pe::Way way = pe::traverse(scene, s);
       ASSERT_EQ(way.end, pe::WayEnd::hit) << "off " << off;
       ASSERT_TRUE(way.hit.front);
     }
@@ -152,7 +169,7 @@ TEST(Watertight, NoRayEscapesFromARoomOfMirrors) {
     for (std::uint32_t i = 0; i < 30'000; ++i) {
       Segment s = aim.from(origin_in(aim, c.low, c.high));
       for (std::uint32_t bounce = 0; bounce < 8; ++bounce) {
-        const pe::Way way = pe::traverse(scene, 0, s);
+        const pe::Way way = pe::traverse(scene, s);
         ASSERT_EQ(way.end, pe::WayEnd::hit) << "ray " << i << " bounce " << bounce;
         ASSERT_TRUE(way.hit.front) << "ray " << i << " bounce " << bounce;
         const protocol::Polygon& polygon = scene.polygons[way.hit.polygon];
@@ -174,8 +191,8 @@ TEST(Watertight, CoincidentOppositePolygonBlocks) {
   add_wall(c.scene, {0, 0, 0.5F}, {0, 1, 0}, {1, 0, 0}, 1, 0);  // polygons 2, 3: front -z, the same place
   std::vector<PeStores> stores = build_stores(c.scene, protocol::Stage::ray_tracing);
   const pe::Scene scene = stores[0].scene();
-  Segment s{{0.7F, 0.3F, 0.5F}, glm::normalize(glm::vec3{0.1F, 0.2F, 1.0F}), 0, 0, false, true, 0};
-  const pe::Way way = pe::traverse(scene, 0, s);
+  Segment s{{0.7F, 0.3F, 0.5F}, glm::normalize(glm::vec3{0.1F, 0.2F, 1.0F}), 0, 0, true, 0};
+  const pe::Way way = pe::traverse(scene, s);
   ASSERT_EQ(way.end, pe::WayEnd::hit);
   EXPECT_GE(scene.polygons[way.hit.polygon].number, 2U);
 }

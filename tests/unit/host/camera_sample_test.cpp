@@ -15,7 +15,7 @@ constexpr std::uint32_t kRays = 2000;
 
 CameraSample sampled(const Scene& scene, const Camera& camera, CameraSampleChoice choice) {
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2});
-  const Placement placement = make_placement(mesh, {{2, 2}, std::array<std::uint32_t, 3>{5, 5, 5}, "skewed", 1000});
+  const Placement placement = make_placement(mesh, {{2, 2}, std::array<std::uint32_t, 3>{5, 5, 5}, "skewed"});
   choice.pixels = kSize * kSize;
   return sample_camera(scene, mesh, placement,
                        CameraRays(camera, mesh.space, kSize, kSize, PixelSamples(PixelFilter::box, 1, 1), 1), choice,

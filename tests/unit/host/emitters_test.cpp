@@ -80,7 +80,7 @@ TEST(Emitters, EmitFromBothSidesWhereAsked) {
 
 TEST(Emitters, StandInEveryImageOrInNone) {
   const Chosen of = chosen(2, false);
-  const Placement placement = make_placement(of.mesh, {{2, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  const Placement placement = make_placement(of.mesh, {{2, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
   const Lattice lattice = make_lattice(of.mesh, std::vector<protocol::Flux>(of.mesh.elements), 1, 1);
   StageParameters parameters;
   const MemoryMap map{protocol::kLocalMemoryBase + 100'000, 64};
@@ -94,7 +94,7 @@ TEST(Emitters, StandInEveryImageOrInNone) {
       const PeLayout rays = layout(protocol::Stage::ray_tracing);
       ASSERT_EQ(rays.layout.emitters.count, count);
       const auto image = ray_tracing_image(of.scene, of.mesh, placement, pe, of.units, lattice, rays);
-      const std::size_t at = rays.layout.emitters.address - rays.layout.subspaces.address;
+      const std::size_t at = rays.layout.emitters.address - rays.layout.cell_words.address;
       ASSERT_LE(at + count * sizeof(Emitter), image.size());
       EXPECT_EQ(std::memcmp(image.data() + at, of.list.data(), count * sizeof(Emitter)), 0);
     }

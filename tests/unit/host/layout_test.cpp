@@ -25,7 +25,7 @@ struct Loaded {
   T at(const protocol::Store& store, std::size_t index) const {
     EXPECT_LT(index, store.count);
     T value{};
-    std::memcpy(&value, image.data() + store.address - layout.layout.subspaces.address + index * sizeof(T), sizeof(T));
+    std::memcpy(&value, image.data() + store.address - layout.layout.cell_words.address + index * sizeof(T), sizeof(T));
     return value;
   }
 };
@@ -45,7 +45,7 @@ class LayoutTest : public testing::Test {
   Scene scene_ = test::room_with_box();
   Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.4, .element_length = 0.2});
   LightUnits units_ = light_units(scene_, mesh_, false);
-  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{6, 5, 7}, "skewed"});
   std::vector<Loaded> pes_;
 };
 
@@ -58,6 +58,8 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
       if (store.count == 0) return;
       EXPECT_TRUE(ranges.emplace(store.address, store.address + store.count * bytes).second);
     };
+    add(l.cell_words, sizeof(protocol::CellWord));
+    add(l.cell_entries, sizeof(protocol::CellEntry));
     add(l.subspaces, sizeof(protocol::Subspace));
     add(l.polygon_list, 4);
     add(l.polygons, sizeof(protocol::Polygon));
@@ -66,7 +68,7 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
     add(l.patches, sizeof(protocol::Patch));
     add(l.patch_sides, sizeof(protocol::PatchSide));
     add(l.elements, sizeof(protocol::Element));
-    add(l.hemicube, 4);
+    add(l.hemicube, sizeof(protocol::HemicubeEntry));
     add(l.record_slots, sizeof(protocol::RadiosityRecord));
     std::uint64_t last = kMap.stores_begin;
     for (const auto& [begin, end] : ranges) {
@@ -74,31 +76,80 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
       last = end;
     }
     EXPECT_EQ(last, pe.layout.end);
-    EXPECT_EQ(l.record_slots.count, protocol::own_slots(Stage::radiosity) + 64);
-    EXPECT_EQ(pe.image.size(), (pe.layout.load_end - l.subspaces.address + 3) / 4 * 4);
+    EXPECT_EQ(l.record_slots.count, protocol::own_slots(Stage::radiosity, 8) + 64)
+        << "a batch for each of six PEs, rounded up to a power of two";
+    EXPECT_EQ(pe.image.size(), (pe.layout.load_end - l.cell_words.address + 3) / 4 * 4);
   }
 }
 
-TEST_F(LayoutTest, NeighboursPointBack) {
-  std::size_t outer = 0;
-  for (std::size_t pe = 0; pe < pes_.size(); ++pe) {
-    const auto& store = pes_[pe].layout.layout.subspaces;
-    for (std::uint32_t s = 0; s < store.count; ++s) {
-      const auto subspace = pes_[pe].at<protocol::Subspace>(store, s);
-      for (std::uint32_t face = 0; face < protocol::kFaces; ++face) {
-        if (subspace.neighbour_pe[face] == protocol::kNobody) {
-          ++outer;
-          continue;
-        }
-        const Loaded& other = pes_[subspace.neighbour_pe[face]];
-        const auto next = other.at<protocol::Subspace>(other.layout.layout.subspaces, subspace.neighbour[face]);
-        EXPECT_EQ(next.neighbour_pe[face ^ 1U], pe);
-        EXPECT_EQ(next.neighbour[face ^ 1U], s);
-        EXPECT_EQ(next.cell[face / 2], subspace.cell[face / 2] + (face % 2 == 1 ? 1 : -1));
+/// Each cell's entry in a PE's map; nothing where no ray stops.
+std::vector<std::optional<protocol::CellEntry>> map_of(const Loaded& pe, CellIndex cells) {
+  const protocol::StageLayout& l = pe.layout.layout;
+  std::vector<std::optional<protocol::CellEntry>> map(cells);
+  std::uint32_t entries = 0;
+  for (CellIndex cell = 0; cell < cells; ++cell) {
+    const auto word = pe.at<protocol::CellWord>(l.cell_words, cell / 32);
+    if (cell % 32 == 0) {
+      EXPECT_EQ(word.before, entries);
+    }
+    if (((word.stops >> (cell % 32)) & 1U) != 0) map[cell] = pe.at<protocol::CellEntry>(l.cell_entries, entries++);
+  }
+  EXPECT_EQ(entries, l.cell_entries.count);
+  return map;
+}
+
+// Rays stop where something stands. There the map names the PE that has it, on all PEs but on that one, which holds the
+// cell's polygons, ascending.
+TEST_F(LayoutTest, MapsNameWhoHoldsWhatStandsInEachCell) {
+  std::size_t held = 0;
+  for (protocol::PeNumber pe = 0; pe < pes_.size(); ++pe) {
+    const protocol::StageLayout& l = pes_[pe].layout.layout;
+    const auto map = map_of(pes_[pe], placement_.grid.count());
+    for (CellIndex cell = 0; cell < placement_.grid.count(); ++cell) {
+      const auto& polygons = placement_.polygons_of_cell[cell];
+      ASSERT_EQ(map[cell].has_value(), !polygons.empty());
+      if (!map[cell]) continue;
+      if (placement_.pe_of_cell[cell] != pe) {
+        EXPECT_EQ(*map[cell], placement_.pe_of_cell[cell]);
+        continue;
+      }
+      ++held;
+      ASSERT_NE(*map[cell] & protocol::kHeld, 0U);
+      const auto subspace = pes_[pe].at<protocol::Subspace>(l.subspaces, *map[cell] & ~protocol::kHeld);
+      ASSERT_EQ(subspace.polygon_count, polygons.size());
+      for (std::uint32_t i = 0; i < subspace.polygon_count; ++i) {
+        const auto local = pes_[pe].at<std::uint32_t>(l.polygon_list, subspace.first_polygon + i);
+        EXPECT_EQ(pes_[pe].at<protocol::Polygon>(l.polygons, local).number, polygons[i]);
       }
     }
   }
-  EXPECT_EQ(outer, 6U * 16U);
+  EXPECT_EQ(held, placement_.filled_cells);
+  EXPECT_LT(held, placement_.grid.count()) << "some are empty";
+}
+
+TEST_F(LayoutTest, CellsMayStopRaysEverywhereAndStandOnAllPes) {
+  PlacementChoice choice{{3, 2}, std::array<std::uint32_t, 3>{6, 5, 7}, "skewed"};
+  for (const auto& [copy_all, stop_everywhere] : {std::pair{true, false}, {false, true}, {true, true}}) {
+    choice.copy_all = copy_all;
+    choice.stop_everywhere = stop_everywhere;
+    const Placement placement = make_placement(mesh_, choice);
+    EXPECT_EQ(placement.stops, stop_everywhere ? placement.grid.count() : placement.filled_cells);
+    for (protocol::PeNumber pe = 0; pe < 6; ++pe) {
+      Loaded loaded;
+      loaded.layout = lay_out(mesh_, placement, pe, Stage::radiosity, {}, kMap);
+      loaded.image = radiosity_image(scene_, mesh_, placement, pe, units_, loaded.layout);
+      const auto map = map_of(loaded, placement.grid.count());
+      std::uint32_t held = 0;
+      for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
+        ASSERT_EQ(map[cell].has_value(), stop_everywhere || !placement.polygons_of_cell[cell].empty());
+        if (!map[cell]) continue;
+        const bool here = copy_all || placement.pe_of_cell[cell] == pe;
+        EXPECT_EQ(*map[cell], here ? protocol::held_as(held++) : protocol::CellEntry{placement.pe_of_cell[cell]});
+      }
+      EXPECT_EQ(loaded.layout.layout.subspaces.count, held);
+      EXPECT_EQ(loaded.layout.layout.polygons.count == mesh_.triangles.size(), copy_all);
+    }
+  }
 }
 
 TEST_F(LayoutTest, ReferencesNameTheOwnersPatch) {
@@ -177,7 +228,7 @@ TEST_F(LayoutTest, RayTracingImageHoldsTheLatticeOfEachPolygon) {
 }
 
 TEST_F(LayoutTest, MemoryIsChosenOrRefusedWithTheNumbers) {
-  const MemoryNeed need = memory_need(mesh_, placement_, {}, kMap);
+  const MemoryNeed need = memory_need(mesh_, placement_, placement_, {}, kMap);
   EXPECT_EQ(choose_memory(need, {}), protocol::kDefaultLocalMemory);
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most())), need.most());
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most() - 1)), std::nullopt);

@@ -37,7 +37,7 @@ class LoadReadTest : public testing::Test {
 
   /// The PE's bytes from `address` on.
   std::span<std::byte> memory(PeNumber pe, std::uint32_t address) {
-    return std::span(loads_[pe].image).subspan(address - loads_[pe].layout.subspaces.address);
+    return std::span(loads_[pe].image).subspan(address - loads_[pe].layout.cell_words.address);
   }
 
   /// Marks each patch side of a PE, and its elements: (PE, number of the side in the store, number in the side).
@@ -94,7 +94,7 @@ class LoadReadTest : public testing::Test {
   Scene scene_ = room_with_box();
   Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.4, .element_length = 0.1});
   LightUnits units_ = light_units(scene_, mesh_, false);
-  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
   std::vector<PeLoad> loads_;
 };
 
@@ -114,7 +114,7 @@ TEST_F(LoadReadTest, ImagesReachTheirPesWhole) {
     } else if (sent.is(MessageKind::load)) {
       EXPECT_EQ(configured[sent.pe], 1) << "the layout comes first";
       const auto block = sent.as<LoadBlock>();
-      EXPECT_EQ(block.address, layout.subspaces.address + got[sent.pe].size());
+      EXPECT_EQ(block.address, layout.cell_words.address + got[sent.pe].size());
       ASSERT_EQ(sent.bytes.size(), sizeof block + block.bytes);
       EXPECT_LE(sent.bytes.size(), protocol::kMostMessageBytes);
       got[sent.pe].insert(got[sent.pe].end(), sent.bytes.begin() + sizeof block, sent.bytes.end());

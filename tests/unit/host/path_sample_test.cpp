@@ -11,7 +11,7 @@ namespace torolux::test {
 namespace {
 
 Placement placed(const Mesh& mesh, TorusSize torus, std::uint32_t cells) {
-  return make_placement(mesh, {torus, std::array<std::uint32_t, 3>{cells, cells, cells}, "skewed", 1000});
+  return make_placement(mesh, {torus, std::array<std::uint32_t, 3>{cells, cells, cells}, "skewed"});
 }
 
 double hits_of(const PathSample& sample) {

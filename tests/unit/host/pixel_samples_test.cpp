@@ -60,6 +60,50 @@ TEST(PixelFilters, HaveNames) {
   EXPECT_EQ(filter_named("triangle"), std::nullopt);
 }
 
+/// As the rays of a picture have it.
+PixelPlace place_in(const PixelSamples& samples, std::uint32_t column, std::uint32_t row, std::uint32_t sample) {
+  protocol::CameraView view{};
+  view.width = 64;
+  view.height = 64;
+  view.filter_bits = samples.filter_bits();
+  const protocol::CameraPixel pixel = protocol::camera_pixel(view, column, row);
+  const protocol::SamplePlace place = samples.places()[sample];
+  const auto distance = [&](std::uint32_t part) {
+    return static_cast<double>(protocol::filter_distance(samples.distances(), view.filter_bits, part));
+  };
+  return {0.5 + distance(place.x + pixel.moved_x), 0.5 + distance(place.y + pixel.moved_y)};
+}
+
+// What is rounded for the PEs lies in the same strata.
+TEST(PixelSamples, StayApart) {
+  for (const std::uint32_t count : {2U, 4U, 7U, 16U, 17U, 60U, 256U}) {
+    const PixelSamples samples(PixelFilter::box, count, 9);
+    std::set<std::uint64_t> columns;
+    std::set<std::uint64_t> rows;
+    for (const protocol::SamplePlace& place : samples.places()) {
+      columns.insert(std::uint64_t{place.x} * count >> 32U);
+      rows.insert(std::uint64_t{place.y} * count >> 32U);
+    }
+    EXPECT_EQ(columns.size(), count);
+    EXPECT_EQ(rows.size(), count);
+  }
+}
+
+// Between the table's steps, too. A thousandth of a pixel but in the steps where the curve is steepest.
+TEST(PixelSamples, TheTableIsTheFilter) {
+  for (const auto& [name, filter] : kPixelFilters) {
+    const PixelSamples samples(filter, 2, 3);
+    for (std::uint32_t i = 0; i <= 5000; ++i) {
+      const double u = i / 5000.0;
+      const auto part = static_cast<std::uint32_t>(std::fmin(u * 0x1p32, 0xFFFF'FFFF));
+      const bool steep = u < 0.003 || u > 0.997;
+      EXPECT_NEAR(static_cast<double>(protocol::filter_distance(samples.distances(), samples.filter_bits(), part)),
+                  filter_distance(filter, u), steep ? 0.02 : 1e-3)
+          << name << " at " << u;
+    }
+  }
+}
+
 // Over a few pixels together: no pattern moves the picture, and what an edge covers of a row of pixels is right though
 // it covers a little of each.
 TEST(PixelSamples, NeighboursShareOutThePixel) {
@@ -70,7 +114,7 @@ TEST(PixelSamples, NeighboursShareOutThePixel) {
     int covered = 0;
     for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
       for (std::uint32_t sample = 0; sample < samples.count(); ++sample) {
-        const PixelPlace place = samples.place(pixel % 8, pixel / 8, sample);
+        const PixelPlace place = place_in(samples, pixel % 8, pixel / 8, sample);
         x += place.x;
         y += place.y;
         covered += place.y < 0.3 ? 1 : 0;
@@ -81,7 +125,7 @@ TEST(PixelSamples, NeighboursShareOutThePixel) {
     if (filter != PixelFilter::box) continue;
     EXPECT_NEAR(covered / 512.0, 0.3, 0.01);
   }
-  EXPECT_EQ(PixelSamples(PixelFilter::tent, 1, 3).place(5, 7, 0).x, 0.5);
+  EXPECT_EQ(place_in(PixelSamples(PixelFilter::tent, 1, 3), 5, 7, 0).x, 0.5);
 }
 
 // Mean squares of the distances are the filters' own: 1/12, 1/6, and a little less than 1/4.
@@ -91,7 +135,7 @@ TEST(PixelSamples, SpreadAsTheFilterDoes) {
     const PixelSamples samples(kPixelFilters[i].filter, 256, 3);
     double square = 0;
     for (std::uint32_t sample = 0; sample < 256; ++sample) {
-      const double x = samples.place(2, 3, sample).x - 0.5;
+      const double x = place_in(samples, 2, 3, sample).x - 0.5;
       square += x * x;
     }
     EXPECT_NEAR(square / 256, wanted[i], 0.02 * wanted[i]) << kPixelFilters[i].name;

@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <random>
 
 #include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/shot_grid.hpp"
 #include "tests/unit/host/fake_port.hpp"
 
 namespace torolux::test {
@@ -64,18 +66,44 @@ std::map<PeNumber, std::uint32_t> grants_in(const std::vector<Sent>& sent) {
   return grants;
 }
 
-/// The shots of the first round by their number, however PEs answer: each shot ends before the next message.
+/// Who was dealt a point, in order; of one owner or all.
+std::vector<PeNumber> deals_in(const std::vector<Sent>& sent, std::optional<PeNumber> owner = {}) {
+  std::vector<PeNumber> to;
+  for (const Sent& one : sent) {
+    if (!one.is(MessageKind::deal) || (owner && one.pe != *owner)) continue;
+    const auto count = one.as<std::uint32_t>();
+    const std::size_t head = offsetof(protocol::Deal, pe);
+    EXPECT_EQ(one.bytes.size(), head + count * sizeof(PeNumber)) << "only what is used is sent";
+    protocol::Deal whole{};
+    std::memcpy(&whole, one.bytes.data(), one.bytes.size());
+    to.insert(to.end(), whole.pe.begin(), whole.pe.begin() + whole.count);
+  }
+  return to;
+}
+
+/// Tells that all points dealt are done and all credits granted are home, until the host asks for candidates or is
+/// done. Adds up the messages.
+std::vector<Sent> finish_round(RadiosityPhase& phase, FakePort& port) {
+  std::vector<Sent> all;
+  for (std::vector<Sent> sent = port.take(); !sent.empty(); sent = port.take()) {
+    all.insert(all.end(), sent.begin(), sent.end());
+    if (sent.back().is(MessageKind::select)) break;
+    for (const PeNumber to : deals_in(sent)) tell(phase, port, to, MessageKind::work_done, protocol::WorkDone{1, 5});
+    for (const auto& [pe, credits] : grants_in(sent)) tell(phase, port, pe, MessageKind::credits, credits);
+  }
+  return all;
+}
+
+/// The shots of the first round by their number.
 std::map<std::uint32_t, std::pair<PeNumber, Shoot>> first_round(const std::vector<std::vector<Candidate>>& offers,
                                                                 const std::vector<PeNumber>& order) {
   FakePort port(3);
   RadiosityPhase phase(settings(3));
   phase.start(port);
+  port.take();
   for (const PeNumber pe : order) offer(phase, port, pe, offers[pe], 1000);
   std::map<std::uint32_t, std::pair<PeNumber, Shoot>> shots;
-  for (std::vector<Sent> sent = port.take(); !shots_in(sent).empty(); sent = port.take()) {
-    for (const auto& [pe, shoot] : shots_in(sent)) shots[shoot.number] = {pe, shoot};
-    for (const auto& [pe, shoot] : shots_in(sent)) tell(phase, port, pe, MessageKind::shot_done, protocol::ShotDone{5});
-  }
+  for (const auto& [pe, shoot] : shots_in(finish_round(phase, port))) shots[shoot.number] = {pe, shoot};
   return shots;
 }
 
@@ -103,10 +131,9 @@ TEST(RadiosityPhase, SaysWhatItComputes) {
   EXPECT_EQ(port.done(HostWork::compare), 0U);
   port.take();  // what was asked is on its way
   offer(phase, port, 2, {}, 1000);
-  // Five are sorted: 5 x 3. Of the best four the first of each PE begins: found as number 0 and 2 of the choice.
-  EXPECT_EQ(port.done(HostWork::compare), 15U + 1 + 3);
-  // A grant to each of two shooters; behind the shot it is the second thing under way there, so both are passed over.
-  EXPECT_EQ(port.done(HostWork::entry), 5U + 4);
+  EXPECT_EQ(port.done(HostWork::compare), 5U * 3) << "five are sorted";
+  // Each of the four shots has one point to be dealt; three PEs get one or two of them, and credits.
+  EXPECT_EQ(port.done(HostWork::entry), 5U + 4 + 3);
 }
 
 TEST(RadiosityPhase, TheBestOfAllPesShootAndTheirNumbersFollowTheOrderOfChoice) {
@@ -143,9 +170,6 @@ TEST(RadiosityPhase, SumsOfFluxShotAreThoseOfTheAmounts) {
   RadiosityPhase phase(settings(1));
   phase.start(port);
   offer(phase, port, 0, {candidate(400, 1), candidate(300, 2, 0, ShotKind::emitted)}, 1000);
-  EXPECT_EQ(shots_in(port.take()).size(), 1U) << "one shot at a time from each PE";
-  tell(phase, port, 0, MessageKind::shot_done, protocol::ShotDone{5});
-  EXPECT_EQ(shots_in(port.take()).size(), 1U);
   EXPECT_EQ(phase.emitted_shot(), (protocol::Flux{600, 300, 4}));
   EXPECT_EQ(phase.reflected_shot(), (protocol::Flux{400, 100, 4})) << "amount times reflectance 1/2, 1/4, 1";
 }
@@ -186,8 +210,8 @@ TEST(RadiosityPhase, CandidatesMayComeInSeveralMessages) {
   EXPECT_TRUE(port.take().empty()) << "more follow";
   offer(phase, port, 0, {candidate(5000, 25)}, 700);
   EXPECT_EQ(phase.unshot(), 700) << "said in each message, counted once";
-  const auto shots = shots_in(port.take());
-  ASSERT_EQ(shots.size(), 1U);
+  const auto shots = shots_in(finish_round(phase, port));
+  ASSERT_EQ(shots.size(), protocol::kMostCandidatesPerMessage + 1U);
   EXPECT_EQ(shots[0].second.amount[1], 5000);
 }
 
@@ -197,19 +221,13 @@ TEST(RadiosityPhase, NoMoreShotsThanAllowed) {
   FakePort port(2);
   RadiosityPhase phase(limited);
   phase.start(port);
+  port.take();
   std::vector<std::pair<PeNumber, std::uint32_t>> shots;  // PE, number
   for (const std::int64_t of_pe_1 : {300, 500}) {
     EXPECT_FALSE(phase.done());
     offer(phase, port, 0, {candidate(400, 1)}, 1000);
     offer(phase, port, 1, {candidate(of_pe_1, 9)}, 1000);
-    const auto sent = port.take();
-    for (const auto& [pe, shoot] : shots_in(sent)) shots.emplace_back(pe, shoot.number);
-    for (const auto& [pe, credits] : grants_in(sent)) tell(phase, port, pe, MessageKind::credits, credits);
-    // Meanwhile more were granted; they come home unused.
-    const auto more = grants_in(port.take());
-    for (const auto& [pe, shoot] : shots_in(sent)) tell(phase, port, pe, MessageKind::shot_done, protocol::ShotDone{5});
-    for (const auto& [pe, credits] : more) tell(phase, port, pe, MessageKind::credits, credits);
-    for (const auto& [pe, credits] : grants_in(port.take())) tell(phase, port, pe, MessageKind::credits, credits);
+    for (const auto& [pe, shoot] : shots_in(finish_round(phase, port))) shots.emplace_back(pe, shoot.number);
   }
   EXPECT_TRUE(phase.done());
   // Two in the first round; of the second round's two the better one.
@@ -218,61 +236,183 @@ TEST(RadiosityPhase, NoMoreShotsThanAllowed) {
   EXPECT_EQ(phase.credits_home(), limited.credits);
 }
 
-/// PEs that shoot at random: they turn some of their credits into records, which die at once.
+/// One owner with one emitted shot of 64 points, the others with nothing; all asked.
+RadiosityPhase one_shot(FakePort& port, RadiositySettings some, PeNumber owner) {
+  some.emission_points = 8;
+  RadiosityPhase phase(some);
+  phase.start(port);
+  port.take();
+  for (unsigned pe = 0; pe < some.pes; ++pe) {
+    offer(phase, port, static_cast<PeNumber>(pe), {}, 1000, pe != owner);
+    if (pe == owner) offer(phase, port, owner, {candidate(400, 1, 0, ShotKind::emitted)}, 1000);
+  }
+  return phase;
+}
+
+TEST(RadiosityPhase, PointsAreDealtToAllPesAndMoreToWhoHasDoneSome) {
+  FakePort port(3);
+  RadiosityPhase phase = one_shot(port, settings(3), 1);
+  auto sent = port.take();
+  ASSERT_TRUE(sent.front().is(MessageKind::shoot)) << "the owner hears what it is before whom it goes to";
+  EXPECT_EQ(sent.front().pe, 1);
+  EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{0, 1, 2, 0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(deals_in(sent).size(), 9U) << "nobody else deals";
+  tell(phase, port, 2, MessageKind::work_done, protocol::WorkDone{2, 100});
+  EXPECT_EQ(deals_in(port.take(), PeNumber{1}), (std::vector<PeNumber>{2, 2}));
+  std::size_t dealt = 11;
+  std::vector<std::uint32_t> of_pe{3, 3, 5};
+  std::vector<std::uint32_t> has{3, 3, 3};
+  for (PeNumber pe = 0; has != std::vector<std::uint32_t>{0, 0, 0}; pe = static_cast<PeNumber>((pe + 1) % 3)) {
+    if (has[pe] == 0) continue;
+    --has[pe];
+    tell(phase, port, pe, MessageKind::work_done, protocol::WorkDone{1, 100});
+    for (const PeNumber to : deals_in(port.take(), PeNumber{1})) {
+      EXPECT_EQ(to, pe);
+      ++has[to];
+      ++of_pe[to];
+      ++dealt;
+      EXPECT_LE(has[to], protocol::kPointPlaces);
+    }
+  }
+  EXPECT_EQ(dealt, 64U);
+  EXPECT_GE(*std::min_element(of_pe.begin(), of_pe.end()), 20U);
+}
+
+TEST(RadiosityPhase, PointsStayAtTheirOwnersWhereTheyDoNotTravel) {
+  FakePort port(3);
+  RadiositySettings some = settings(3);
+  some.points_travel = false;
+  RadiosityPhase phase = one_shot(port, some, 1);
+  const auto sent = port.take();
+  EXPECT_EQ(deals_in(sent), (std::vector<PeNumber>{1, 1, 1}));
+  EXPECT_EQ(grants_in(sent).size(), 1U) << "nobody else has work";
+  tell(phase, port, 1, MessageKind::work_done, protocol::WorkDone{1, 100});
+  EXPECT_EQ(deals_in(port.take()), (std::vector<PeNumber>{1}));
+}
+
+TEST(RadiosityPhase, OwnersMakePointsInTurnAndOneShotAfterTheOther) {
+  FakePort port(2);
+  RadiositySettings some = settings(2);
+  some.emission_points = 2;
+  RadiosityPhase phase(some);
+  phase.start(port);
+  port.take();
+  const auto lamp = [](std::uint32_t number) { return candidate(400 - number, number, 0, ShotKind::emitted); };
+  offer(phase, port, 0, {lamp(1), lamp(2)}, 1000);
+  offer(phase, port, 1, {lamp(3)}, 1000);
+  auto sent = port.take();
+  EXPECT_EQ(shots_in(sent).size(), 2U) << "the first of each";
+  EXPECT_EQ(deals_in(sent, PeNumber{0}), (std::vector<PeNumber>{0, 0, 0}));
+  EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{1, 1, 1}));
+  tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{3, 100});
+  sent = port.take();
+  // Two points are left of the first two shots; then the second of PE 0 begins.
+  ASSERT_EQ(sent.size(), 4U);
+  EXPECT_TRUE(sent[0].is(MessageKind::deal));
+  EXPECT_TRUE(sent[1].is(MessageKind::deal));
+  EXPECT_TRUE(sent[2].is(MessageKind::shoot));
+  EXPECT_EQ(sent[2].as<Shoot>().number, 1U);
+  EXPECT_TRUE(sent[3].is(MessageKind::deal));
+}
+
+TEST(RadiosityPhase, ADealIsNoLongerThanItsMessage) {
+  FakePort port(50);
+  RadiositySettings some = settings(50);
+  some.credits = 5000;
+  some.emission_points = 16;
+  RadiosityPhase phase(some);
+  phase.start(port);
+  port.take();
+  for (PeNumber pe = 0; pe < 50; ++pe) {
+    std::vector<Candidate> candidates;
+    if (pe == 7) candidates.push_back(candidate(400, 1, 0, ShotKind::emitted));
+    offer(phase, port, pe, candidates, 1000);
+  }
+  std::vector<std::uint32_t> counts;
+  for (const Sent& one : port.take()) {
+    if (one.is(MessageKind::deal)) counts.push_back(one.as<std::uint32_t>());
+  }
+  EXPECT_EQ(counts, (std::vector<std::uint32_t>{64, 64, 22})) << "three points for each of 50 PEs";
+}
+
+/// PEs that work at random: what they have in hand becomes records, which die anywhere.
 class RandomPes {
  public:
-  RandomPes(RadiosityPhase& phase, FakePort& port, std::uint32_t seed) : phase_(phase), port_(port), random_(seed) {}
+  RandomPes(RadiosityPhase& phase, FakePort& port, const RadiositySettings& settings, std::uint32_t seed)
+      : phase_(phase), port_(port), settings_(settings), random_(seed) {}
 
   /// Until the host selects again. Checks each step.
-  void shoot_until_the_round_ends(std::uint64_t credits) {
+  void work_until_the_round_ends() {
     for (int step = 0; listen(); ++step) {
       ASSERT_LT(step, 100'000);
-      ASSERT_EQ(out_ + phase_.credits_home(), credits);
+      ASSERT_EQ(out_ + phase_.credits_home(), settings_.credits);
       act(static_cast<PeNumber>(random_() % 3));
     }
     EXPECT_EQ(out_, 0U);
+    for (const auto& [pe, points] : points_) EXPECT_EQ(points, 0U);
+    for (const auto& [pe, left] : left_) EXPECT_EQ(left, 0U) << "points never dealt";
   }
   std::uint64_t shots() const { return shots_; }
+  std::uint64_t points() const { return dealt_; }
 
  private:
   /// What the host has sent; false: a new selection.
   bool listen() {
-    for (const Sent& sent : port_.take()) {
+    const std::vector<Sent> all = port_.take();
+    for (const Sent& sent : all) {
       if (sent.is(MessageKind::select)) return false;
       if (sent.is(MessageKind::shoot)) {
-        EXPECT_EQ(shooting_.count(sent.pe), 0U) << "a shot while another is in progress";
-        shooting_[sent.pe] = 1 + random_() % 400;
+        EXPECT_EQ(left_[sent.pe], 0U) << "a shot while another has points left";
+        const auto shoot = sent.as<Shoot>();
+        left_[sent.pe] = protocol::points_of_shot(shoot.kind, shoot.amount, settings_.points_per_quantum,
+                                                  settings_.shot_points, settings_.emission_points);
         ++shots_;
+      } else if (sent.is(MessageKind::deal)) {
+        for (const PeNumber to : deals_in({sent})) {
+          EXPECT_GT(left_[sent.pe], 0U) << "more points than there are";
+          --left_[sent.pe];
+          EXPECT_LE(++points_[to], protocol::kPointPlaces);
+          ++dealt_;
+        }
       } else {
         EXPECT_TRUE(sent.is(MessageKind::grant));
-        EXPECT_EQ(shooting_.count(sent.pe), 1U) << "credits for a PE that does not shoot";
         held_[sent.pe] += sent.as<protocol::Grant>().credits;
         out_ += sent.as<protocol::Grant>().credits;
+        asked_[sent.pe] = false;
       }
     }
     return true;
   }
 
   void act(PeNumber pe) {
-    if (const auto shot = shooting_.find(pe); shot != shooting_.end() && shot->second == 0) {
-      shooting_.erase(shot);
-      tell(phase_, port_, pe, MessageKind::shot_done, protocol::ShotDone{5});
-    } else if (held_[pe] > 0) {
-      const std::uint64_t used = std::min<std::uint64_t>(held_[pe], 1 + random_() % 64);
-      if (shot != shooting_.end()) shot->second -= std::min(shot->second, used);
-      held_[pe] -= used;
-      out_ -= used;
-      tell(phase_, port_, pe, MessageKind::credits, protocol::Credits{static_cast<std::uint32_t>(used)});
+    if (points_[pe] > 0 && held_[pe] > 0) {
+      const std::uint64_t moved = random_() % (held_[pe] + 1);  // their records die at another
+      held_[pe] -= moved;
+      held_[static_cast<PeNumber>(random_() % 3)] += moved;
+      if (random_() % 3 != 0) return;
+      --points_[pe];
+      tell(phase_, port_, pe, MessageKind::work_done, protocol::WorkDone{1, 5});
+    } else if (points_[pe] > 0 && !asked_[pe]) {
+      asked_[pe] = true;
+      tell(phase_, port_, pe, MessageKind::need);
+    } else if (points_[pe] == 0 && held_[pe] > 0) {
+      const auto all = static_cast<std::uint32_t>(held_[pe]);
+      out_ -= all;
+      held_[pe] = 0;
+      tell(phase_, port_, pe, MessageKind::credits, protocol::Credits{all});
     }
   }
 
   RadiosityPhase& phase_;
   FakePort& port_;
+  RadiositySettings settings_;
   std::minstd_rand random_;
-  std::map<PeNumber, std::uint64_t> shooting_;  ///< records that the shot in progress still has to make
-  std::map<PeNumber, std::uint64_t> held_;      ///< credits granted and not home
-  std::uint64_t out_ = 0;                       ///< their sum
-  std::uint64_t shots_ = 0;
+  std::map<PeNumber, std::uint32_t> left_;    ///< points of the shot in progress that are still to be dealt, by owner
+  std::map<PeNumber, std::uint32_t> points_;  ///< dealt to it and not done
+  std::map<PeNumber, std::uint64_t> held_;    ///< credits granted and not home
+  std::map<PeNumber, bool> asked_;
+  std::uint64_t out_ = 0;  ///< credits, their sum
+  std::uint64_t shots_ = 0, dealt_ = 0;
 };
 
 TEST(RadiosityPhase, CreditsAreNeverMoreThanThereAreAndAllComeHome) {
@@ -280,39 +420,69 @@ TEST(RadiosityPhase, CreditsAreNeverMoreThanThereAreAndAllComeHome) {
     FakePort port(3);
     RadiositySettings some = settings(3);
     some.credits = 1 + seed * 37 % 300;
+    some.shot_points = 1 + seed % 5;
+    some.points_per_quantum = 1'000;
+    some.points_travel = seed % 2 == 0;
     RadiosityPhase phase(some);
     phase.start(port);
     port.take();
     for (const std::uint32_t pe : {1U, 0U, 2U}) {
       offer(phase, port, static_cast<PeNumber>(pe), {candidate(100 + pe, pe), candidate(90, pe + 10)}, 1000);
     }
-    RandomPes pes(phase, port, seed);
-    pes.shoot_until_the_round_ends(some.credits);
+    RandomPes pes(phase, port, some, seed);
+    pes.work_until_the_round_ends();
     EXPECT_EQ(pes.shots(), 4U) << "seed " << seed;
+    EXPECT_EQ(pes.points(), 4U * some.shot_points * some.shot_points);
     EXPECT_EQ(phase.shots(), 4U);
     EXPECT_EQ(phase.credits_home(), some.credits);
   }
 }
 
-TEST(RadiosityPhase, APeWithGrantsUnderWayIsPassedOver) {
-  FakePort port(2);
-  RadiosityPhase phase(settings(2));
-  phase.start(port);
-  port.take();
-  offer(phase, port, 0, {candidate(400, 1)}, 1000);
-  offer(phase, port, 1, {candidate(300, 2)}, 1000);
+TEST(RadiosityPhase, WhoNeedsCreditsGetsThemInTheOrderOfAsking) {
+  FakePort port(4);
+  RadiosityPhase phase = one_shot(port, settings(4), 2);
   const auto grants = grants_in(port.take());
-  ASSERT_EQ(grants.size(), 2U) << "each gets some, none all";
-  EXPECT_LE(grants.at(0) + grants.at(1), 100U);
-  EXPECT_GT(phase.credits_home(), 0U) << "held back: two messages wait for each";
+  EXPECT_EQ(grants, (std::map<PeNumber, std::uint32_t>{{0, 25}, {1, 25}, {2, 25}, {3, 25}})) << "an equal share";
+  EXPECT_EQ(phase.credits_home(), 0U);
+  tell(phase, port, 3, MessageKind::need);
+  tell(phase, port, 0, MessageKind::need);
+  EXPECT_TRUE(port.take().empty()) << "there are none";
+  tell(phase, port, 1, MessageKind::credits, protocol::Credits{5});
+  EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{3, 5}}));
+  tell(phase, port, 1, MessageKind::credits, protocol::Credits{20});
+  EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{0, 12}})) << "half a share, and no more";
+  tell(phase, port, 2, MessageKind::need);
+  EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{2, 8}}));
+}
+
+// Both must be there: every point done, every credit home.
+TEST(RadiosityPhase, ARoundEndsWithTheLastPointAndTheLastCredit) {
+  for (const bool credits_last : {false, true}) {
+    FakePort port(1);
+    RadiosityPhase phase(settings(1));
+    phase.start(port);
+    port.take();
+    offer(phase, port, 0, {candidate(400, 1)}, 1000);
+    EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{0, 100}}));
+    const auto done = [&] { tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 42}); };
+    const auto home = [&] { tell(phase, port, 0, MessageKind::credits, protocol::Credits{100}); };
+    credits_last ? done() : home();
+    EXPECT_TRUE(port.take().empty());
+    credits_last ? home() : done();
+    const auto sent = port.take();
+    ASSERT_EQ(sent.size(), 1U);
+    EXPECT_TRUE(sent[0].is(MessageKind::select)) << "the next round";
+    EXPECT_EQ(phase.rounds().front().records, 42U);
+  }
 }
 
 TEST(RadiosityPhase, MessagesThatCannotBeAreRefused) {
   FakePort port(1);
   RadiosityPhase phase(settings(1));
   phase.start(port);
-  EXPECT_THROW(tell(phase, port, 0, MessageKind::shot_done, protocol::ShotDone{5}), MachineFailure)
-      << "nothing shoots yet";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 5}), MachineFailure)
+      << "nothing is dealt yet";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::need), MachineFailure);
   EXPECT_THROW(offer(phase, port, 0, {candidate(100, 30)}, 1000), MachineFailure) << "patch 30 of 30";
   protocol::Candidates cut{};
   cut.count = 3;
@@ -321,6 +491,9 @@ TEST(RadiosityPhase, MessagesThatCannotBeAreRefused) {
   offer(phase, port, 0, {candidate(400, 1)}, 1000);
   EXPECT_THROW(tell(phase, port, 0, MessageKind::credits, protocol::Credits{1000}), MachineFailure)
       << "more than were handed out";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{2, 5}), MachineFailure)
+      << "one point was dealt";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::work_done, protocol::Credits{1}), MachineFailure) << "too short";
   EXPECT_THROW(tell(phase, port, 0, MessageKind::candidates), MachineFailure) << "while shooting";
 }
 

@@ -29,7 +29,7 @@ class RayTracingPhaseTest : public testing::Test {
   }
 
   Mesh mesh_ = make_mesh(room_with_box(), {.patch_length = 0.4, .element_length = 0.2});
-  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed", 1000});
+  Placement placement_ = make_placement(mesh_, {{3, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
 };
 
 struct Made {
@@ -128,8 +128,10 @@ TEST_F(RayTracingPhaseTest, EachRayGoesToThePeThatHoldsItsFirstSubspace) {
     pes.insert(one.pe);
     // The eye stands in a subspace with walls, so no empty one is stepped over.
     EXPECT_EQ(one.pe, placement_.pe_of_cell[first->cell]);
-    EXPECT_EQ(one.record.subspace, placement_.local_of_cell[first->cell]);
-    EXPECT_EQ(placement_.cells_of_pe[one.pe][one.record.subspace], first->cell);
+    EXPECT_EQ(
+        placement_.grid.index({protocol::cell_along(one.record.place, 0), protocol::cell_along(one.record.place, 1),
+                               protocol::cell_along(one.record.place, 2)}),
+        first->cell);
   }
   EXPECT_EQ(pes.size(), 1U) << "one eye";
   RayTracingPhase outside = phase(64, {0.5, 0.5, -2});

@@ -131,7 +131,7 @@ TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {
   const Scene scene = textured_scene();
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2, .texels = 1000});
   const LightUnits units = light_units(scene, mesh, false);
-  const Placement placement = make_placement(mesh, {{8, 4}, std::array<std::uint32_t, 3>{8, 8, 8}, "skewed", 1000});
+  const Placement placement = make_placement(mesh, {{8, 4}, std::array<std::uint32_t, 3>{8, 8, 8}, "skewed"});
   const Lattice lattice = make_lattice(mesh, std::vector<protocol::Flux>(mesh.elements), 1e-3, 1);
   std::uint32_t with = 0;
   for (unsigned number = 0; number < placement.torus.pes(); ++number) {
@@ -143,7 +143,7 @@ TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {
     const protocol::StageLayout& l = layout.layout;
     const std::vector<std::byte> bytes = ray_tracing_image(scene, mesh, placement, pe, units, lattice, layout);
     const auto at = [&]<class T>(const protocol::Store& store, std::size_t index, T value) {
-      std::memcpy(&value, bytes.data() + store.address - l.subspaces.address + index * sizeof(T), sizeof(T));
+      std::memcpy(&value, bytes.data() + store.address - l.cell_words.address + index * sizeof(T), sizeof(T));
       return value;
     };
     std::uint32_t shown = 0;

@@ -51,6 +51,28 @@ TEST(RepositoryScenes, LoadWithoutWarnings) {
   }
 }
 
+// What the scaling of the machine is measured on: 1,000 boxes that touch nothing, three of four in one corner.
+TEST(MadeScenes, ClutteredRoomIsAsDocumented) {
+  const Scene scene = load_scene(std::filesystem::path(TOROLUX_MADE_SCENES) / "cluttered_room", {});
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  EXPECT_THAT(inspect(scene), IsEmpty());
+  EXPECT_NO_THROW(check_renderable(scene));
+  ASSERT_EQ(scene.triangles.size(), 12U + 1000 * 12 + 2);
+  const vec::Box all = bounds(scene);
+  EXPECT_EQ(all.low, (Vec3d{0, 0, 0}));
+  EXPECT_EQ(all.high, (Vec3d{6, 3, 6}));
+  std::uint32_t in_the_corner = 0;
+  for (std::size_t t = 12; t < 12 + 12000; ++t) {
+    bool near = true;
+    for (const std::uint32_t corner : scene.triangles[t].position) {
+      for (const double x : scene.positions[corner]) near = near && x > 0 && x < 2;
+    }
+    if (near) ++in_the_corner;
+  }
+  EXPECT_GT(in_the_corner, 9000U) << "triangles";
+  EXPECT_NEAR(emitted_power(scene), 12, 1e-9);  // [W/sr] of 1 x 1
+}
+
 TEST(RepositoryScenes, CornellBoxIsThePublishedOne) {
   const Scene scene = load_scene(kRoot / "scenes/cornell_box", {});
   EXPECT_EQ(scene.triangles.size(), 32U);

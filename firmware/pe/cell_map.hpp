@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A PE's map of the cells: where a ray must stop, and who has what is there. And which cell holds a point.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "firmware/pe/vectors.hpp"
+#include "firmware/protocol/stores.hpp"
+
+namespace torolux::pe {
+
+struct CellMap {
+  std::span<const protocol::CellWord> words;
+  std::span<const protocol::CellEntry> entries;
+
+  bool stops(std::uint32_t index) const { return ((words[index >> 5U].stops >> (index & 31U)) & 1U) != 0; }
+  /// Of a cell at which a ray stops.
+  protocol::CellEntry entry(std::uint32_t index) const {
+    const protocol::CellWord& word = words[index >> 5U];
+    const std::uint32_t below = word.stops & ((1U << (index & 31U)) - 1U);
+    return entries[word.before + static_cast<std::uint32_t>(std::popcount(below))];
+  }
+};
+
+inline std::uint32_t cell_index(const protocol::StageLayout& layout, protocol::CellCode code) {
+  return protocol::cell_along(code, 0) +
+         layout.cells[0] * (protocol::cell_along(code, 1) + layout.cells[1] * protocol::cell_along(code, 2));
+}
+
+inline float plane(const protocol::StageLayout& layout, std::uint32_t axis, std::uint32_t index) {
+  return static_cast<float>(index) * layout.cell_size[axis];
+}
+
+/// The cell between whose planes a point lies, the lower one included. Points outside the object space belong to the
+/// nearest cell.
+inline protocol::CellCode cell_of(const protocol::StageLayout& layout, const glm::vec3& point) {
+  protocol::CellCode code = 0;
+  for (std::uint32_t a = 0; a < 3; ++a) {
+    const float x = point[static_cast<int>(a)];
+    const std::uint32_t last = layout.cells[a] - 1U;
+    const float guess = x / layout.cell_size[a];
+    std::uint32_t i = !(guess > 0.0F)                    ? 0U
+                      : guess < static_cast<float>(last) ? static_cast<std::uint32_t>(guess)
+                                                         : last;
+    while (i > 0 && x < plane(layout, a, i)) --i;
+    while (i < last && x >= plane(layout, a, i + 1U)) ++i;
+    code |= i << (a * protocol::kCellBits);
+  }
+  return code;
+}
+
+}  // namespace torolux::pe

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Points become records, one for each hemi-cube pixel. Enters: points and credits; leaves: records, each of which is
+// followed at once.
+#include "firmware/pe/hemicube.hpp"
+#include "firmware/pe/pe.hpp"
+#include "firmware/protocol/flux.hpp"
+#include "firmware/protocol/random.hpp"
+#include "firmware/protocol/stratified.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::Dimension;
+using protocol::PointRecord;
+
+enum class PointField : std::uint32_t { places, normal };
+
+/// Two directions at right angles to a unit vector and each other (Duff et al. 2017, Building an Orthonormal Basis,
+/// Revisited, JCGT 6(1)).
+Frame frame_about(const glm::vec3& z) {
+  const float sign = bits(z.z) < 0 ? -1.0F : 1.0F;
+  const float a = -1.0F / (sign + z.z);
+  const float b = z.x * z.y * a;
+  return {{1.0F + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
+}
+
+/// Moves on to the next pixel that gets any flux. False: the point is done.
+bool next_pixel(const Scene& scene, Expansion& expansion) {
+  const HemicubeGrid& grid = scene.hemicube_grid;
+  for (;;) {
+    if (expansion.next_pixel == protocol::hemicube_pixels(grid.n)) return false;
+    expansion.pixel = expansion.next_pixel++;
+    const std::uint32_t weight = scene.hemicube[entry_of(grid.n, hemicube_pixel(grid, expansion.pixel))].weight;
+    std::int64_t any = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      expansion.pixel_flux[c] = protocol::next_part(expansion.point.flux[c], weight, expansion.rest[c]);
+      any |= expansion.pixel_flux[c];
+    }
+    if (any != 0) return true;
+  }
+}
+
+/// The next of the points that wait, until one has a record to make. False: there is none.
+bool begin_point(Pe& pe) {
+  Expansion& expansion = pe.expansion;
+  while (pe.points.waiting > 0) {
+    const PointRecord point = pe.points.place[pe.points.first];
+    pe.points.first = (pe.points.first + 1U) % protocol::kPointPlaces;
+    --pe.points.waiting;
+    expansion = {};
+    expansion.point = point;
+    expansion.number = point.number_low | (std::uint32_t{point.number_high} << 8U);
+    expansion.key = protocol::hash_combine(point.key, expansion.number);
+    expansion.within = protocol::stratified_pair(expansion.number, point.key);
+    expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
+    expansion.active = next_pixel(pe.scene, expansion);
+    if (expansion.active) return true;
+    ++pe.done.points;
+  }
+  return false;
+}
+
+/// Takes a credit.
+void create_record(Pe& pe, Niu& niu) {
+  const Expansion& expansion = pe.expansion;
+  // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
+  // hemi-cubes there are. The shot's points share the pixel out among themselves: to what is far away they are one
+  // hemi-cube of so many times the pixels. In each pixel the points' places are shifted (by exclusive or) by numbers of
+  // its own: they keep as far apart, and pixels have nothing to do with each other.
+  const HemicubeGrid& grid = pe.scene.hemicube_grid;
+  const std::uint32_t shift = protocol::hash_combine(expansion.point.key, expansion.pixel);
+  const HemicubePixel pixel = hemicube_pixel(grid, expansion.pixel);
+  const glm::vec3 direction =
+      pixel_direction(expansion.frame, grid, pixel, pe.scene.hemicube[entry_of(grid.n, pixel)],
+                      {protocol::uniform_float(expansion.within.x ^ shift),
+                       protocol::uniform_float(expansion.within.y ^ protocol::hash_combine(shift, 1))});
+  const Slot slot = pe.slots.take(niu);
+  auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
+  record.origin = expansion.point.origin;
+  record.direction = to_array(direction);
+  record.flux = expansion.pixel_flux;
+  record.place = expansion.point.place;
+  record.polygon = expansion.point.polygon;
+  record.key = expansion.key ^ shift;
+  record.kind = protocol::RecordKind::light;
+  record.bounce = 0;
+  record.flags = static_cast<std::uint8_t>(protocol::kFirst | expansion.point.flags);
+  record.visited = 0;
+  --pe.credits.in_hand;
+  ++pe.tally.rays;
+  ++pe.done.records;
+  follow_light(pe, niu, slot);
+}
+
+}  // namespace
+
+void take_point(Pe& pe, Niu& niu, const PointRecord& point) {
+  Points& points = pe.points;
+  const std::uint32_t held = points.waiting + (pe.expansion.active ? 1U : 0U);
+  if (held >= protocol::kPointPlaces) {
+    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(PointField::places), held);
+  }
+  points.place[(points.first + points.waiting) % protocol::kPointPlaces] = point;
+  ++points.waiting;
+}
+
+void expand_points(Pe& pe, Niu& niu, std::uint32_t most) {
+  const PhaseMark<Phase::shoot> mark(niu);
+  for (std::uint32_t i = 0; i < most && pe.credits.in_hand > 0; ++i) {
+    if (!pe.expansion.active && !begin_point(pe)) return;
+    create_record(pe, niu);
+    pe.expansion.active = next_pixel(pe.scene, pe.expansion);
+    if (!pe.expansion.active) ++pe.done.points;
+  }
+}
+
+}  // namespace torolux::pe

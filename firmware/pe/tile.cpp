@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Camera rays of tiles. Enters: tiles and credits; leaves: records, each of which is followed at once. All samples of a
+// pixel come in a row, so that what ends here joins one addition to the frame buffer.
+#include "firmware/pe/tile.hpp"
+
+#include "firmware/pe/pe.hpp"
+#include "firmware/protocol/first_cell.hpp"
+
+namespace torolux::pe {
+namespace {
+
+using protocol::CameraView;
+using protocol::RayRecord;
+using protocol::Tile;
+using protocol::Vec3f;
+
+/// Details of FaultCode::outside_store.
+enum class TileField : std::uint32_t { places, columns, rows };
+
+void require(Niu& niu, bool holds, TileField field, std::uint32_t value) {
+  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
+}
+
+protocol::GridShape grid_of(const protocol::StageLayout& layout) {
+  return {layout.cells, layout.cell_size};
+}
+protocol::CellCode code_of(const std::array<std::uint32_t, 3>& cell) {
+  return protocol::cell_code(cell[0], cell[1], cell[2]);
+}
+
+void begin_pixel(const Scene& scene, Tiles& tiles) {
+  const Tile& tile = tiles.place[tiles.first];
+  tiles.pixel = protocol::camera_pixel(scene.layout.view, tile.column + tiles.column, tile.row + tiles.row);
+}
+
+void begin_tile(const Scene& scene, Tiles& tiles) {
+  tiles.column = 0;
+  tiles.row = 0;
+  tiles.sample = 0;
+  begin_pixel(scene, tiles);
+}
+
+/// On to the next sample, pixel, tile.
+void advance(Pe& pe) {
+  Tiles& tiles = pe.tiles;
+  if (++tiles.sample < pe.scene.layout.view.samples) return;
+  tiles.sample = 0;
+  const Tile& tile = tiles.place[tiles.first];
+  if (++tiles.column == tile.columns) {
+    tiles.column = 0;
+    ++tiles.row;
+  }
+  if (tiles.row < tile.rows) {
+    begin_pixel(pe.scene, tiles);
+    return;
+  }
+  ++pe.done.points;
+  tiles.first = (tiles.first + 1U) % protocol::kTilePlaces;
+  if (--tiles.held > 0) begin_tile(pe.scene, tiles);
+}
+
+/// Where a ray begins. False: it misses the object space.
+bool find_start(const Pe& pe, const Vec3f& direction, RayRecord& record) {
+  record.place = pe.tiles.eye_cell;
+  record.flags = protocol::kFirst;
+  if (pe.tiles.eye_inside) return true;
+  const protocol::GridShape grid = grid_of(pe.scene.layout);
+  const Vec3f& eye = pe.scene.layout.view.eye;
+  const auto start = protocol::cell_of_entry(grid, protocol::RayPlanes(grid, eye, direction), eye, direction);
+  if (!start) return false;
+  record.place = code_of(start->cell);
+  record.flags = start->flags;
+  return true;
+}
+
+/// Takes a credit, unless the ray misses the object space.
+void make_ray(Pe& pe, Niu& niu) {
+  const Tiles& tiles = pe.tiles;
+  const CameraView& view = pe.scene.layout.view;
+  const Vec3f direction =
+      protocol::camera_direction(view, tiles.pixel, pe.scene.sample_places[tiles.sample], pe.scene.filter);
+  const Slot slot = pe.slots.take(niu);
+  auto& record = pe.slots.at<RayRecord>(slot);
+  if (!find_start(pe, direction, record)) {
+    pe.slots.free_own(slot);
+    return;
+  }
+  record.origin = view.eye;
+  record.direction = direction;
+  record.weight = {tiles.weight, tiles.weight, tiles.weight};
+  record.polygon = protocol::kNoPolygon;
+  record.key = protocol::camera_key(tiles.pixel, tiles.sample);
+  record.pixel = tiles.pixel.number;
+  record.target = protocol::kNoPolygon;
+  record.kind = protocol::RecordKind::light;
+  record.bounce = 0;
+  record.waiting = 0;
+  record.sample = static_cast<std::uint16_t>(tiles.sample);
+  record.visited = 0;
+  --pe.credits.in_hand;
+  ++pe.done.records;
+  follow_ray(pe, niu, slot);
+}
+
+}  // namespace
+
+void Tiles::set(const protocol::StageLayout& layout) {
+  *this = {};
+  if (layout.sample_places.count == 0) return;
+  weight = 1.0F / static_cast<float>(layout.view.samples);
+  const protocol::GridShape grid = grid_of(layout);
+  eye_inside = protocol::lies_inside(grid, layout.view.eye);
+  if (!eye_inside) return;
+  std::array<std::uint32_t, 3> cell{};
+  for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] = protocol::cell_on_axis(grid, axis, layout.view.eye[axis]);
+  eye_cell = code_of(cell);
+}
+
+void take_tile(Pe& pe, Niu& niu, const Tile& tile) {
+  Tiles& tiles = pe.tiles;
+  const CameraView& view = pe.scene.layout.view;
+  require(niu, tiles.held < protocol::kTilePlaces, TileField::places, tiles.held);
+  require(niu, tile.columns > 0 && std::uint32_t{tile.column} + tile.columns <= view.width, TileField::columns,
+          tile.column);
+  require(niu, tile.rows > 0 && std::uint32_t{tile.row} + tile.rows <= view.height, TileField::rows, tile.row);
+  tiles.place[(tiles.first + tiles.held) % protocol::kTilePlaces] = tile;
+  if (++tiles.held == 1) begin_tile(pe.scene, tiles);
+}
+
+void make_rays(Pe& pe, Niu& niu, std::uint32_t most) {
+  const PhaseMark<Phase::shoot> mark(niu);
+  for (std::uint32_t i = 0; i < most && pe.credits.in_hand > 0 && pe.tiles.held > 0; ++i) {
+    make_ray(pe, niu);
+    advance(pe);
+  }
+}
+
+}  // namespace torolux::pe

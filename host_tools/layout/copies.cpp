@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// See copies.hpp.
+#include "host_tools/layout/copies.hpp"
+
+#include <algorithm>
+#include <queue>
+
+#include "firmware/protocol/triangle_grid.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::Stage;
+
+/// Something that stands in a PE's stores once, whichever of its cells need it: a polygon, material or texture.
+struct Item {
+  std::uint64_t bytes = 0;
+  double lacking = 1;            ///< share of the PEs that would not have it anyway
+  std::vector<CellIndex> cells;  ///< that need it
+  bool taken = false;
+};
+
+/// Polygons, then materials, then textures.
+class Items {
+ public:
+  Items(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage,
+        std::span<const double> lacking)
+      : of_cell_(polygons_of_cell.size()) {
+    std::uint32_t materials = 0;
+    for (const MeshTriangle& triangle : mesh.triangles) materials = std::max(materials, triangle.material + 1);
+    const auto first_material = static_cast<std::uint32_t>(mesh.triangles.size());
+    const std::uint32_t first_texture = first_material + materials;
+    items_.resize(first_texture + (stage == Stage::ray_tracing ? mesh.textures.size() : 0));
+    for (std::uint32_t t = 0; t < first_material; ++t) {
+      items_[t].bytes = polygon_bytes(mesh.triangles[t], stage);
+      if (!lacking.empty()) items_[t].lacking = lacking[t];
+    }
+    for (std::uint32_t m = first_material; m < first_texture; ++m) items_[m].bytes = sizeof(protocol::Material);
+    for (std::size_t i = first_texture; i < items_.size(); ++i) {
+      const auto& texels = mesh.textures[i - first_texture].texels;
+      items_[i].bytes = sizeof(protocol::Texture) + texels.size() * sizeof(protocol::Texel);
+    }
+    for (CellIndex cell = 0; cell < of_cell_.size(); ++cell) {
+      std::vector<std::uint32_t>& needed = of_cell_[cell];
+      needed = polygons_of_cell[cell];
+      for (const std::uint32_t t : polygons_of_cell[cell]) {
+        const MeshTriangle& triangle = mesh.triangles[t];
+        needed.push_back(first_material + triangle.material);
+        const bool textured = stage == Stage::ray_tracing && triangle.texture != protocol::kNoTexture;
+        if (textured) needed.push_back(first_texture + triangle.texture);
+      }
+      std::sort(needed.begin(), needed.end());
+      needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+      for (const std::uint32_t item : needed) items_[item].cells.push_back(cell);
+    }
+  }
+
+  const std::vector<std::uint32_t>& of_cell(CellIndex cell) const { return of_cell_[cell]; }
+  Item& operator[](std::uint32_t item) { return items_[item]; }
+  /// What each cell has of an item's bytes while nobody has taken it.
+  double part(std::uint32_t item) const {
+    return items_[item].lacking * static_cast<double>(items_[item].bytes) /
+           static_cast<double>(items_[item].cells.size());
+  }
+
+ private:
+  std::vector<Item> items_;
+  std::vector<std::vector<std::uint32_t>> of_cell_;
+};
+
+/// A cell that may be taken next. Outdated where the cell's bytes have become fewer since.
+struct Offer {
+  double heat_per_byte;
+  CellIndex cell;
+  double bytes;
+  bool operator<(const Offer& other) const {
+    return heat_per_byte != other.heat_per_byte ? heat_per_byte < other.heat_per_byte : cell > other.cell;
+  }
+};
+
+}  // namespace
+
+std::uint64_t polygon_bytes(const MeshTriangle& triangle, Stage stage) {
+  std::uint64_t bytes = sizeof(protocol::Polygon);
+  if (triangle.normals != protocol::kNoPolygon) bytes += 3 * sizeof(protocol::Vec3f);
+  const bool radiosity = stage == Stage::radiosity;
+  if (!radiosity && triangle.texture != protocol::kNoTexture) bytes += 3 * sizeof(protocol::TexturePoint);
+  if (triangle.sides == 0) return bytes;
+  const std::uint32_t parts = protocol::triangles_of_level(triangle.patch_level);
+  // Every four children add three leaves.
+  bytes += (triangle.facets - (radiosity ? parts : 1U)) / 3 * 4 * sizeof(std::uint32_t);
+  if (radiosity) return bytes + parts * sizeof(protocol::PatchReference);
+  return bytes + std::uint64_t{triangle.side_count()} * triangle.facets * sizeof(protocol::LatticeTriangle);
+}
+
+std::uint64_t cell_bytes(std::size_t polygons) {
+  return sizeof(protocol::Subspace) + polygons * sizeof(std::uint32_t);
+}
+
+std::vector<bool> CopyOrder::first(std::size_t count, std::size_t of_cells) const {
+  std::vector<bool> marked(of_cells);
+  for (std::size_t i = 0; i < count; ++i) marked[cells[i]] = true;
+  return marked;
+}
+
+std::size_t CopyOrder::within(std::uint64_t most) const {
+  return static_cast<std::size_t>(std::upper_bound(bytes.begin(), bytes.end(), most) - bytes.begin());
+}
+
+CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage,
+                     std::span<const double> heat, std::span<const double> lacking) {
+  Items items(mesh, polygons_of_cell, stage, lacking);
+  std::vector<double> bytes(polygons_of_cell.size());
+  std::vector<bool> taken(polygons_of_cell.size());
+  std::priority_queue<Offer> offers;
+  const auto offer = [&](CellIndex cell) { offers.push({heat[cell] / bytes[cell], cell, bytes[cell]}); };
+  for (CellIndex cell = 0; cell < bytes.size(); ++cell) {
+    if (polygons_of_cell[cell].empty()) continue;
+    bytes[cell] = static_cast<double>(cell_bytes(polygons_of_cell[cell].size()));
+    for (const std::uint32_t item : items.of_cell(cell)) bytes[cell] += items.part(item);
+    offer(cell);
+  }
+  CopyOrder order;
+  std::uint64_t sum = 0;
+  while (!offers.empty()) {
+    const Offer best = offers.top();
+    offers.pop();
+    if (taken[best.cell] || best.bytes != bytes[best.cell]) continue;
+    taken[best.cell] = true;
+    sum += cell_bytes(polygons_of_cell[best.cell].size());
+    std::vector<CellIndex> cheaper;
+    for (const std::uint32_t number : items.of_cell(best.cell)) {
+      Item& item = items[number];
+      if (item.taken) continue;
+      item.taken = true;
+      sum += item.bytes;
+      for (const CellIndex cell : item.cells) bytes[cell] -= items.part(number);
+      cheaper.insert(cheaper.end(), item.cells.begin(), item.cells.end());
+    }
+    order.cells.push_back(best.cell);
+    order.bytes.push_back(sum);
+    std::sort(cheaper.begin(), cheaper.end());
+    cheaper.erase(std::unique(cheaper.begin(), cheaper.end()), cheaper.end());
+    for (const CellIndex cell : cheaper) {
+      if (!taken[cell]) offer(cell);
+    }
+  }
+  return order;
+}
+
+}  // namespace torolux

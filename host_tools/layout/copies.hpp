@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Which subspaces stand on every PE: heat and what each would take enter; leaves: their order, greatest heat per byte
+// first. The picture depends on none of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "firmware/protocol/stores.hpp"
+#include "host_tools/mesh/mesh.hpp"
+#include "host_tools/subspace/grid.hpp"
+
+namespace torolux {
+
+/// Bytes of a polygon in a PE's stores: itself, normals, tree nodes, patch references or lattice, texture points. What
+/// several polygons share (materials, textures) is not in it.
+std::uint64_t polygon_bytes(const MeshTriangle& triangle, protocol::Stage stage);
+/// Bytes of a subspace with so many polygons, without those.
+std::uint64_t cell_bytes(std::size_t polygons);
+
+struct CopyOrder {
+  std::vector<CellIndex> cells;      ///< those with polygons
+  std::vector<std::uint64_t> bytes;  ///< [i]: of each PE's stores for cells[0..i], what they share counted once
+
+  /// By cell: the first `count` are marked.
+  std::vector<bool> first(std::size_t count, std::size_t of_cells) const;
+  /// The most of them that take no more than `most` bytes.
+  std::size_t within(std::uint64_t most) const;
+};
+
+/// Takes the cell of the greatest heat per byte, again and again. What a cell shares with others that are not taken yet
+/// counts in equal parts; what is already there, nothing. heat: by cell, > 0 where there are polygons. lacking: by
+/// polygon, the share of the PEs that would not have it without copies, and for which alone it counts; empty: all.
+CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell,
+                     protocol::Stage stage, std::span<const double> heat, std::span<const double> lacking = {});
+
+}  // namespace torolux

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// See placements.hpp.
+#include "host_tools/render/placements.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "host_tools/layout/copies.hpp"
+#include "host_tools/render/camera_sample.hpp"
+#include "host_tools/render/sample_heat.hpp"
+
+namespace torolux {
+namespace {
+
+using protocol::Stage;
+
+/// For a PE's own memory in `balanced`, where it does not fit otherwise.
+constexpr double kTightMemory = 1.02;
+/// Steps of the search for the most copies that fit.
+constexpr int kSearchSteps = 12;
+
+class Chooser {
+ public:
+  Chooser(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+          const Mesh& mesh, const StageParameters& parameters, const MemoryMap& map)
+      : machine_(machine), mesh_(mesh), parameters_(parameters), map_(map) {
+    choice_ = {{machine.columns, machine.rows}, machine.subspaces, machine.allocation, machine.scheme};
+    if (!choice_.subspaces && machine.scheme == Scheme::spread) {
+      choice_.subspaces =
+          spread_cells(mesh.space, mesh.triangles.size(), machine.pe_memory.value_or(protocol::kDefaultLocalMemory));
+    }
+    grid_ = make_grid(mesh.space, choice_.subspaces, mesh.triangles.size(), choice_.torus.pes());
+    lists_ = polygons_by_cell(grid_, mesh.triangles);
+    const bool needs_heat = machine.scheme == Scheme::spread || machine.allocation == "balanced";
+    if (choice_.torus.pes() > 1 && needs_heat) {
+      const Placement whole = make_placement(mesh, grid_, lists_, {{1, 1}, std::nullopt, "modulo", machine.scheme}, {});
+      radiosity_heat_ = sample_radiosity_heat(scene, mesh, whole, quality.bounces);
+      if (machine.scheme == Scheme::spread) {
+        const CameraRays rays(camera, mesh.space, quality.width, quality.height,
+                              PixelSamples(quality.filter, quality.samples, parameters.seed), parameters.seed);
+        ray_heat_ = sample_ray_heat(scene, mesh, whole, rays, camera_sample_choice(quality, machine, parameters));
+      }
+    }
+  }
+
+  Placements paper() const {
+    Placements result;
+    result.radiosity = place(Stage::radiosity, {}, kMostMemory);
+    result.ray_tracing = result.radiosity;
+    settle_memory(result);
+    return result;
+  }
+
+  Placements spread() const {
+    Placements result;
+    for (const double most_memory : {kMostMemory, kTightMemory}) {
+      result.radiosity = place(Stage::radiosity, {}, most_memory);
+      result.ray_tracing = place(Stage::ray_tracing, {}, most_memory);
+      settle_memory(result);
+      if (!result.memory) continue;
+      copy(Stage::radiosity, *result.memory, most_memory, result.radiosity, result.radiosity_copies);
+      copy(Stage::ray_tracing, *result.memory, most_memory, result.ray_tracing, result.ray_tracing_copies);
+      settle_memory(result);
+      break;
+    }
+    return result;
+  }
+
+ private:
+  const Heat& heat(Stage stage) const { return stage == Stage::radiosity ? radiosity_heat_ : ray_heat_; }
+
+  Placement place(Stage stage, std::vector<bool> common, double most_memory) const {
+    const Heat& of_stage = heat(stage);
+    return make_placement(mesh_, grid_, lists_, choice_,
+                          {stage, of_stage.empty() ? nullptr : &of_stage, std::move(common), most_memory});
+  }
+
+  /// Without copies it is chosen, if not given; with them there is one.
+  void settle_memory(Placements& result) const {
+    result.need = memory_need(mesh_, result.radiosity, result.ray_tracing, parameters_, map_);
+    result.memory = choose_memory(result.need, result.memory ? result.memory : machine_.pe_memory);
+  }
+
+  /// By polygon, the share of the PEs that do not have it.
+  std::vector<double> lacking(const Placement& placement) const {
+    std::vector<double> share(mesh_.triangles.size(), placement.torus.pes());
+    for (const auto& polygons : placement.polygons_of_pe) {
+      for (const std::uint32_t t : polygons) share[t] -= 1;
+    }
+    for (double& of_polygon : share) of_polygon /= placement.torus.pes();
+    return share;
+  }
+
+  /// Puts as many copies into `placement` as fit.
+  void copy(Stage stage, std::uint32_t memory, double most_memory, Placement& placement, StageCopies& copies) const {
+    if (choice_.torus.pes() == 1 || heat(stage).empty()) return;
+    const CopyOrder order = copy_order(mesh_, lists_, stage, heat_of_cells(heat(stage)), lacking(placement));
+    const auto try_with = [&](std::size_t count) {
+      Placement with = place(stage, order.first(count, grid_.count()), most_memory);
+      MemoryNeed need;
+      need.add(mesh_, with, stage, parameters_, map_);
+      if (need.most() > memory) return false;
+      placement = std::move(with);
+      copies = {count, order.bytes[count - 1]};
+      return true;
+    };
+    const double most = machine_.replicate.value_or(1) * memory;
+    std::size_t too_many = order.within(static_cast<std::uint64_t>(most));
+    if (too_many == 0 || try_with(too_many)) return;
+    std::size_t enough = 0;
+    for (int step = 0; step < kSearchSteps && enough + 1 < too_many; ++step) {
+      const std::size_t middle = enough + (too_many - enough) / 2;
+      (try_with(middle) ? enough : too_many) = middle;
+    }
+  }
+
+  const MachineChoice& machine_;
+  const Mesh& mesh_;
+  const StageParameters& parameters_;
+  const MemoryMap& map_;
+  PlacementChoice choice_;
+  Grid grid_;
+  std::vector<std::vector<std::uint32_t>> lists_;
+  Heat radiosity_heat_, ray_heat_;
+};
+
+}  // namespace
+
+Placements choose_placements(const Scene& scene, const Camera& camera, const Quality& quality,
+                             const MachineChoice& machine, const Mesh& mesh, const StageParameters& parameters,
+                             const MemoryMap& map) {
+  const Chooser chooser(scene, camera, quality, machine, mesh, parameters, map);
+  return machine.scheme == Scheme::paper ? chooser.paper() : chooser.spread();
+}
+
+}  // namespace torolux

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// See tile_phase.hpp.
+#include "host_tools/stages/tile_phase.hpp"
+
+#include <algorithm>
+
+namespace torolux {
+namespace {
+
+using protocol::MessageKind;
+
+/// Tiles that a PE has at a time: while the next one is on its way, it works on the other.
+constexpr std::uint32_t kSupply = 2;
+static_assert(kSupply <= protocol::kTilePlaces);
+/// At the end a PE may wait for about one tile of another's: so each has many of them.
+constexpr std::uint64_t kTilesOfPe = 32;
+/// Larger ones spare nothing worth having.
+constexpr std::uint32_t kMostTileEdge = 32;
+
+}  // namespace
+
+protocol::Tile TileGrid::tile(std::uint64_t number) const {
+  const auto column = static_cast<std::uint32_t>(number % columns()) * edge;
+  const auto row = static_cast<std::uint32_t>(number / columns()) * edge;
+  return {static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row),
+          static_cast<std::uint16_t>(std::min(edge, width - column)),
+          static_cast<std::uint16_t>(std::min(edge, height - row))};
+}
+
+TileGrid tile_grid(std::uint32_t width, std::uint32_t height, unsigned pes) {
+  const std::uint64_t pixels = std::uint64_t{width} * height;
+  std::uint32_t edge = 1;
+  while (edge < kMostTileEdge && std::uint64_t{edge + 1} * (edge + 1) * kTilesOfPe * pes <= pixels) ++edge;
+  return {width, height, edge};
+}
+
+TilePhase::TilePhase(unsigned pes, const RayTracingSettings& settings)
+    : pes_(pes),
+      settings_(settings),
+      grid_(tile_grid(settings.width, settings.height, pes)),
+      step_(golden_step(grid_.count())),
+      rays_held_(pes),
+      pool_(settings.credits) {}
+
+void TilePhase::start(HostPort& port) {
+  for (std::uint32_t i = 0; i < kSupply; ++i) {
+    for (unsigned pe = 0; pe < pes_; ++pe) deal(port, static_cast<PeNumber>(pe));
+  }
+  const std::uint64_t each = std::max<std::uint64_t>(1, settings_.credits / pes_);
+  for (unsigned pe = 0; pe < pes_; ++pe) {
+    if (pool_ > 0 && !rays_held_[pe].empty()) grant(port, static_cast<PeNumber>(pe), each);
+  }
+  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
+}
+
+void TilePhase::on_message(HostPort& port, PeNumber source, MessageKind kind, std::span<const std::byte> contents) {
+  if (kind == MessageKind::credits) {
+    port.work(HostWork::entry, 1);
+    pool_ += contents_as<protocol::Credits>(contents).count;
+    if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
+    feed(port);
+  } else if (kind == MessageKind::need) {
+    hungry_.push_back(source);
+    feed(port);
+  } else if (kind == MessageKind::work_done) {
+    take_work_done(port, source, contents_as<protocol::WorkDone>(contents));
+  } else {
+    unexpected(source, kind, "tracing rays");
+  }
+}
+
+/// The next tile, if there is one.
+void TilePhase::deal(HostPort& port, PeNumber pe) {
+  if (next_ == grid_.count()) return;
+  port.work(HostWork::entry, 1);
+  const protocol::Tile tile = grid_.tile(next_++ * step_ % grid_.count());
+  rays_held_[pe].push_back(std::uint64_t{tile.columns} * tile.rows * settings_.samples);
+  ++under_way_;
+  torolux::send(port, pe, MessageKind::tile, tile);
+}
+
+void TilePhase::take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done) {
+  std::deque<std::uint64_t>& held = rays_held_[source];
+  if (done.points > held.size()) {
+    throw MachineFailure("PE " + std::to_string(source) + " has done more tiles than it was dealt");
+  }
+  sent_ += done.records;
+  under_way_ -= done.points;
+  for (std::uint32_t i = 0; i < done.points; ++i) {
+    made_ += held.front();
+    held.pop_front();
+    deal(port, source);
+  }
+}
+
+void TilePhase::grant(HostPort& port, PeNumber pe, std::uint64_t credits) {
+  port.work(HostWork::entry, 1);
+  const auto granted = static_cast<std::uint32_t>(std::min(credits, pool_));
+  pool_ -= granted;
+  torolux::send(port, pe, MessageKind::grant, protocol::Grant{granted});
+}
+
+/// PEs without credits get some, half of an equal share each.
+void TilePhase::feed(HostPort& port) {
+  while (pool_ > 0 && !hungry_.empty()) {
+    const PeNumber pe = hungry_.front();
+    hungry_.pop_front();
+    grant(port, pe, std::max<std::uint64_t>(1, settings_.credits / pes_ / 2));
+  }
+  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
+}
+
+}  // namespace torolux

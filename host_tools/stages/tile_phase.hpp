@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The ray tracing stage where PEs make the camera rays: the host deals tiles of the picture to whoever has little left,
+// and credits to whoever has none.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "host_tools/stages/ray_phase.hpp"
+
+namespace torolux {
+
+/// Squares that cover a picture; those at the right and at the bottom are cut off.
+struct TileGrid {
+  std::uint32_t width, height;  ///< of the picture [pixels]
+  std::uint32_t edge;           ///< [pixels]
+
+  std::uint32_t columns() const { return (width + edge - 1) / edge; }
+  std::uint64_t count() const { return std::uint64_t{columns()} * ((height + edge - 1) / edge); }
+  protocol::Tile tile(std::uint64_t number) const;
+};
+
+/// Tiles small enough that at the end all PEs are done at about the same time.
+TileGrid tile_grid(std::uint32_t width, std::uint32_t height, unsigned pes);
+
+class TilePhase : public RayPhase {
+ public:
+  TilePhase(unsigned pes, const RayTracingSettings& settings);
+
+  void start(HostPort& port) override;
+  void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
+                  std::span<const std::byte> contents) override;
+  bool done() const override { return next_ == grid_.count() && under_way_ == 0 && pool_ == settings_.credits; }
+  const char* waiting_for() const override { return "tiles and credits"; }
+
+  std::uint64_t made() const override { return made_; }
+  std::uint64_t count() const override { return std::uint64_t{settings_.width} * settings_.height * settings_.samples; }
+  std::uint64_t sent() const override { return sent_; }
+  std::uint64_t credits_home() const override { return pool_; }
+
+ private:
+  void deal(HostPort& port, PeNumber pe);
+  void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
+  void grant(HostPort& port, PeNumber pe, std::uint64_t credits);
+  void feed(HostPort& port);
+
+  unsigned pes_;
+  RayTracingSettings settings_;
+  TileGrid grid_;
+  std::uint64_t step_;                                ///< of the order in which tiles are dealt
+  std::uint64_t next_ = 0;                            ///< in that order
+  std::vector<std::deque<std::uint64_t>> rays_held_;  ///< of the tiles that a PE has been dealt and not finished
+  std::uint64_t under_way_ = 0;                       ///< of those tiles, in all
+  std::deque<PeNumber> hungry_;                       ///< PEs that have work and no credits
+  std::uint64_t pool_;                                ///< credits at home
+  std::uint64_t made_ = 0;
+  std::uint64_t sent_ = 0;
+};
+
+}  // namespace torolux
