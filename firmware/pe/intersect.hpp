@@ -103,15 +103,15 @@ class Reach {
   Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse, const protocol::Vec3f& scale)
       : origin_(origin * to_vector(scale)), direction_(direction * to_vector(scale)), inverse_(inverse) {}
 
-  /// Between these distances, in `cell`: what protocol::boxes_apart compares with.
-  std::uint32_t box(protocol::CellCode cell, float t_in, float t_out) {
+  /// Between these distances, in the cell where the walk is: what protocol::boxes_apart compares with.
+  std::uint32_t box(const Walk& walk, float t_in, float t_out) {
     const Parts begin = bits(t_in) == bits(last_t_) ? last_ : at(t_in);
     last_ = at(t_out);
     last_t_ = t_out;
     std::uint32_t packed = protocol::kBoxRayFlips;
-    packed ^= of_axis<0>(begin.x, last_.x, protocol::cell_along(cell, 0));
-    packed ^= of_axis<1>(begin.y, last_.y, protocol::cell_along(cell, 1));
-    packed ^= of_axis<2>(begin.z, last_.z, protocol::cell_along(cell, 2));
+    packed ^= of_axis<0>(begin.x, last_.x, walk.cell_along(0));
+    packed ^= of_axis<1>(begin.y, last_.y, walk.cell_along(1));
+    packed ^= of_axis<2>(begin.z, last_.z, walk.cell_along(2));
     return packed;
   }
 

@@ -39,7 +39,7 @@ void find_nearest(const Scene& scene, const Subspace& here, const Segment& segme
   // either side.
   const bool open_begin = walk.first() || walk.came_from_outside();
   const float t_out = walk.goes_outside() ? std::numeric_limits<float>::infinity() : walk.t_out();
-  const std::uint32_t box = reach.box(walk.place(), t_in, walk.t_out());
+  const std::uint32_t box = reach.box(walk, t_in, walk.t_out());
   const auto test = [&](const protocol::ListedPolygon& listed) {
     const Polygon& polygon = scene.polygons[listed.polygon];
     if (polygon.number == segment.polygon) return;

@@ -33,7 +33,7 @@ class ImageWriter {
     write_polygons(nullptr);
     write_patch_references();
     write_patches();
-    write_hemicube();
+    put_all(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
     return std::move(bytes_);
   }
 
@@ -186,15 +186,6 @@ class ImageWriter {
       put(layout_.nodes, first + child, write_tree(mesh_.nodes[node + child], number));
     }
     return first;
-  }
-
-  void write_hemicube() {
-    const std::vector<std::uint32_t> weights = make_hemicube_weights(layout_.hemicube_size);
-    for (std::uint32_t i = 0; i < weights.size(); ++i) {
-      protocol::HemicubeEntry entry = protocol::hemicube_entry(layout_.hemicube_size, i);
-      entry.weight = weights[i];
-      put(layout_.hemicube, i, entry);
-    }
   }
 
   void write_patch_references() {
