@@ -28,14 +28,19 @@ class RayPlanes {
   constexpr RayPlanes(const GridShape& grid, const Vec3f& origin, const Vec3f& direction)
       : grid_(grid), origin_(origin) {
     constexpr std::uint32_t least = std::bit_cast<std::uint32_t>(0x1p-64F);  // less: its t would end before 2
+#pragma GCC unroll 3
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto bits = std::bit_cast<std::uint32_t>(direction[axis]);
       inverse_[axis] = (bits & 0x7FFF'FFFFU) >= least ? 1.0F / direction[axis] : 0.0F;
       upward_[axis] = bits >> 31U == 0;
     }
   }
-  constexpr bool meets(std::size_t axis) const { return inverse_[axis] != 0; }
-  constexpr bool upward(std::size_t axis) const { return upward_[axis]; }
+  constexpr bool meets(std::size_t axis) const {
+    return inverse_[axis] != 0;
+  }
+  constexpr bool upward(std::size_t axis) const {
+    return upward_[axis];
+  }
   constexpr float distance(std::size_t axis, std::uint32_t plane) const {
     return meets(axis) ? (grid_.plane(axis, plane) - origin_[axis]) * inverse_[axis]
                        : std::numeric_limits<float>::infinity();
@@ -70,6 +75,7 @@ struct FirstCell {
 };
 
 constexpr bool lies_inside(const GridShape& grid, const Vec3f& point) {
+#pragma GCC unroll 3
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(point[axis] >= 0.0F && point[axis] < grid.plane(axis, grid.cells[axis]))) return false;
   }
@@ -83,6 +89,7 @@ constexpr std::optional<FirstCell> cell_of_entry(const GridShape& grid, const Ra
   float entry = -std::numeric_limits<float>::infinity();
   float exit = std::numeric_limits<float>::infinity();
   std::size_t entry_axis = 3;
+#pragma GCC unroll 3
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::uint32_t end = grid.cells[axis];
     if (!planes.meets(axis)) {
@@ -99,6 +106,7 @@ constexpr std::optional<FirstCell> cell_of_entry(const GridShape& grid, const Ra
   }
   if (entry_axis == 3 || entry > exit || exit < 0.0F) return std::nullopt;
   FirstCell first{{}, static_cast<std::uint8_t>(entry_axis << kEntryAxisShift)};
+#pragma GCC unroll 3
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::uint32_t last = grid.cells[axis] - 1U;
     const bool upward = planes.upward(axis);
