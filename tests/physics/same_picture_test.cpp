@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "tests/support/render_support.hpp"
@@ -164,6 +166,64 @@ INSTANTIATE_TEST_SUITE_P(Names, Allocation, testing::Values("skewed", "skewed-bo
                            for (char& c : text) c = c == '-' ? '_' : c;
                            return text;
                          });
+
+/// How a scene and the work on it are shared out: the published scheme, or copies on every PE of nothing, of some, of
+/// all subspaces, with points and tiles dealt to whoever has little.
+struct Sharing {
+  const char* name;
+  Scheme scheme;
+  std::optional<double> replicate;
+};
+
+struct Solved {
+  std::vector<std::byte> picture;
+  std::string radiosities;  ///< a file of them: the flux of all elements and sides
+};
+
+Solved solve(RenderCase render_case) {
+  const std::filesystem::path file = testing::TempDir() + "torolux_sharing_test.bin";
+  render_case.files.save_radiosity = file;
+  const RenderResult result = run_case(render_case);
+  expect_all_home(result);
+  std::ifstream stream(file, std::ios::binary);
+  Solved solved{bytes_of(result.picture), {std::istreambuf_iterator<char>(stream), {}}};
+  std::filesystem::remove(file);
+  return solved;
+}
+
+class Shared : public testing::TestWithParam<Sharing> {};
+
+TEST_P(Shared, MakesTheSamePictureAndRadiosities) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.quality.shot_points = 3;  // shots of many points, which may travel
+  cornell.quality.shadow_rays = true;
+  static const Solved one = solve([&cornell] {
+    RenderCase alone = cornell;
+    alone.machine.columns = alone.machine.rows = 1;
+    return alone;
+  }());
+  EXPECT_GT(one.radiosities.size(), 1000U);
+  cornell.machine.columns = 3;
+  cornell.machine.rows = 2;
+  cornell.machine.subspaces = {5, 4, 6};
+  cornell.machine.scheme = GetParam().scheme;
+  cornell.machine.replicate = GetParam().replicate;
+  cornell.machine.allocation = allocation_of(GetParam().scheme);
+  for (const char* engine : {"native", "translated"}) {
+    cornell.machine.engine = engine;
+    for (const std::uint32_t credits : {1U, 64U}) {
+      cornell.machine.description.records.credits_per_pe = credits;
+      const Solved other = solve(cornell);
+      EXPECT_EQ(other.picture, one.picture) << engine << ' ' << credits;
+      EXPECT_EQ(other.radiosities, one.radiosities) << engine << ' ' << credits;
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Schemes, Shared,
+                         testing::Values(Sharing{"paper", Scheme::paper, {}}, Sharing{"no_copies", Scheme::spread, 0.0},
+                                         Sharing{"some_copies", Scheme::spread, 0.02},
+                                         Sharing{"copies", Scheme::spread, {}}),
+                         [](const auto& sharing) { return sharing.param.name; });
 
 class Grid : public testing::TestWithParam<std::array<std::uint32_t, 3>> {};
 

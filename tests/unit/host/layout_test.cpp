@@ -98,57 +98,49 @@ std::vector<std::optional<protocol::CellEntry>> map_of(const Loaded& pe, CellInd
   return map;
 }
 
-// Rays stop where something stands. There the map names the PE that has it, on all PEs but on that one, which holds the
-// cell's polygons, ascending.
+// Scheme `paper`: rays stop everywhere, and nobody has copies. Scheme `spread`: where something stands; every third of
+// those cells is on all PEs here, under the same number.
 TEST_F(LayoutTest, MapsNameWhoHoldsWhatStandsInEachCell) {
-  std::size_t held = 0;
-  for (protocol::PeNumber pe = 0; pe < pes_.size(); ++pe) {
-    const protocol::StageLayout& l = pes_[pe].layout.layout;
-    const auto map = map_of(pes_[pe], placement_.grid.count());
-    for (CellIndex cell = 0; cell < placement_.grid.count(); ++cell) {
-      const auto& polygons = placement_.polygons_of_cell[cell];
-      ASSERT_EQ(map[cell].has_value(), !polygons.empty());
-      if (!map[cell]) continue;
-      if (placement_.pe_of_cell[cell] != pe) {
-        EXPECT_EQ(*map[cell], placement_.pe_of_cell[cell]);
-        continue;
-      }
-      ++held;
-      ASSERT_NE(*map[cell] & protocol::kHeld, 0U);
-      const auto subspace = pes_[pe].at<protocol::Subspace>(l.subspaces, *map[cell] & ~protocol::kHeld);
-      ASSERT_EQ(subspace.polygon_count, polygons.size());
-      for (std::uint32_t i = 0; i < subspace.polygon_count; ++i) {
-        const auto local = pes_[pe].at<std::uint32_t>(l.polygon_list, subspace.first_polygon + i);
-        EXPECT_EQ(pes_[pe].at<protocol::Polygon>(l.polygons, local).number, polygons[i]);
-      }
-    }
-  }
-  EXPECT_EQ(held, placement_.filled_cells);
-  EXPECT_LT(held, placement_.grid.count()) << "some are empty";
-}
-
-TEST_F(LayoutTest, CellsMayStopRaysEverywhereAndStandOnAllPes) {
-  PlacementChoice choice{{3, 2}, std::array<std::uint32_t, 3>{6, 5, 7}, "skewed"};
-  for (const auto& [copy_all, stop_everywhere] : {std::pair{true, false}, {false, true}, {true, true}}) {
-    choice.copy_all = copy_all;
-    choice.stop_everywhere = stop_everywhere;
-    const Placement placement = make_placement(mesh_, choice);
-    EXPECT_EQ(placement.stops, stop_everywhere ? placement.grid.count() : placement.filled_cells);
+  const Grid& grid = placement_.grid;
+  std::vector<bool> common(grid.count());
+  for (CellIndex cell = 0; cell < grid.count(); cell += 3) common[cell] = !placement_.polygons_of_cell[cell].empty();
+  for (const Scheme scheme : {Scheme::paper, Scheme::spread}) {
+    const Placement placement = make_placement(
+        mesh_, grid, placement_.polygons_of_cell,
+        {.torus = {3, 2}, .allocation = scheme == Scheme::paper ? "skewed" : "balanced", .scheme = scheme},
+        {.common_cell = scheme == Scheme::paper ? std::vector<bool>() : common});
+    EXPECT_LT(placement.filled_cells, grid.count());
+    EXPECT_EQ(placement.stops, scheme == Scheme::paper ? grid.count() : placement.filled_cells);
+    std::map<CellIndex, std::set<protocol::CellEntry>> numbers;  ///< of common cells
     for (protocol::PeNumber pe = 0; pe < 6; ++pe) {
       Loaded loaded;
       loaded.layout = lay_out(mesh_, placement, pe, Stage::radiosity, {}, kMap);
       loaded.image = radiosity_image(scene_, mesh_, placement, pe, units_, loaded.layout);
-      const auto map = map_of(loaded, placement.grid.count());
-      std::uint32_t held = 0;
-      for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
-        ASSERT_EQ(map[cell].has_value(), stop_everywhere || !placement.polygons_of_cell[cell].empty());
+      const protocol::StageLayout& l = loaded.layout.layout;
+      const auto map = map_of(loaded, grid.count());
+      std::set<protocol::CellEntry> held;
+      for (CellIndex cell = 0; cell < grid.count(); ++cell) {
+        const auto& polygons = placement.polygons_of_cell[cell];
+        ASSERT_EQ(map[cell].has_value(), scheme == Scheme::paper || !polygons.empty());
         if (!map[cell]) continue;
-        const bool here = copy_all || placement.pe_of_cell[cell] == pe;
-        EXPECT_EQ(*map[cell], here ? protocol::held_as(held++) : protocol::CellEntry{placement.pe_of_cell[cell]});
+        if (placement.pe_of_cell[cell] != pe && !placement.common_cell[cell]) {
+          EXPECT_EQ(*map[cell], placement.pe_of_cell[cell]);
+          continue;
+        }
+        ASSERT_NE(*map[cell] & protocol::kHeld, 0U);
+        held.insert(*map[cell]);
+        if (placement.common_cell[cell]) numbers[cell].insert(*map[cell]);
+        const auto subspace = loaded.at<protocol::Subspace>(l.subspaces, *map[cell] & ~protocol::kHeld);
+        ASSERT_EQ(subspace.polygon_count, polygons.size());
+        for (std::uint32_t i = 0; i < subspace.polygon_count; ++i) {
+          const auto local = loaded.at<std::uint32_t>(l.polygon_list, subspace.first_polygon + i);
+          EXPECT_EQ(loaded.at<protocol::Polygon>(l.polygons, local).number, polygons[i]) << "ascending";
+        }
       }
-      EXPECT_EQ(loaded.layout.layout.subspaces.count, held);
-      EXPECT_EQ(loaded.layout.layout.polygons.count == mesh_.triangles.size(), copy_all);
+      EXPECT_EQ(held.size(), l.subspaces.count) << "each under a number of its own";
     }
+    EXPECT_EQ(numbers.empty(), scheme == Scheme::paper);
+    for (const auto& [cell, of_all] : numbers) EXPECT_EQ(of_all.size(), 1U) << "cell " << cell;
   }
 }
 

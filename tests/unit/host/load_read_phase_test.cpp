@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "firmware/protocol/store_names.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/stage_image.hpp"
 #include "host_tools/stages/load_phase.hpp"
@@ -98,34 +99,87 @@ class LoadReadTest : public testing::Test {
   std::vector<PeLoad> loads_;
 };
 
-TEST_F(LoadReadTest, ImagesReachTheirPesWhole) {
-  FakePort port(6);
-  LoadPhase phase(6, [this](PeNumber pe) { return loads_[pe]; });
-  phase.start(port);
-  std::vector<std::vector<std::byte>> got(6);
-  std::vector<int> configured(6);
-  std::vector<int> begun(6);
-  for (const Sent& sent : port.take()) {
-    const protocol::StageLayout& layout = loads_[sent.pe].layout;
+/// What PEs have of their stores, each as its layout says.
+class LoadedPes {
+ public:
+  explicit LoadedPes(std::size_t pes) : layouts_(pes), memory_(pes), begun_(pes) {}
+
+  void hear(const Sent& sent) {
+    if (sent.pe != protocol::kHost) {
+      hear(sent.pe, sent);
+      return;
+    }
+    EXPECT_TRUE(sent.is(MessageKind::load_store)) << "nothing else goes to all";
+    ++broadcasts;
+    for (PeNumber pe = 0; pe < memory_.size(); ++pe) hear(pe, sent);
+  }
+  bool begun(PeNumber pe) const { return begun_[pe]; }
+
+  /// All stores but the record slots.
+  void expect_all(PeNumber pe, const PeLoad& load) const {
+    ASSERT_TRUE(begun_[pe]);
+    EXPECT_EQ(memory_[pe], load.image) << "PE " << pe;
+  }
+
+  std::uint64_t broadcasts = 0;
+  std::uint64_t bytes_to_one = 0;  ///< of stores
+
+ private:
+  void hear(PeNumber pe, const Sent& sent) {
+    EXPECT_FALSE(begun_[pe]) << "all is there when it begins";
     if (sent.is(MessageKind::configure)) {
-      EXPECT_EQ(++configured[sent.pe], 1);
-      ASSERT_EQ(sent.bytes.size(), sizeof layout);
-      EXPECT_EQ(std::memcmp(sent.bytes.data(), &layout, sizeof layout), 0);
+      ASSERT_EQ(sent.bytes.size(), sizeof(protocol::StageLayout));
+      layouts_[pe] = sent.as<protocol::StageLayout>();
+      // Local memory is zero at the beginning of a run, and of any content behind it: elements alone are cleared.
+      std::uint64_t end = layouts_[pe].cell_words.address;
+      for (const protocol::StoreExtent& extent : protocol::store_extents(layouts_[pe])) {
+        if (extent.store.address != layouts_[pe].record_slots.address) end = std::max(end, extent.end());
+      }
+      memory_[pe].resize((end - layouts_[pe].cell_words.address + 3) / 4 * 4);
     } else if (sent.is(MessageKind::load)) {
-      EXPECT_EQ(configured[sent.pe], 1) << "the layout comes first";
       const auto block = sent.as<LoadBlock>();
-      EXPECT_EQ(block.address, layout.cell_words.address + got[sent.pe].size());
-      ASSERT_EQ(sent.bytes.size(), sizeof block + block.bytes);
-      EXPECT_LE(sent.bytes.size(), protocol::kMostMessageBytes);
-      got[sent.pe].insert(got[sent.pe].end(), sent.bytes.begin() + sizeof block, sent.bytes.end());
+      bytes_to_one += block.bytes;
+      put(pe, block.address, sent.bytes, sizeof block, block.bytes);
+    } else if (sent.is(MessageKind::load_store)) {
+      const auto block = sent.as<protocol::LoadStore>();
+      const protocol::StoreExtent extent = protocol::store_extents(layouts_[pe])[block.store];
+      EXPECT_LE(block.offset + block.bytes, (extent.bytes() + 3) / 4 * 4) << "store " << block.store;
+      put(pe, extent.store.address + block.offset, sent.bytes, sizeof block, block.bytes);
     } else {
       EXPECT_TRUE(sent.is(MessageKind::begin));
-      EXPECT_EQ(++begun[sent.pe], 1);
-      EXPECT_EQ(got[sent.pe], loads_[sent.pe].image) << "all is there when it begins";
+      begun_[pe] = true;
     }
   }
+  void put(PeNumber pe, std::uint32_t address, const std::vector<std::byte>& message, std::size_t head,
+           std::uint32_t bytes) {
+    ASSERT_FALSE(memory_[pe].empty()) << "the layout comes first";
+    ASSERT_EQ(message.size(), head + bytes);
+    EXPECT_LE(message.size(), protocol::kMostMessageBytes);
+    const std::size_t at = address - layouts_[pe].cell_words.address;
+    ASSERT_LE(at + bytes, memory_[pe].size());
+    std::copy(message.begin() + static_cast<std::ptrdiff_t>(head), message.end(),
+              memory_[pe].begin() + static_cast<std::ptrdiff_t>(at));
+  }
+
+  std::vector<protocol::StageLayout> layouts_;
+  std::vector<std::vector<std::byte>> memory_;  ///< from layout.cell_words.address on
+  std::vector<bool> begun_;
+};
+
+Loads loads_of(const std::vector<PeLoad>& loads, std::optional<PeLoad> common = {}) {
+  return {[&loads](PeNumber pe) { return loads[pe].layout; }, [&loads](PeNumber pe) { return loads[pe].image; },
+          std::move(common)};
+}
+
+TEST_F(LoadReadTest, ImagesReachTheirPesWhole) {
+  FakePort port(6);
+  LoadPhase phase(6, loads_of(loads_));
+  phase.start(port);
+  LoadedPes pes(6);
+  for (const Sent& sent : port.take()) pes.hear(sent);
+  EXPECT_EQ(pes.broadcasts, 0U);
   for (PeNumber pe = 0; pe < 6; ++pe) {
-    EXPECT_EQ(begun[pe], 1);
+    pes.expect_all(pe, loads_[pe]);
     EXPECT_FALSE(phase.done());
     tell(phase, port, pe, MessageKind::ready);
   }
@@ -133,23 +187,60 @@ TEST_F(LoadReadTest, ImagesReachTheirPesWhole) {
   EXPECT_THROW(tell(phase, port, 0, MessageKind::tally), MachineFailure);
 }
 
+// With copies of all subspaces most of it is alike on all PEs, and goes to all at once; what is left is what differs.
+TEST_F(LoadReadTest, WhatAllHaveIsSentOnce) {
+  const Grid grid = make_grid(mesh_.space, std::array<std::uint32_t, 3>{4, 4, 4}, mesh_.triangles.size(), 6);
+  for (const bool copies : {false, true}) {
+    const Placement placement = make_placement(mesh_, grid, polygons_by_cell(grid, mesh_.triangles),
+                                               {.torus = {3, 2}, .allocation = "balanced", .scheme = Scheme::spread},
+                                               {.common_cell = std::vector<bool>(grid.count(), copies)});
+    const auto load = [&](const Placement& of, PeNumber pe) {
+      const PeLayout layout = lay_out(mesh_, of, pe, Stage::radiosity, {}, kMap);
+      return PeLoad{layout.layout, radiosity_image(scene_, mesh_, of, pe, units_, layout)};
+    };
+    std::vector<PeLoad> loads;
+    std::uint64_t all = 0;
+    for (PeNumber pe = 0; pe < 6; ++pe) {
+      loads.push_back(load(placement, pe));
+      all += loads.back().image.size() - loads.back().layout.elements.count * sizeof(protocol::Element);
+    }
+    FakePort port(6);
+    LoadPhase phase(6, loads_of(loads, load(placement.with_nobody(), 6)));
+    phase.start(port);
+    LoadedPes pes(6);
+    for (const Sent& sent : port.take()) pes.hear(sent);
+    for (PeNumber pe = 0; pe < 6; ++pe) pes.expect_all(pe, loads[pe]);
+    EXPECT_GT(pes.broadcasts, 0U);
+    EXPECT_LT(pes.bytes_to_one, copies ? all / 2 : all);
+  }
+}
+
 TEST_F(LoadReadTest, LayingOutCostsTheHostByTheByte) {
   FakePort port(6);
-  LoadPhase phase(6, [this](PeNumber pe) { return loads_[pe]; });
+  LoadPhase phase(6, loads_of(loads_));
   phase.start(port);
-  std::uint64_t lines = 0;
-  for (const PeLoad& load : loads_) lines += (sizeof load.layout + load.image.size() + 63) / 64;
-  EXPECT_EQ(port.done(HostWork::layout), lines);
+  std::uint64_t least = 0;
+  std::uint64_t most = 0;
+  for (const Sent& sent : port.take()) {
+    if (sent.is(MessageKind::configure)) least += sent.bytes.size();
+    if (sent.is(MessageKind::load)) least += sent.bytes.size() - sizeof(LoadBlock);
+  }
+  for (const PeLoad& load : loads_) most += sizeof load.layout + load.image.size();
+  EXPECT_GE(port.done(HostWork::layout), least / 64);
+  // Each store ends in a line of its own.
+  EXPECT_LE(port.done(HostWork::layout), most / 64 + 6U * (protocol::kStores + 1U));
 }
 
 TEST_F(LoadReadTest, ImagesAreMadeAsPesBecomeReady) {
   constexpr unsigned kPes = 300;
   unsigned made = 0;
   FakePort port(kPes);
-  LoadPhase phase(kPes, [&](PeNumber pe) {
-    EXPECT_EQ(pe, made++);
-    return loads_[0];
-  });
+  LoadPhase phase(kPes, {[&](PeNumber) { return loads_[0].layout; },
+                         [&](PeNumber pe) {
+                           EXPECT_EQ(pe, made++);
+                           return loads_[0].image;
+                         },
+                         {}});
   phase.start(port);
   EXPECT_LT(made, 100U) << "not all images at once";
   for (unsigned pe = 0; pe < kPes; ++pe) {
