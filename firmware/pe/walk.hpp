@@ -126,7 +126,7 @@ class Walk {
     std::uint32_t stride;  ///< to the next cell's index
   };
 
-  /// As pe::plane: a product of two floats.
+  /// As GridShape::plane: a product of two floats.
   static float distance(const Axis& axis, float plane) {
     if (bits(axis.inverse) == 0) return std::numeric_limits<float>::infinity();
     return (plane * axis.size - axis.origin) * axis.inverse;

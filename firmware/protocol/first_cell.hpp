@@ -26,21 +26,12 @@ struct GridShape {
 class RayPlanes {
  public:
   constexpr RayPlanes(const GridShape& grid, const Vec3f& origin, const Vec3f& direction)
-      : grid_(grid), origin_(origin) {
-    constexpr std::uint32_t least = std::bit_cast<std::uint32_t>(0x1p-64F);  // less: its t would end before 2
-#pragma GCC unroll 3
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto bits = std::bit_cast<std::uint32_t>(direction[axis]);
-      inverse_[axis] = (bits & 0x7FFF'FFFFU) >= least ? 1.0F / direction[axis] : 0.0F;
-      upward_[axis] = bits >> 31U == 0;
-    }
-  }
-  constexpr bool meets(std::size_t axis) const {
-    return inverse_[axis] != 0;
-  }
-  constexpr bool upward(std::size_t axis) const {
-    return upward_[axis];
-  }
+      : grid_(grid),
+        origin_(origin),
+        inverse_{inverse_of(direction[0]), inverse_of(direction[1]), inverse_of(direction[2])},
+        upward_{is_upward(direction[0]), is_upward(direction[1]), is_upward(direction[2])} {}
+  constexpr bool meets(std::size_t axis) const { return inverse_[axis] != 0; }
+  constexpr bool upward(std::size_t axis) const { return upward_[axis]; }
   constexpr float distance(std::size_t axis, std::uint32_t plane) const {
     return meets(axis) ? (grid_.plane(axis, plane) - origin_[axis]) * inverse_[axis]
                        : std::numeric_limits<float>::infinity();
@@ -51,10 +42,16 @@ class RayPlanes {
   }
 
  private:
+  static constexpr float inverse_of(float along) {
+    constexpr std::uint32_t least = std::bit_cast<std::uint32_t>(0x1p-64F);  // less: its t would end before 2
+    return (std::bit_cast<std::uint32_t>(along) & 0x7FFF'FFFFU) >= least ? 1.0F / along : 0.0F;
+  }
+  static constexpr bool is_upward(float along) { return std::bit_cast<std::uint32_t>(along) >> 31U == 0; }
+
   const GridShape& grid_;
   Vec3f origin_;
-  Vec3f inverse_{};
-  std::array<bool, 3> upward_{};
+  Vec3f inverse_;
+  std::array<bool, 3> upward_;
 };
 
 /// The cell whose planes enclose a coordinate, the lower one included; beyond the grid, the last.
@@ -75,7 +72,6 @@ struct FirstCell {
 };
 
 constexpr bool lies_inside(const GridShape& grid, const Vec3f& point) {
-#pragma GCC unroll 3
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(point[axis] >= 0.0F && point[axis] < grid.plane(axis, grid.cells[axis]))) return false;
   }
