@@ -6,6 +6,7 @@
 #include <span>
 
 #include "firmware/pe/vectors.hpp"
+#include "firmware/protocol/first_cell.hpp"
 #include "firmware/protocol/stores.hpp"
 
 namespace torolux::pe {
@@ -37,26 +38,16 @@ inline std::uint32_t cell_index(const protocol::StageLayout& layout, protocol::C
          layout.cells[0] * (protocol::cell_along(code, 1) + layout.cells[1] * protocol::cell_along(code, 2));
 }
 
-inline float plane(const protocol::StageLayout& layout, std::uint32_t axis, std::uint32_t index) {
-  return static_cast<float>(index) * layout.cell_size[axis];
+inline protocol::GridShape grid_of(const protocol::StageLayout& layout) {
+  return {layout.cells, layout.cell_size};
 }
 
 /// The cell between whose planes a point lies, the lower one included. Points outside the object space belong to the
 /// nearest cell.
 inline protocol::CellCode cell_of(const protocol::StageLayout& layout, const glm::vec3& point) {
-  protocol::CellCode code = 0;
-  for (std::uint32_t a = 0; a < 3; ++a) {
-    const float x = point[static_cast<int>(a)];
-    const std::uint32_t last = layout.cells[a] - 1U;
-    const float guess = x / layout.cell_size[a];
-    std::uint32_t i = !(guess > 0.0F)                    ? 0U
-                      : guess < static_cast<float>(last) ? static_cast<std::uint32_t>(guess)
-                                                         : last;
-    while (i > 0 && x < plane(layout, a, i)) --i;
-    while (i < last && x >= plane(layout, a, i + 1U)) ++i;
-    code |= i << (a * protocol::kCellBits);
-  }
-  return code;
+  const protocol::GridShape grid = grid_of(layout);
+  return protocol::cell_code(protocol::cell_on_axis(grid, 0, point.x), protocol::cell_on_axis(grid, 1, point.y),
+                             protocol::cell_on_axis(grid, 2, point.z));
 }
 
 }  // namespace torolux::pe

@@ -21,9 +21,6 @@ void require(Niu& niu, bool holds, TileField field, std::uint32_t value) {
   if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
 }
 
-protocol::GridShape grid_of(const protocol::StageLayout& layout) {
-  return {layout.cells, layout.cell_size};
-}
 protocol::CellCode code_of(const std::array<std::uint32_t, 3>& cell) {
   return protocol::cell_code(cell[0], cell[1], cell[2]);
 }
@@ -108,12 +105,8 @@ void Tiles::set(const protocol::StageLayout& layout) {
   *this = {};
   if (layout.sample_places.count == 0) return;
   weight = 1.0F / static_cast<float>(layout.view.samples);
-  const protocol::GridShape grid = grid_of(layout);
-  eye_inside = protocol::lies_inside(grid, layout.view.eye);
-  if (!eye_inside) return;
-  std::array<std::uint32_t, 3> cell{};
-  for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] = protocol::cell_on_axis(grid, axis, layout.view.eye[axis]);
-  eye_cell = code_of(cell);
+  eye_inside = protocol::lies_inside(grid_of(layout), layout.view.eye);
+  eye_cell = cell_of(layout, to_vector(layout.view.eye));
 }
 
 void take_tile(Pe& pe, Niu& niu, const Tile& tile) {

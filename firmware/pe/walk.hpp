@@ -129,7 +129,7 @@ class Walk {
     std::uint32_t flip, mirror;  ///< (left ^ flip) + mirror is the cell: upward that is cells - 1 - left
   };
 
-  /// As pe::plane: a product of two floats.
+  /// As GridShape::plane: a product of two floats.
   static float distance(const Axis& axis, float plane) {
     if (bits(axis.inverse) == 0) return std::numeric_limits<float>::infinity();
     return (plane * axis.size - axis.origin) * axis.inverse;

@@ -77,11 +77,12 @@ inline Vec3f camera_direction(const CameraView& view, const CameraPixel& pixel, 
                               std::span<const float> table) {
   const float x = pixel.x + filter_distance(table, view.filter_bits, place.x + pixel.moved_x);
   const float y = pixel.y + filter_distance(table, view.filter_bits, place.y + pixel.moved_y);
-  Vec3f way{};
-  for (std::size_t i = 0; i < 3; ++i) way[i] = view.forward[i] + (view.right[i] * x + view.down[i] * y);
-  const float inverse = 1.0F / std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
-  for (float& component : way) component *= inverse;
-  return way;
+  // Written out: as loops over arrays they would cost memory accesses on a PE.
+  const float way_x = view.forward[0] + (view.right[0] * x + view.down[0] * y);
+  const float way_y = view.forward[1] + (view.right[1] * x + view.down[1] * y);
+  const float way_z = view.forward[2] + (view.right[2] * x + view.down[2] * y);
+  const float inverse = 1.0F / std::sqrt(way_x * way_x + way_y * way_y + way_z * way_z);
+  return {way_x * inverse, way_y * inverse, way_z * inverse};
 }
 
 /// Of the random numbers on the sample's path.

@@ -26,14 +26,10 @@ struct GridShape {
 class RayPlanes {
  public:
   constexpr RayPlanes(const GridShape& grid, const Vec3f& origin, const Vec3f& direction)
-      : grid_(grid), origin_(origin) {
-    constexpr std::uint32_t least = std::bit_cast<std::uint32_t>(0x1p-64F);  // less: its t would end before 2
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto bits = std::bit_cast<std::uint32_t>(direction[axis]);
-      inverse_[axis] = (bits & 0x7FFF'FFFFU) >= least ? 1.0F / direction[axis] : 0.0F;
-      upward_[axis] = bits >> 31U == 0;
-    }
-  }
+      : grid_(grid),
+        origin_(origin),
+        inverse_{inverse_of(direction[0]), inverse_of(direction[1]), inverse_of(direction[2])},
+        upward_{is_upward(direction[0]), is_upward(direction[1]), is_upward(direction[2])} {}
   constexpr bool meets(std::size_t axis) const { return inverse_[axis] != 0; }
   constexpr bool upward(std::size_t axis) const { return upward_[axis]; }
   constexpr float distance(std::size_t axis, std::uint32_t plane) const {
@@ -46,10 +42,16 @@ class RayPlanes {
   }
 
  private:
+  static constexpr float inverse_of(float along) {
+    constexpr std::uint32_t least = std::bit_cast<std::uint32_t>(0x1p-64F);  // less: its t would end before 2
+    return (std::bit_cast<std::uint32_t>(along) & 0x7FFF'FFFFU) >= least ? 1.0F / along : 0.0F;
+  }
+  static constexpr bool is_upward(float along) { return std::bit_cast<std::uint32_t>(along) >> 31U == 0; }
+
   const GridShape& grid_;
   Vec3f origin_;
-  Vec3f inverse_{};
-  std::array<bool, 3> upward_{};
+  Vec3f inverse_;
+  std::array<bool, 3> upward_;
 };
 
 /// The cell whose planes enclose a coordinate, the lower one included; beyond the grid, the last.
@@ -83,6 +85,7 @@ constexpr std::optional<FirstCell> cell_of_entry(const GridShape& grid, const Ra
   float entry = -std::numeric_limits<float>::infinity();
   float exit = std::numeric_limits<float>::infinity();
   std::size_t entry_axis = 3;
+#pragma GCC unroll 3
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::uint32_t end = grid.cells[axis];
     if (!planes.meets(axis)) {
@@ -99,6 +102,7 @@ constexpr std::optional<FirstCell> cell_of_entry(const GridShape& grid, const Ra
   }
   if (entry_axis == 3 || entry > exit || exit < 0.0F) return std::nullopt;
   FirstCell first{{}, static_cast<std::uint8_t>(entry_axis << kEntryAxisShift)};
+#pragma GCC unroll 3
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::uint32_t last = grid.cells[axis] - 1U;
     const bool upward = planes.upward(axis);

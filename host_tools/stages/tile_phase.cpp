@@ -14,6 +14,10 @@ constexpr std::uint32_t kSupply = 2;
 static_assert(kSupply <= protocol::kTilePlaces);
 /// At the end a PE may wait for about one tile of another's: so each has many of them.
 constexpr std::uint64_t kTilesOfPe = 32;
+/// But not so small that the host, which needs some hundred cycles for each, cannot supply a thousand PEs, which need
+/// about ten thousand for a ray; as long as there are a few for each PE.
+constexpr std::uint64_t kRaysOfTile = 32;
+constexpr std::uint64_t kLeastTilesOfPe = 4;
 /// Larger ones spare nothing worth having.
 constexpr std::uint32_t kMostTileEdge = 32;
 
@@ -27,17 +31,21 @@ protocol::Tile TileGrid::tile(std::uint64_t number) const {
           static_cast<std::uint16_t>(std::min(edge, height - row))};
 }
 
-TileGrid tile_grid(std::uint32_t width, std::uint32_t height, unsigned pes) {
+TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t samples, unsigned pes) {
   const std::uint64_t pixels = std::uint64_t{width} * height;
-  std::uint32_t edge = 1;
-  while (edge < kMostTileEdge && std::uint64_t{edge + 1} * (edge + 1) * kTilesOfPe * pes <= pixels) ++edge;
-  return {width, height, edge};
+  std::uint64_t edge = 1;
+  const auto one_more_leaves = [&edge, pixels, pes](std::uint64_t tiles) {
+    return (edge + 1) * (edge + 1) * tiles * pes <= pixels;
+  };
+  while (edge < kMostTileEdge && one_more_leaves(kTilesOfPe)) ++edge;
+  while (edge * edge * samples < kRaysOfTile && one_more_leaves(kLeastTilesOfPe)) ++edge;
+  return {width, height, static_cast<std::uint32_t>(edge)};
 }
 
 TilePhase::TilePhase(unsigned pes, const RayTracingSettings& settings)
     : pes_(pes),
       settings_(settings),
-      grid_(tile_grid(settings.width, settings.height, pes)),
+      grid_(tile_grid(settings.width, settings.height, settings.samples, pes)),
       step_(golden_step(grid_.count())),
       rays_held_(pes),
       pool_(settings.credits) {}

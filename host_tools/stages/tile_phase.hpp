@@ -20,8 +20,8 @@ struct TileGrid {
   protocol::Tile tile(std::uint64_t number) const;
 };
 
-/// Tiles small enough that at the end all PEs are done at about the same time.
-TileGrid tile_grid(std::uint32_t width, std::uint32_t height, unsigned pes);
+/// Tiles small enough that at the end all PEs are done at about the same time, large enough for the host.
+TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t samples, unsigned pes);
 
 class TilePhase : public RayPhase {
  public:

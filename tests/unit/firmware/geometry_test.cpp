@@ -221,7 +221,7 @@ TEST(Walk, CornersAreCrossedXBeforeYBeforeZ) {
 /// Number of the planes 1 .. last along an axis at or below x: found one by one.
 std::uint32_t planes_below(const protocol::StageLayout& layout, std::uint32_t axis, float x) {
   std::uint32_t cell = 0;
-  while (cell + 1U < layout.cells[axis] && x >= pe::plane(layout, axis, cell + 1U)) ++cell;
+  while (cell + 1U < layout.cells[axis] && x >= pe::grid_of(layout).plane(axis, cell + 1U)) ++cell;
   return cell;
 }
 
@@ -230,7 +230,7 @@ TEST(Cells, APointsCellLiesBetweenItsPlanes) {
     GridCase g = random_grid_case();
     for (std::uint32_t a = 0; a < 3; ++a) {
       float& x = g.segment.origin[static_cast<int>(a)];
-      const float at = pe::plane(g.layout, a, *rc::gen::inRange<std::uint32_t>(0, g.layout.cells[a] + 1U));
+      const float at = pe::grid_of(g.layout).plane(a, *rc::gen::inRange<std::uint32_t>(0, g.layout.cells[a] + 1U));
       switch (*rc::gen::inRange(0, 6)) {  // on a plane, the floats beside it, outside
         case 0:
           x = at;

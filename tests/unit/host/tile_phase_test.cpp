@@ -125,7 +125,7 @@ TEST(TilePhase, WhoIsDoneGetsTheNext) {
 TEST(TilePhase, EachPeHasManyTiles) {
   for (const unsigned pes : {1U, 16U, 64U, 256U, 1024U}) {
     for (const std::uint32_t edge : {128U, 256U, 1000U}) {
-      const TileGrid grid = tile_grid(edge, edge, pes);
+      const TileGrid grid = tile_grid(edge, edge, 32, pes);
       const std::uint64_t pixels = std::uint64_t{edge} * edge;
       EXPECT_GE(grid.count(), std::min<std::uint64_t>(pixels, std::uint64_t{32} * pes)) << edge << ", " << pes;
       // Few messages: a tile has no fewer pixels than it must, up to squares' being coarse.
@@ -133,6 +133,13 @@ TEST(TilePhase, EachPeHasManyTiles) {
           << edge << ", " << pes;
     }
   }
+}
+
+// Tiles of 36 rays in place of 4 with four samples: what the host can deal to a thousand PEs in their time.
+TEST(TilePhase, TilesAreNoSmallerThanTheHostCanDeal) {
+  EXPECT_EQ(tile_grid(256, 256, 4, 1024).edge, 3U);
+  EXPECT_EQ(tile_grid(256, 256, 1, 1024).edge, 4U) << "four for each PE at the least";
+  EXPECT_EQ(tile_grid(256, 256, 64, 1024).edge, 1U);
 }
 
 TEST(TilePhase, CreditsGoToWhoHasNone) {
