@@ -34,12 +34,12 @@ enum class LayoutField : std::uint32_t {
 
 using Extents = std::array<protocol::StoreExtent, protocol::kStores>;
 
-constexpr LayoutField field_of(protocol::StoreName name) {
-  return LayoutField{static_cast<std::uint32_t>(name)};
-}
-
 void require(Niu& niu, bool holds, LayoutField field, std::uint32_t value, std::uint32_t count = 0) {
   if (!holds) niu.fail(FaultCode::bad_layout, static_cast<std::uint32_t>(field), value, count);
+}
+
+void require(Niu& niu, bool holds, protocol::StoreName store, std::uint32_t value, std::uint32_t count) {
+  require(niu, holds, LayoutField{static_cast<std::uint32_t>(store)}, value, count);
 }
 
 void check_stores(Niu& niu, const Extents& all) {
@@ -64,8 +64,8 @@ bool finite_positive(float value) {
 void check_radiosity(Niu& niu, const StageLayout& l) {
   const std::uint32_t n = l.hemicube_size;
   require(niu, n >= 2 && n % 2U == 0 && n <= protocol::kMostHemicubeSize, LayoutField::hemicube_size, n);
-  require(niu, l.hemicube.count == protocol::hemicube_weights(n), field_of(protocol::StoreName::hemicube),
-          l.hemicube.address, l.hemicube.count);
+  require(niu, l.hemicube.count == protocol::hemicube_weights(n), protocol::StoreName::hemicube, l.hemicube.address,
+          l.hemicube.count);
   const auto from_1 = [](std::uint32_t k, std::uint32_t most) { return k >= 1 && k <= most; };
   require(niu, from_1(l.shot_points, protocol::kMostShotPoints), LayoutField::shot_points, l.shot_points);
   require(niu, from_1(l.emission_points, protocol::kMostEmissionPoints), LayoutField::emission_points,
@@ -78,10 +78,10 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
 void check_view(Niu& niu, const StageLayout& l) {
   const protocol::CameraView& view = l.view;
   require(niu, view.samples == l.sample_places.count && view.samples <= protocol::kMostPixelSamples,
-          field_of(protocol::StoreName::sample_places), view.samples, l.sample_places.count);
+          protocol::StoreName::sample_places, view.samples, l.sample_places.count);
   require(niu, view.filter_bits >= 1 && view.filter_bits <= protocol::kMostFilterBits, LayoutField::view,
           view.filter_bits);
-  require(niu, l.filter.count == (1U << view.filter_bits) + 1U, field_of(protocol::StoreName::filter), l.filter.address,
+  require(niu, l.filter.count == (1U << view.filter_bits) + 1U, protocol::StoreName::filter, l.filter.address,
           l.filter.count);
   for (const std::uint32_t edge : {view.width, view.height}) {
     require(niu, edge >= 1 && edge <= protocol::kMostPictureEdge, LayoutField::view, edge);

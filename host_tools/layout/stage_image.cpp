@@ -71,9 +71,12 @@ class ImageWriter {
   void write_subspaces() {
     std::uint32_t first = 0;
     for (std::size_t local = 0; local < placement_.cells_of_pe[pe_].size(); ++local) {
-      const auto& polygons = placement_.polygons_of_cell[placement_.cells_of_pe[pe_][local]];
-      put(layout_.subspaces, local, protocol::Subspace{first, static_cast<std::uint32_t>(polygons.size())});
-      for (const std::uint32_t t : polygons) put(layout_.polygon_list, first++, local_polygon(t));
+      const auto& entries = placement_.entries_of_cell[placement_.cells_of_pe[pe_][local]];
+      put(layout_.subspaces, local, protocol::Subspace{first, static_cast<std::uint32_t>(entries.size())});
+      for (protocol::ListedPolygon entry : entries) {
+        if ((entry.polygon & protocol::kGroup) == 0) entry.polygon = local_polygon(entry.polygon);
+        put(layout_.polygon_list, first++, entry);
+      }
     }
     write_cell_map();
   }

@@ -219,12 +219,13 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
   const CameraSample sample = sample_camera(scene, setup.mesh, setup.ray_placement, rays, choice, kPaths);
   const double count = sample.sent * static_cast<double>(rays.count());
   const std::vector<double> cycles = cycles_of_pes(sample.paths, kCyclesToShow);
+  const bool host_makes_rays = setup.parameters.pixel_samples == 0;
   const double busiest = *std::max_element(cycles.begin(), cycles.end());
   double sum = 0;
   for (const double pe : cycles) sum += pe;
   prediction.rays = count;
   prediction.ray_tracing_cycles = std::max(count * busiest / (cycles.size() > 1 ? kRayUtilisation : 1.0),
-                                           count * host_cycles_of_ray(machine.description));
+                                           host_makes_rays ? count * host_cycles_of_ray(machine.description) : 0.0);
   prediction.instructions += count * sum / kCyclesPerInstruction;
   prediction.packets += count * sample.paths.sum().arrivals / kRecordsPerPacket;
 }

@@ -62,8 +62,8 @@ struct MachineChoice {
   unsigned columns = 4, rows = 4;
   std::optional<std::uint32_t> pe_memory;                 ///< bytes; absent: smallest power of two from 1 MiB that fits
   std::optional<std::array<std::uint32_t, 3>> subspaces;  ///< absent: auto
-  Scheme scheme = Scheme::paper;
-  std::string allocation = allocation_of(Scheme::paper);
+  Scheme scheme = Scheme::spread;
+  std::string allocation = allocation_of(Scheme::spread);
   std::optional<double> replicate;   ///< most of a PE's memory for copies of subspaces, 0..1; absent: what fits
   bool skip_empty_subspaces = true;  ///< camera rays begin in the first subspace on their way with anything in it
   std::string engine = kDefaultEngine;

@@ -122,13 +122,14 @@ std::string energy_table(const EnergyBalance& energy) {
          right(significant(closing_error(energy), 2), 14) + "\n";
 }
 
+/// Subspaces that stand on every PE in the radiosity and in the ray tracing stage.
 std::string copies_text(const RunDescription& run, const RenderFigures& figures) {
   if (run.machine.scheme == Scheme::paper) return "";
-  const auto stage = [&](const StageCopies& copies) {
-    return grouped(copies.cells) + " (" + percent(copies_share(copies, figures), 0) + " of memory)";
-  };
-  return left("on every PE", kLabel) + "  " + stage(figures.radiosity_copies) + " and " +
-         stage(figures.ray_tracing_copies) + " of " + grouped(figures.filled_subspaces) + " subspaces\n";
+  const StageCopies& radiosity = figures.radiosity_copies;
+  const StageCopies& rays = figures.ray_tracing_copies;
+  return left("on every PE", kLabel) + "  " + grouped(radiosity.cells) + " and " + grouped(rays.cells) + " of " +
+         grouped(figures.filled_subspaces) + " subspaces, " + percent(copies_share(radiosity, figures), 0) + " and " +
+         percent(copies_share(rays, figures), 0) + " of memory\n";
 }
 
 }  // namespace
@@ -162,8 +163,8 @@ std::string summary(const RunDescription& run, const RenderFigures& figures) {
   const auto& cells = figures.subspaces;
   text += left("machine", kLabel) + "  " + std::to_string(run.machine.columns) + " x " +
           std::to_string(run.machine.rows) + " PEs of " + bytes_text(figures.local_memory_bytes) + " on " +
-          run.machine.engine + "; " + std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " +
-          std::to_string(cells[2]) + " subspaces, " + run.machine.allocation + "\n";
+          run.machine.engine + "\n" + left("subspaces", kLabel) + "  " + std::to_string(cells[0]) + " x " +
+          std::to_string(cells[1]) + " x " + std::to_string(cells[2]) + ", " + run.machine.allocation + "\n";
   text += copies_text(run, figures);
   const NetworkMemory network = network_memory(run.machine.description);
   text += left("network memory", kLabel) + "  NIU " + bytes_text(network.niu()) + ", router " +

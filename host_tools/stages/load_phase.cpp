@@ -14,7 +14,8 @@ namespace {
 using protocol::StoreName;
 using Bytes = std::span<const std::byte>;
 
-/// PEs loaded at a time: enough to keep the bus busy, few enough that the host need not hold all images at once.
+/// PEs loaded at a time where each is sent all that it has: enough to keep the bus busy, few enough that the host need
+/// not hold all images at once.
 constexpr unsigned kLoadedAtOnce = 64;
 /// Where an image differs from what all have heard by less than this in between, one message carries both places.
 constexpr std::size_t kLeastGap = 64;
@@ -77,7 +78,8 @@ void LoadPhase::start(HostPort& port) {
     send(port, static_cast<PeNumber>(pe), protocol::MessageKind::configure, layouts_.back());
   }
   if (loads_.common) send_common(port);
-  while (started_ < std::min(pes_, kLoadedAtOnce)) load(port, static_cast<PeNumber>(started_++));
+  const unsigned at_once = loads_.common ? pes_ : kLoadedAtOnce;
+  while (started_ < std::min(pes_, at_once)) load(port, static_cast<PeNumber>(started_++));
 }
 
 void LoadPhase::on_message(HostPort& port, PeNumber source, protocol::MessageKind kind, std::span<const std::byte>) {

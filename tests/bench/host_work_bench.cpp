@@ -39,7 +39,8 @@ Prepared prepare(const char* name) {
   prepared.scene = load_scene(std::filesystem::path(TOROLUX_SOURCE_DIR) / "scenes" / name, {});
   const Image image = load_image(std::filesystem::path(TOROLUX_FIRMWARE_DIR) / "pe.elf");
   MachineChoice machine;
-  prepared.setup = make_setup(prepared.scene, prepared.scene.camera.value_or(Camera{}), prepared.quality, machine, image);
+  prepared.setup =
+      make_setup(prepared.scene, prepared.scene.camera.value_or(Camera{}), prepared.quality, machine, image);
   return prepared;
 }
 

@@ -90,7 +90,8 @@ TEST(Main, HelpOfRenderIsComplete) {
                              "--fault",
                              "--stats-csv"})
     EXPECT_THAT(help, HasSubstr(option));
-  for (const char* text : {"[512x512]", "[4x4]", "[skewed]", "[8]", "[0.002]", "[32]", "degrees", "scene units"})
+  for (const char* text :
+       {"[512x512]", "[4x4]", "[balanced; --scheme paper: skewed]", "[8]", "[0.002]", "[32]", "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;

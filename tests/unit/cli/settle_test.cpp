@@ -58,7 +58,8 @@ TEST(Settle, BuiltInValues) {
   EXPECT_EQ(settled.quality.filter, built_in.filter);
   EXPECT_EQ(settled.machine.columns, 4U);
   EXPECT_EQ(settled.machine.subspaces, std::nullopt);
-  EXPECT_EQ(settled.machine.allocation, "skewed");
+  EXPECT_EQ(settled.machine.scheme, Scheme::spread);
+  EXPECT_EQ(settled.machine.allocation, "balanced");
   EXPECT_EQ(settled.tone.exposure_ev, 0);
   EXPECT_EQ(settled.tone.curve, ToneCurve::filmic);
   EXPECT_THAT(settled.outputs, testing::ElementsAre("bare.png"));

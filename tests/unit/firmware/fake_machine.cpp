@@ -258,6 +258,8 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.textures, s.textures);
   place(l.texels, s.texels);
   place(l.texture_points, s.texture_points);
+  place(l.sample_places, s.sample_places);
+  place(l.filter, s.filter);
   place(l.emitters, s.emitters);
   l.record_slots = {next, l.own_slots + niu_slots};
   message(pe, MessageKind::configure, l);

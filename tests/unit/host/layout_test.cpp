@@ -61,7 +61,7 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
     add(l.cell_words, sizeof(protocol::CellWord));
     add(l.cell_entries, sizeof(protocol::CellEntry));
     add(l.subspaces, sizeof(protocol::Subspace));
-    add(l.polygon_list, 4);
+    add(l.polygon_list, sizeof(protocol::ListedPolygon));
     add(l.polygons, sizeof(protocol::Polygon));
     add(l.materials, sizeof(protocol::Material));
     add(l.patch_references, sizeof(protocol::PatchReference));

@@ -128,10 +128,8 @@ TEST_F(RayTracingPhaseTest, EachRayGoesToThePeThatHoldsItsFirstSubspace) {
     pes.insert(one.pe);
     // The eye stands in a subspace with walls, so no empty one is stepped over.
     EXPECT_EQ(one.pe, placement_.pe_of_cell[first->cell]);
-    EXPECT_EQ(
-        placement_.grid.index({protocol::cell_along(one.record.place, 0), protocol::cell_along(one.record.place, 1),
-                               protocol::cell_along(one.record.place, 2)}),
-        first->cell);
+    const auto cell = placement_.grid.cell(first->cell);
+    EXPECT_EQ(one.record.place, protocol::cell_code(cell[0], cell[1], cell[2]));
   }
   EXPECT_EQ(pes.size(), 1U) << "one eye";
   RayTracingPhase outside = phase(64, {0.5, 0.5, -2});
