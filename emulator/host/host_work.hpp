@@ -21,7 +21,7 @@ enum class HostWork : std::uint8_t {
   lattice_triangle,  ///< its share of the lattice: vertices around it, borders, its own three values
   irradiance_fit,    ///< at a vertex of a curved surface that is one patch: to all elements near it
   filter_entry,      ///< of the pixel filter's table
-  hemicube_entry,    ///< of the table of hemi-cube weights
+  hemicube_entry,    ///< of the hemi-cube's table
   count
 };
 inline constexpr std::size_t kHostWorks = static_cast<std::size_t>(HostWork::count);

@@ -14,6 +14,8 @@ namespace {
 /// Attention at least this often, by wall time [s] and by events.
 constexpr double kAttendSeconds = 0.05;
 constexpr std::uint32_t kAttendEvents = 4096;
+/// Running a PE, a millisecond at most, counts as so many.
+constexpr std::uint32_t kHelpEvents = 256;
 /// Looks at a PE that is about to get there before the scheduler sleeps.
 constexpr int kLooks = 50;
 constexpr unsigned kMostReported = 16;
@@ -41,7 +43,11 @@ void Emulation::attend_now_and_then() {
 
 /// Waits for a PE that runs: until its bound is later than `wanted`, or it waits itself, or a while has passed.
 void Emulation::await(unsigned pe, Cycles wanted) {
-  if (engine_.help(pe, wanted)) return attend_now_and_then();
+  if (engine_.help(pe, wanted)) {
+    if (until_attend_ <= kHelpEvents) return attend_now_and_then();
+    until_attend_ -= kHelpEvents;
+    return;
+  }
   NiuNetworkSide& niu = nius_[pe];
   for (int i = 0; i < kLooks; ++i) {
     if (niu.refresh(events_, pool_, times_)) return;

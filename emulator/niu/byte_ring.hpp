@@ -17,7 +17,8 @@ namespace torolux {
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "shared between processes");
 
 /// Header: a struct that begins with `std::uint64_t time` and has `std::uint32_t bytes`, the payload's length.
-/// Zeroed memory is an empty ring. kMostBytes: a power of two.
+/// Zeroed memory is an empty ring. kMostBytes: a power of two. An entry that finds the ring empty lies at its start: a
+/// thousand rings that are mostly empty then live in the caches, and not each of their bytes in turn.
 template <class Header, std::uint32_t kMostBytes>
 class ByteRing {
   static_assert((kMostBytes & (kMostBytes - 1)) == 0 && sizeof(Header) % 8 == 0);
@@ -40,6 +41,7 @@ class ByteRing {
   void push(Header header, std::span<const std::byte> payload) {
     header.bytes = static_cast<std::uint32_t>(payload.size());
     std::uint64_t at = written_.load(std::memory_order_relaxed);
+    if (read_.load(std::memory_order_acquire) == at) start_ = at;  // the reader looks at it once it sees an entry
     const std::size_t entry = entry_bytes(payload.size());
     if (bytes() - place(at) < entry) {
       const std::uint64_t skip = kSkip;
@@ -79,10 +81,11 @@ class ByteRing {
   static constexpr std::uint64_t kSkip = std::numeric_limits<std::uint64_t>::max();
 
   std::size_t bytes() const { return kMostBytes >> halvings_; }
-  std::size_t place(std::uint64_t at) const { return at & (bytes() - 1); }
+  std::size_t place(std::uint64_t at) const { return (at - start_) & (bytes() - 1); }
 
   std::uint32_t halvings_;
   alignas(64) std::atomic<std::uint64_t> written_;  ///< bytes ever written, gaps included
+  std::uint64_t start_;                             ///< those before the ring's start; the writer's
   alignas(64) std::atomic<std::uint64_t> read_;     ///< bytes ever read
   alignas(64) std::array<std::byte, kMostBytes> data_;
 };

@@ -13,9 +13,10 @@ std::size_t niu_channel_bytes() {
   return sizeof(NiuChannel);
 }
 std::uint64_t niu_channel_layout() {
-  const std::array<std::size_t, 6> facts{sizeof(NiuChannel),           offsetof(NiuChannel, wanted),
+  const std::array<std::size_t, 7> facts{sizeof(NiuChannel),           offsetof(NiuChannel, wanted),
                                          offsetof(NiuChannel, asleep), offsetof(NiuChannel, processor),
-                                         sizeof(ProcessorState),       protocol::kProtocolVersion};
+                                         sizeof(ProcessorState),       offsetof(ProcessorState, first_free),
+                                         protocol::kProtocolVersion};
   std::uint64_t layout = 0;
   for (const std::size_t fact : facts) layout = layout * 0x1'0000'01B3U + fact;
   return layout;

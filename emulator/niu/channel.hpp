@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -146,13 +147,17 @@ constexpr std::uint64_t wait_count(std::uint64_t wait) {
 /// When packets left an outgoing queue; written by the network side.
 struct Departures {
   std::atomic<std::uint64_t> count;
-  std::array<std::atomic<std::uint64_t>, kMostSendQueue> time;  ///< of number n at n % kMostSendQueue
+  std::uint64_t mask;                                           ///< 2^i - 1, at least the queue's places - 1
+  std::array<std::atomic<std::uint64_t>, kMostSendQueue> time;  ///< of number n at n & mask: as few lines as needed
 
+  void set_places(std::uint32_t places) { mask = std::bit_ceil(places) - 1; }
   void add(std::uint64_t when) {
     const std::uint64_t n = count.load(std::memory_order_relaxed);
-    time[n % kMostSendQueue].store(when, std::memory_order_relaxed);
+    time[n & mask].store(when, std::memory_order_relaxed);
     count.store(n + 1, std::memory_order_seq_cst);
   }
+  /// Number n must have left, and number n + places not yet have been sent.
+  std::uint64_t when(std::uint64_t n) const { return time[n & mask].load(std::memory_order_relaxed); }
 };
 
 /// Most stages of a host's program.
@@ -167,27 +172,27 @@ struct ProcessorMark {
   std::array<std::uint64_t, protocol::kPhases> phase_cycles;
 };
 
-/// What only the processor's side uses; here so that its owner may be any engine.
+/// What only the processor's side uses; here so that its owner may be any engine. What each HINT needs comes first.
 struct ProcessorState {
   std::uint64_t last_command;   ///< time of the last command
   std::uint64_t copy_free;      ///< clock from which the outgoing copy engine is free
   std::uint64_t packets_sent;   ///< into the torus queue
   std::uint64_t messages_sent;  ///< into the bus queue
   std::uint64_t gather_end;     ///< arrivals up to here belong to the last wake-up
-  std::uint32_t gathered;       ///< records of them so far
   std::uint64_t last_hint;      ///< clock at the end of the last HINT
   std::uint64_t phase_begin;    ///< busy cycles at the last marker
+  std::uint64_t waited;         ///< [cycles] of the clock, for all reasons together
+  std::uint64_t busy_since;     ///< clock at the end of the last wait
+  std::uint32_t gathered;       ///< records of the last wake-up so far
   std::uint32_t stage;          ///< of the last arrival taken
-  std::uint32_t phase_depth;
-  std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
-  std::uint64_t waited;                                ///< [cycles] of the clock, for all reasons together
-  std::uint64_t busy_since;                            ///< clock at the end of the last wait
-  Slices<std::uint64_t> busy;                          ///< busy cycles over time, up to that
-  std::array<ProcessorMark, kMostStages> marks;        ///< when its first arrival of each stage had been taken
   std::uint32_t slots_address, slot_bytes, own_slots, niu_slots;
   std::uint32_t slots_free;
+  std::uint32_t phase_depth;
+  std::array<std::uint8_t, protocol::kPhases> phases;  ///< open ones, innermost last
   std::uint16_t first_free;                            ///< index of a NIU slot, counted from own_slots
   std::array<std::uint16_t, kMostNiuSlots> next_free;  ///< or kSlotInUse
+  Slices<std::uint64_t> busy;                          ///< busy cycles over time, up to busy_since
+  std::array<ProcessorMark, kMostStages> marks;        ///< when its first arrival of each stage had been taken
 };
 inline constexpr std::uint16_t kSlotInUse = 0xFFFF;
 inline constexpr std::uint16_t kNoSlot = 0xFFFE;

@@ -152,7 +152,7 @@ bool HintRun::wait_for_place(const Departures& departures, std::uint64_t sent, s
   const std::uint64_t needed = sent - places + 1;
   const auto ready = [&] { return departures.count.load(std::memory_order_seq_cst) >= needed; };
   if (!sleep_until(kind, needed, ready)) return false;
-  wait_until(departures.time[(needed - 1) % kMostSendQueue].load(std::memory_order_relaxed), reason);
+  wait_until(departures.when(needed - 1), reason);
   return true;
 }
 

@@ -27,6 +27,8 @@ NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, c
       copy_bytes_(machine.ideal.niu ? 0 : machine.niu.bytes_per_cycle) {
   channel.torus_queue = machine.torus.send_queue_packets;
   channel.bus_queue = machine.bus.send_queue_messages;
+  channel.torus_departures.set_places(channel.torus_queue);
+  channel.bus_departures.set_places(channel.bus_queue);
   channel.pes = pes;
   channel.copy_bytes = copy_bytes_;
   channel.most_cycles_between_hints = machine.processor.most_cycles_between_hints;
@@ -82,7 +84,7 @@ Gathering NiuNetworkSide::next_wake() const {
   Gathering next = gathering(gathered_.front().time, channel_->gather_cycles.load(std::memory_order_relaxed));
   const std::uint32_t enough = channel_->gather_records.load(std::memory_order_relaxed);
   std::uint32_t records = 0;
-  for (const Gathered& arrival : gathered_) {
+  for (const Gathered& arrival : gathered_.inside()) {
     if (arrival.time > next.last) break;
     records += arrival.records;
     if (arrival.records == 0 || records >= enough) next = {arrival.time, 0};

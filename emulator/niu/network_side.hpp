@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include "emulator/host/host_queue.hpp"
@@ -14,6 +13,7 @@
 #include "emulator/niu/waker.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/fifo.hpp"
 #include "emulator/torus/block.hpp"
 
 namespace torolux {
@@ -136,8 +136,8 @@ class NiuNetworkSide {
   Cycles bound_ = kCommandCycles;  // as of the last refresh, like the two that follow
   std::uint64_t wait_ = 0;
   std::uint64_t taken_ = 0;
-  std::uint64_t wakes_ = 0;        // as in the channel
-  std::deque<Gathered> gathered_;  // numbers taken_ and up
+  std::uint64_t wakes_ = 0;  // as in the channel
+  Fifo<Gathered> gathered_;  // numbers taken_ and up
   std::uint32_t stage_ = 0;
   std::uint32_t sends_ = 0;
   std::uint32_t slots_ = 0, used_ = 0, high_water_ = 0;
@@ -147,8 +147,8 @@ class NiuNetworkSide {
   Cycles copy_free_ = 0, copy_in_cycles_ = 0;
   std::array<std::uint32_t, kHostQueues> asked_{};  // slots, by HostQueue
   bool bus_buffer_used_ = false;
-  std::deque<PendingCommand> commands_;
-  std::deque<Overflow> overflow_;  // delivered, but the ring was full
+  Fifo<PendingCommand> commands_;
+  Fifo<Overflow> overflow_;  // delivered, but the ring was full
 };
 
 }  // namespace torolux

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace torolux {
 
@@ -16,44 +17,61 @@ void EventQueue::push(Cycles time, std::uint32_t source, EventKind kind, std::ui
   const std::uint64_t order = (std::uint64_t{source} << 32U) | sequence_[source]++;
   const Event event{time, order, block, actor, port, kind};
   if (time - now_ >= kWindow) return push_far(event);  // earlier ones too: the difference wraps
-  const std::size_t number = time % kWindow;
-  std::vector<Event>& bucket = buckets_[number];
-  bucket.push_back(event);
+  if (open_ && time == now_) return push_open(event);
+  push_near(event);
+}
+
+/// Among the events of this cycle that have not gone yet.
+void EventQueue::push_open(const Event& event) {
+  opened_.push_back(event);
+  std::size_t at = opened_.size() - 1;
+  for (; at > popped_ && event.order < opened_[at - 1].order; --at) opened_[at] = opened_[at - 1];
+  opened_[at] = event;
+}
+
+void EventQueue::push_near(const Event& event) {
+  std::uint32_t node = free_;
+  if (node == kNobody) {
+    node = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+  } else {
+    free_ = nodes_[node].next;
+  }
+  const std::size_t number = event.time % kWindow;
+  nodes_[node] = {event, lists_[number]};
+  lists_[number] = node;
   filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
-  near_ = std::min(near_, time);
-  if (!open_ || time != now_) return;
-  std::size_t at = bucket.size() - 1;
-  for (; at > popped_ && order < bucket[at - 1].order; --at) bucket[at] = bucket[at - 1];
-  bucket[at] = event;
+  near_ = std::min(near_, event.time);
 }
 
 Event EventQueue::pop() {
   const Cycles time = next_time();
   if (time < now_) return pop_far();
-  if (!open_ || time != now_) open(time);
-  const std::size_t number = time % kWindow;
-  std::vector<Event>& bucket = buckets_[number];
-  const Event result = bucket[popped_++];
-  if (popped_ == bucket.size()) {
-    bucket.clear();
-    filled_[number / kWord] &= ~(std::uint64_t{1} << (number % kWord));
+  if (!open_) open(time);
+  const Event result = opened_[popped_++];
+  if (popped_ == opened_.size()) {
     open_ = false;
     near_ = next_near();
   }
   return result;
 }
 
-/// The bucket of this time, the earliest of all, with what the heap has of it, in order.
+/// The events of this time, the earliest of all, with what the heap has of it, in order.
 void EventQueue::open(Cycles time) {
   now_ = near_ = time;
   popped_ = 0;
   open_ = true;
+  opened_.clear();
   const std::size_t number = time % kWindow;
-  std::vector<Event>& bucket = buckets_[number];
-  while (!heap_.empty() && heap_.front().time == time) bucket.push_back(pop_far());
-  filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
-  if (bucket.size() > 1) {
-    std::ranges::sort(bucket, [](const Event& a, const Event& b) { return a.order < b.order; });
+  for (std::uint32_t node = std::exchange(lists_[number], kNobody); node != kNobody;) {
+    opened_.push_back(nodes_[node].event);
+    const std::uint32_t next = std::exchange(nodes_[node].next, free_);
+    free_ = std::exchange(node, next);
+  }
+  while (!heap_.empty() && heap_.front().time == time) opened_.push_back(pop_far());
+  filled_[number / kWord] &= ~(std::uint64_t{1} << (number % kWord));
+  if (opened_.size() > 1) {
+    std::ranges::sort(opened_, [](const Event& a, const Event& b) { return a.order < b.order; });
   }
 }
 

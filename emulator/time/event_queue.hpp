@@ -42,14 +42,15 @@ struct Event {
 };
 static_assert(sizeof(Event) == 24);
 
-/// A bucket for each of the next kWindow cycles, which is put in order when its time comes; a heap of four children per
-/// node for what is later, or earlier than what has been popped.
+/// A list for each of the next kWindow cycles, which is put in order when its time comes; a heap of four children per
+/// node for what is later, or earlier than what has been popped. The lists' nodes are used again last in, first out, so
+/// they stay in the caches.
 class EventQueue {
  public:
   static constexpr Cycles kNone = ~Cycles{0};
 
   /// sources: actors that make events, numbered from 0.
-  explicit EventQueue(std::size_t sources) : buckets_(kWindow), sequence_(sources, 0) {}
+  explicit EventQueue(std::size_t sources) : lists_(kWindow, kNobody), sequence_(sources, 0) {}
 
   bool empty() const { return near_ == kNone && heap_.empty(); }
   /// Of the event that comes next; kNone: there is none.
@@ -62,20 +63,30 @@ class EventQueue {
  private:
   static constexpr std::size_t kWindow = 1024;
   static constexpr std::size_t kWord = 64;
+  static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+  struct Node {
+    Event event;
+    std::uint32_t next;
+  };
 
   static bool before(const Event& a, const Event& b) { return a.time != b.time ? a.time < b.time : a.order < b.order; }
 
+  void push_open(const Event& event);
+  void push_near(const Event& event);
   void push_far(const Event& event);
   Event pop_far();
   void open(Cycles time);
   Cycles next_near() const;
 
-  std::vector<std::vector<Event>> buckets_;              // [time % kWindow], for times from now_ to now_ + kWindow - 1
-  std::array<std::uint64_t, kWindow / kWord> filled_{};  // a bit for each bucket that is not empty
-  Cycles now_ = 0;                                       // of the last event popped from a bucket
-  Cycles near_ = kNone;                                  // earliest time with an event in a bucket
-  std::size_t popped_ = 0;                               // events of the open bucket that have gone
-  bool open_ = false;                                    // the bucket of now_ is in order
+  std::vector<std::uint32_t> lists_;                     // [time % kWindow], for times from now_ to now_ + kWindow - 1
+  std::array<std::uint64_t, kWindow / kWord> filled_{};  // a bit for each list that is not empty
+  std::vector<Node> nodes_;                              // of lists
+  std::uint32_t free_ = kNobody;                         // nodes that are of none
+  Cycles now_ = 0;                                       // of the last event popped that was not from the heap alone
+  Cycles near_ = kNone;                                  // earliest time with an event outside the heap
+  std::vector<Event> opened_;                            // those of now_, in order, if open_
+  std::size_t popped_ = 0;                               // of them, those that have gone
+  bool open_ = false;
   std::vector<Event> heap_;
   std::vector<std::uint32_t> sequence_;  // per source
 };

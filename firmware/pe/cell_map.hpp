@@ -2,7 +2,6 @@
 // A PE's map of the cells: where a ray must stop, and who has what is there. And which cell holds a point.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -11,6 +10,15 @@
 #include "firmware/protocol/stores.hpp"
 
 namespace torolux::pe {
+
+/// Bits that are set. Written out, as the processor has no instruction for it and a call costs as much again.
+constexpr std::uint32_t count_bits(std::uint32_t x) {
+  x -= (x >> 1U) & 0x5555'5555U;
+  x = (x & 0x3333'3333U) + ((x >> 2U) & 0x3333'3333U);
+  x = (x + (x >> 4U)) & 0x0F0F'0F0FU;
+  return (x * 0x0101'0101U) >> 24U;
+}
+static_assert(count_bits(0) == 0 && count_bits(0xFFFF'FFFFU) == 32 && count_bits(0x8000'0101U) == 3);
 
 struct CellMap {
   std::span<const protocol::CellWord> words;
@@ -21,7 +29,7 @@ struct CellMap {
   protocol::CellEntry entry(std::uint32_t index) const {
     const protocol::CellWord& word = words[index >> 5U];
     const std::uint32_t below = word.stops & ((1U << (index & 31U)) - 1U);
-    return entries[word.before + static_cast<std::uint32_t>(std::popcount(below))];
+    return entries[word.before + count_bits(below)];
   }
 };
 

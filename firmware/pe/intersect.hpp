@@ -4,6 +4,7 @@
 // lost.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -94,41 +95,51 @@ inline bool cross_triangle(const Shear& ray, const protocol::Polygon& polygon, C
   return true;
 }
 
-/// The box of the part of a ray that lies in one subspace, grown by the margin, its bounds as integers. A hit that
-/// counts lies in it (to some 1e-6 of rounding; the margin is a hundred times that), so a triangle beside it is passed
-/// over at the price of a few integer comparisons.
+/// The box of the part of a ray that lies in one subspace, in parts of that. A hit that counts lies in it (to some 1e-6
+/// of rounding; the polygons' boxes are grown by a hundred times that).
 class Reach {
  public:
-  Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse)
-      : low_(origin - protocol::kSubspaceMargin),
-        high_(origin + protocol::kSubspaceMargin),
-        direction_(direction),
-        inverse_(inverse) {}
+  /// scale: Scene::box_scale.
+  Reach(const glm::vec3& origin, const glm::vec3& direction, const Inverse& inverse, const protocol::Vec3f& scale)
+      : origin_(origin * to_vector(scale)), direction_(direction * to_vector(scale)), inverse_(inverse) {}
 
-  void set_interval(float t_in, float t_out) {
-    for (int a = 0; a < 3; ++a) {
-      const bool upward = inverse_.upward[static_cast<std::size_t>(a)];
-      const std::int32_t low = bits(low_[a] + direction_[a] * (upward ? t_in : t_out));
-      lowest_[a] = low > 0 ? low : INT32_MIN;  // object space begins at 0: all corners are above
-      highest_[a] = bits(high_[a] + direction_[a] * (upward ? t_out : t_in));
-    }
-  }
-  bool misses(const protocol::Polygon& polygon) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t p = bits(polygon.corner[0][i]);
-      const std::int32_t q = bits(polygon.corner[1][i]);
-      const std::int32_t r = bits(polygon.corner[2][i]);
-      if (p < lowest_[i] && q < lowest_[i] && r < lowest_[i]) return true;
-      if (p > highest_[i] && q > highest_[i] && r > highest_[i]) return true;
-    }
-    return false;
+  /// Between these distances, in the cell where the walk is: what protocol::boxes_apart compares with.
+  std::uint32_t box(const Walk& walk, float t_in, float t_out) {
+    const Parts begin = bits(t_in) == bits(last_t_) ? last_ : at(t_in);
+    last_ = at(t_out);
+    last_t_ = t_out;
+    std::uint32_t packed = protocol::kBoxRayFlips;
+    packed ^= of_axis<0>(begin.x, last_.x, walk.cell_along(0));
+    packed ^= of_axis<1>(begin.y, last_.y, walk.cell_along(1));
+    packed ^= of_axis<2>(begin.z, last_.z, walk.cell_along(2));
+    return packed;
   }
 
  private:
-  glm::vec3 low_, high_, direction_;
+  /// Counted from the lowest corner of the object space; modulo 2^32 where a ray begins far outside.
+  struct Parts {
+    std::uint32_t x, y, z;
+  };
+  Parts at(float t) const {
+    const auto part = [](float x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x)); };
+    return {part(origin_.x + direction_.x * t), part(origin_.y + direction_.y * t), part(origin_.z + direction_.z * t)};
+  }
+  template <std::uint32_t kAxis>
+  std::uint32_t of_axis(std::uint32_t begin, std::uint32_t end, std::uint32_t cell) const {
+    const auto in_cell = [first = cell * protocol::kBoxParts](std::uint32_t part) {
+      const std::uint32_t local = part - first;
+      if (local < protocol::kBoxParts) return local;
+      return static_cast<std::int32_t>(local) < 0 ? 0 : protocol::kBoxParts - 1U;
+    };
+    const std::uint32_t low = in_cell(inverse_.upward[kAxis] ? begin : end);
+    const std::uint32_t high = in_cell(inverse_.upward[kAxis] ? end : begin);
+    return (high | low << protocol::kBoxUpperShift) << (kAxis * protocol::kBoxAxisShift);
+  }
+
+  glm::vec3 origin_, direction_;
   const Inverse& inverse_;
-  std::int32_t lowest_[3];
-  std::int32_t highest_[3];
+  Parts last_{};
+  float last_t_ = -1.0F;  ///< where last_ is
 };
 
 }  // namespace torolux::pe

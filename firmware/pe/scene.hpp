@@ -16,7 +16,8 @@ struct Scene {
   protocol::StageLayout layout{};
   CellMap map;
   std::span<const protocol::Subspace> subspaces;
-  std::span<const std::uint32_t> polygon_list;
+  std::span<const protocol::ListedPolygon> polygon_list;
+  protocol::Vec3f box_scale{};  ///< parts of a subspace's edge (protocol/polygon_boxes.hpp) per unit of length
   std::span<const protocol::Polygon> polygons;
   std::span<const protocol::Material> materials;
   std::span<const protocol::Vec3f> normals;
@@ -43,7 +44,7 @@ struct Scene {
     map = {memory.store<const protocol::CellWord>(layout.cell_words),
            memory.store<const protocol::CellEntry>(layout.cell_entries)};
     subspaces = memory.store<const protocol::Subspace>(layout.subspaces);
-    polygon_list = memory.store<const std::uint32_t>(layout.polygon_list);
+    polygon_list = memory.store<const protocol::ListedPolygon>(layout.polygon_list);
     polygons = memory.store<const protocol::Polygon>(layout.polygons);
     materials = memory.store<const protocol::Material>(layout.materials);
     normals = memory.store<const protocol::Vec3f>(layout.normals);
@@ -54,7 +55,6 @@ struct Scene {
     elements = memory.store<protocol::Element>(layout.elements);
     facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
-    if (layout.hemicube_size > 0) hemicube_grid = HemicubeGrid(layout.hemicube_size);
     lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);
@@ -62,6 +62,12 @@ struct Scene {
     sample_places = memory.store<const protocol::SamplePlace>(layout.sample_places);
     filter = memory.store<const float>(layout.filter);
     emitters = memory.store<const protocol::Emitter>(layout.emitters);
+    prepare();
+  }
+  /// What follows from the layout.
+  void prepare() {
+    for (std::size_t a = 0; a < 3; ++a) box_scale[a] = float{protocol::kBoxParts} / layout.cell_size[a];
+    if (layout.hemicube_size > 0) hemicube_grid = HemicubeGrid(layout.hemicube_size);
   }
 };
 

@@ -14,11 +14,12 @@ namespace {
 using protocol::Polygon;
 using protocol::Subspace;
 
-/// The nearest crossing so far. Lists ascend by global polygon number, so of equal distances the first one stays.
+/// The nearest crossing so far; of equal distances the polygon with the lowest global number.
 struct Nearest {
   Crossing crossing;
   float t = std::numeric_limits<float>::infinity();
   std::uint32_t polygon = protocol::kNoPolygon;  ///< index
+  std::uint32_t number = protocol::kNoPolygon;   ///< global
 };
 
 /// A segment's origin is rounded, so it may lie a little behind a wall that it is to meet. Such a hit counts where the
@@ -34,24 +35,36 @@ bool counts_behind_origin(const Segment& segment, const Polygon& polygon, const 
 void find_nearest(const Scene& scene, const Subspace& here, const Segment& segment, const Walk& walk,
                   const Shear& shear, Reach& reach, Nearest& nearest) {
   const float t_in = walk.first() || bits(walk.t_in()) < 0 ? 0.0F : walk.t_in();
-  reach.set_interval(t_in, walk.t_out());
   // The outer faces of the object space end no interval: walls often lie in them, and rounding puts their hits on
   // either side.
   const bool open_begin = walk.first() || walk.came_from_outside();
   const float t_out = walk.goes_outside() ? std::numeric_limits<float>::infinity() : walk.t_out();
-  const std::uint32_t* index = scene.polygon_list.data() + here.first_polygon;
-  const std::uint32_t* const end = index + here.polygon_count;
-  for (; index != end; ++index) {
-    const Polygon& polygon = scene.polygons[*index];
-    if (reach.misses(polygon) || polygon.number == segment.polygon) continue;
+  const std::uint32_t box = reach.box(walk, t_in, walk.t_out());
+  const auto test = [&](const protocol::ListedPolygon& listed) {
+    const Polygon& polygon = scene.polygons[listed.polygon];
+    if (polygon.number == segment.polygon) return;
     Crossing crossing;
-    if (!cross_triangle(shear, polygon, crossing)) continue;
+    if (!cross_triangle(shear, polygon, crossing)) return;
     const bool counts = crossing.t > 0.0F ? crossing.t <= t_out && (open_begin || crossing.t > t_in)
                                           : walk.first() && counts_behind_origin(segment, polygon, crossing);
-    if (counts && crossing.t < nearest.t) {
+    if (counts && (crossing.t < nearest.t || (crossing.t == nearest.t && polygon.number < nearest.number))) {
       nearest.crossing = crossing;
       nearest.t = crossing.t;
-      nearest.polygon = *index;
+      nearest.polygon = listed.polygon;
+      nearest.number = polygon.number;
+    }
+  };
+  const protocol::ListedPolygon* entry = scene.polygon_list.data() + here.first_polygon;
+  const protocol::ListedPolygon* const end = entry + here.polygon_count;
+  while (entry != end) {
+    const protocol::ListedPolygon* group_end = end;
+    if ((entry->polygon & protocol::kGroup) != 0) {
+      const bool apart = protocol::boxes_apart(box, entry->box);
+      group_end = entry + 1 + (entry->polygon & ~protocol::kGroup);
+      entry = apart ? group_end : entry + 1;
+    }
+    for (; entry != group_end; ++entry) {
+      if (!protocol::boxes_apart(box, entry->box)) test(*entry);
     }
   }
 }
@@ -89,7 +102,7 @@ Way look_along(const Scene& scene, const Segment& segment, Walk& walk) {
   if (here == nullptr) return way;
   // Only who looks into a subspace needs this of the ray.
   const Shear shear(segment.origin, segment.direction, walk.inverse());
-  Reach reach(segment.origin, segment.direction, walk.inverse());
+  Reach reach(segment.origin, segment.direction, walk.inverse(), scene.box_scale);
   do {
     Nearest nearest;
     find_nearest(scene, *here, segment, walk, shear, reach, nearest);

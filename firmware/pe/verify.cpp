@@ -22,7 +22,7 @@ enum class Index : std::uint32_t {
   cell_holder,
   polygon_list,
   polygon,
-  list_order,
+  group,
   corner,
   material,
   material_kind,
@@ -83,11 +83,18 @@ class Verifier {
 
   void check(const Subspace& s) {
     range(Index::polygon_list, s.first_polygon, s.polygon_count, scene_.polygon_list.size());
-    for (std::uint32_t i = 0; i < s.polygon_count; ++i) {
-      const std::uint32_t* entry = &scene_.polygon_list[s.first_polygon + i];
-      below(Index::polygon, entry[0], scene_.polygons.size());
-      const bool rises = i == 0 || scene_.polygons[entry[-1]].number < scene_.polygons[entry[0]].number;
-      require(rises, Index::list_order, entry[0], 0);
+    const auto list = scene_.polygon_list.subspan(s.first_polygon, s.polygon_count);
+    // All of them in groups, or none.
+    const bool grouped = !list.empty() && (list[0].polygon & protocol::kGroup) != 0;
+    for (std::size_t i = 0, group = 0; i < list.size(); ++i) {
+      if (grouped && group == 0) {
+        require((list[i].polygon & protocol::kGroup) != 0, Index::group, list[i].polygon, 0);
+        group = list[i].polygon & ~protocol::kGroup;
+        require(group >= 1 && group < list.size() - i, Index::group, list[i].polygon, list.size());
+        continue;
+      }
+      below(Index::polygon, list[i].polygon, scene_.polygons.size());
+      if (group > 0) --group;
     }
   }
   /// Every bit has an entry, and every entry a subspace here or another PE: so a walk always ends.
@@ -229,7 +236,8 @@ class Verifier {
     const std::uint32_t n = scene_.layout.hemicube_size;
     const std::uint32_t top = n / 2U * (n / 2U);
     std::uint64_t sum = 0;
-    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i) sum += scene_.hemicube[i].weight * (i < top ? 4ULL : 8ULL);
+    for (std::uint32_t i = 0; i < scene_.hemicube.size(); ++i)
+      sum += scene_.hemicube[i].weight * (i < top ? 4ULL : 8ULL);
     require(sum == protocol::kOne, Index::hemicube_sum, static_cast<std::uint32_t>(sum),
             static_cast<std::uint32_t>(sum >> 32U));
   }

@@ -46,6 +46,8 @@ class Walk {
       axis.origin = segment.origin[static_cast<int>(a)];
       axis.inverse = inverse_.axis[a];
       axis.size = layout.cell_size[a];
+      axis.flip = upward ? ~0U : 0U;
+      axis.mirror = upward ? layout.cells[a] : 0U;
       axis.left = upward ? layout.cells[a] - 1U - cell : cell;
       axis.stride = upward ? stride : 0U - stride;
       axis.step = upward ? 1.0F : -1.0F;
@@ -59,11 +61,11 @@ class Walk {
   /// Of the cell, in the map.
   std::uint32_t index() const { return index_; }
   protocol::CellCode place() const {
-    std::array<std::uint32_t, 3> cell{};
-    for (std::uint32_t a = 0; a < 3; ++a) {
-      cell[a] = inverse_.upward[a] ? layout_.cells[a] - 1U - axis_[a].left : axis_[a].left;
-    }
-    return protocol::cell_code(cell[0], cell[1], cell[2]);
+    return protocol::cell_code(cell_along(0), cell_along(1), cell_along(2));
+  }
+  std::uint32_t cell_along(std::uint32_t axis) const {
+    const Axis& a = axis_[axis];
+    return (a.left ^ a.flip) + a.mirror;
   }
   /// Still in the cell where the segment began: then no face was entered.
   bool first() const { return first_; }
@@ -124,6 +126,7 @@ class Walk {
     float exit;            ///< distance to it
     std::uint32_t left;    ///< cells that lie behind it
     std::uint32_t stride;  ///< to the next cell's index
+    std::uint32_t flip, mirror;  ///< (left ^ flip) + mirror is the cell: upward that is cells - 1 - left
   };
 
   /// As GridShape::plane: a product of two floats.

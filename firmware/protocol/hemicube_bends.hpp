@@ -10,7 +10,8 @@
 namespace torolux::protocol {
 
 /// A place in one direction of a pixel: size * (u + u (1 - u) (p + q u)), u even in [0, 1). With it the parts of the
-/// pixel's light below the places at u = 1/4 and 3/4 are exactly these.
+/// pixel's light below the places at u = 1/4 and 3/4 are exactly these. At 8 pixels across, the density so made is off
+/// by at most 0.8 % anywhere in a pixel of the top, at 4 by 6 %; over each pixel by nothing.
 struct Bend {
   float p, q;
 };

@@ -51,7 +51,7 @@ constexpr std::array<StoreExtent, kStores> store_extents(const StageLayout& l) {
       {l.cell_words, sizeof(CellWord)},
       {l.cell_entries, sizeof(CellEntry)},
       {l.subspaces, sizeof(Subspace)},
-      {l.polygon_list, sizeof(std::uint32_t)},
+      {l.polygon_list, sizeof(ListedPolygon)},
       {l.polygons, sizeof(Polygon)},
       {l.materials, sizeof(Material)},
       {l.normals, sizeof(Vec3f)},

@@ -11,18 +11,16 @@
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/hemicube_bends.hpp"
 #include "firmware/protocol/machine.hpp"
+#include "firmware/protocol/polygon_boxes.hpp"
 #include "firmware/protocol/records.hpp"
 #include "firmware/protocol/texture.hpp"
 
 namespace torolux::protocol {
 
-/// How far beyond a subspace's box a polygon still stands in it, so that rounding never hides a hit.
-inline constexpr float kSubspaceMargin = 0x1p-13F;
-
 /// A subspace that a PE holds, its own or a copy.
 struct Subspace {
   std::uint32_t first_polygon;  ///< index into the polygon list
-  std::uint32_t polygon_count;
+  std::uint32_t polygon_count;  ///< entries there, groups' own included
 };
 static_assert(sizeof(Subspace) == 8);
 
@@ -222,7 +220,7 @@ struct StageLayout {
   Store cell_words;                    ///< CellWord[cell_words(Gx * Gy * Gz)]
   Store cell_entries;                  ///< CellEntry[]: of the cells with a bit in the words, by index
   Store subspaces;                     ///< Subspace[]
-  Store polygon_list;                  ///< uint32_t[]: indices into polygons, ascending global number per subspace
+  Store polygon_list;                  ///< ListedPolygon[]
   Store polygons;                      ///< Polygon[]
   Store materials;                     ///< Material[]
   Store normals;                       ///< Vec3f[]

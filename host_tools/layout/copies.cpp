@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
 namespace {
@@ -94,7 +95,7 @@ std::uint64_t polygon_bytes(const MeshTriangle& triangle, Stage stage) {
 }
 
 std::uint64_t cell_bytes(std::size_t polygons) {
-  return sizeof(protocol::Subspace) + polygons * sizeof(std::uint32_t);
+  return sizeof(protocol::Subspace) + listed_entries(polygons) * sizeof(protocol::ListedPolygon);
 }
 
 std::vector<bool> CopyOrder::first(std::size_t count, std::size_t of_cells) const {

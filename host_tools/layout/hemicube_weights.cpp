@@ -58,4 +58,13 @@ std::vector<std::uint32_t> make_hemicube_weights(std::uint32_t n) {
   return weights;
 }
 
+std::vector<protocol::HemicubeEntry> make_hemicube_table(std::uint32_t n) {
+  std::vector<protocol::HemicubeEntry> table;
+  for (const std::uint32_t weight : make_hemicube_weights(n)) {
+    table.push_back(protocol::hemicube_entry(n, static_cast<std::uint32_t>(table.size())));
+    table.back().weight = weight;
+  }
+  return table;
+}
+
 }  // namespace torolux

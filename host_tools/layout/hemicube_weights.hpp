@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The table of hemi-cube weights: exact delta form factors, rounded so that they add up to one exactly.
+// The table of the hemi-cube: exact delta form factors, rounded so that they add up to one exactly.
 #pragma once
 
 #include <cstdint>
 #include <vector>
+
+#include "firmware/protocol/hemicube_bends.hpp"
 
 namespace torolux {
 
@@ -15,5 +17,7 @@ double side_form_factor(double x, double z);
 /// hemicube_weights(n) fractions of 2^32, in the order that protocol/stores.hpp gives; n even, 2..kMostHemicubeSize.
 /// 4 * sum(top) + 8 * sum(side) == 2^32.
 std::vector<std::uint32_t> make_hemicube_weights(std::uint32_t n);
+/// These with the bends of their pixels: the table as the PEs have it.
+std::vector<protocol::HemicubeEntry> make_hemicube_table(std::uint32_t n);
 
 }  // namespace torolux

@@ -115,6 +115,9 @@ Placement make_placement(const Mesh& mesh, const Grid& grid, std::vector<std::ve
   placement.grid = grid;
   placement.scheme = choice.scheme;
   placement.polygons_of_cell = std::move(polygons_of_cell);
+  for (CellIndex cell = 0; cell < grid.count(); ++cell) {
+    placement.entries_of_cell.push_back(list_polygons(mesh.triangles, placement.polygons_of_cell[cell], grid, cell));
+  }
   placement.common_cell = load.common_cell;
   placement.common_cell.resize(grid.count());
   const std::vector<CellIndex> patch_cell = cells_of_patches(mesh, grid);

@@ -9,6 +9,7 @@
 
 #include "firmware/protocol/machine.hpp"
 #include "host_tools/layout/heat.hpp"
+#include "host_tools/layout/polygon_groups.hpp"
 #include "host_tools/layout/scheme.hpp"
 #include "host_tools/mesh/mesh.hpp"
 #include "host_tools/subspace/allocation.hpp"
@@ -28,6 +29,8 @@ struct Placement {
   Grid grid;
   Scheme scheme = Scheme::paper;
   std::vector<std::vector<std::uint32_t>> polygons_of_cell;  ///< ascending
+  /// As PEs list them; ListedPolygon::polygon is a triangle of the mesh.
+  std::vector<std::vector<protocol::ListedPolygon>> entries_of_cell;
   /// Of a common cell, and of one that nobody holds: any PE.
   std::vector<protocol::PeNumber> pe_of_cell;
   std::vector<bool> stop_cell;               ///< by cell: a ray must stop there. Scheme `paper`: everywhere

@@ -33,7 +33,7 @@ class ImageWriter {
     write_polygons(nullptr);
     write_patch_references();
     write_patches();
-    write_hemicube();
+    put_all(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
     return std::move(bytes_);
   }
 
@@ -71,9 +71,12 @@ class ImageWriter {
   void write_subspaces() {
     std::uint32_t first = 0;
     for (std::size_t local = 0; local < placement_.cells_of_pe[pe_].size(); ++local) {
-      const auto& polygons = placement_.polygons_of_cell[placement_.cells_of_pe[pe_][local]];
-      put(layout_.subspaces, local, protocol::Subspace{first, static_cast<std::uint32_t>(polygons.size())});
-      for (const std::uint32_t t : polygons) put(layout_.polygon_list, first++, local_polygon(t));
+      const auto& entries = placement_.entries_of_cell[placement_.cells_of_pe[pe_][local]];
+      put(layout_.subspaces, local, protocol::Subspace{first, static_cast<std::uint32_t>(entries.size())});
+      for (protocol::ListedPolygon entry : entries) {
+        if ((entry.polygon & protocol::kGroup) == 0) entry.polygon = local_polygon(entry.polygon);
+        put(layout_.polygon_list, first++, entry);
+      }
     }
     write_cell_map();
   }
@@ -183,15 +186,6 @@ class ImageWriter {
       put(layout_.nodes, first + child, write_tree(mesh_.nodes[node + child], number));
     }
     return first;
-  }
-
-  void write_hemicube() {
-    const std::vector<std::uint32_t> weights = make_hemicube_weights(layout_.hemicube_size);
-    for (std::uint32_t i = 0; i < weights.size(); ++i) {
-      protocol::HemicubeEntry entry = protocol::hemicube_entry(layout_.hemicube_size, i);
-      entry.weight = weights[i];
-      put(layout_.hemicube, i, entry);
-    }
   }
 
   void write_patch_references() {

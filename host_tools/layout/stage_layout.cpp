@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
 namespace {
@@ -29,7 +30,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
   counts.cell_entries = placement.stops;
   counts.subspaces = placement.cells_of_pe[pe].size();
   for (const CellIndex cell : placement.cells_of_pe[pe]) {
-    counts.polygon_list += placement.polygons_of_cell[cell].size();
+    counts.polygon_list += listed_entries(placement.polygons_of_cell[cell].size());
   }
   counts.polygons = placement.polygons_of_pe[pe].size();
   for (const std::uint32_t t : placement.polygons_of_pe[pe]) {
@@ -124,7 +125,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.cell_words = allocator.place("cell map", counts.cell_words, sizeof(protocol::CellWord));
   layout.cell_entries = allocator.place("cell entries", counts.cell_entries, sizeof(protocol::CellEntry));
   layout.subspaces = allocator.place("subspaces", counts.subspaces, sizeof(protocol::Subspace));
-  layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(std::uint32_t));
+  layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(protocol::ListedPolygon));
   layout.polygons = allocator.place("polygons", counts.polygons, sizeof(protocol::Polygon));
   layout.materials = allocator.place("materials", counts.materials, sizeof(protocol::Material));
   layout.normals = allocator.place("normals", counts.normals, sizeof(protocol::Vec3f));

@@ -198,7 +198,7 @@ BENCHMARK(copy);
 
 void hemicube_table(benchmark::State& state) {
   std::size_t entries = 0;
-  for (auto _ : state) entries = make_hemicube_weights(64).size();
+  for (auto _ : state) entries = make_hemicube_table(64).size();
   per_item(state, static_cast<double>(entries));
 }
 BENCHMARK(hemicube_table);

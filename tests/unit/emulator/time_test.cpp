@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Event queue, bound tree and byte ring against plain models.
+// Event queue, bound tree, queues and byte ring against plain models.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <random>
 #include <set>
@@ -12,6 +13,7 @@
 #include "emulator/niu/channel.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
+#include "emulator/time/fifo.hpp"
 #include "emulator/time/ready_set.hpp"
 #include "emulator/time/slices.hpp"
 
@@ -157,6 +159,60 @@ TEST(ByteRing, KeepsEntriesWholeAcrossItsEnd) {
     }
   }
   EXPECT_GT(popped, 5000U);
+}
+
+TEST(ByteRing, BeginsAtItsStartWheneverItIsEmpty) {
+  const auto ring = std::make_unique<ByteRing<Arrival, 4096>>();
+  const std::vector<std::byte> payload(100);
+  ring->push({0, 1, 2, 3, 4, 0, 0}, payload);
+  const Arrival* first = ring->front();
+  ring->push({1, 1, 2, 3, 4, 0, 0}, payload);
+  ring->pop(*first);
+  EXPECT_NE(ring->front(), first) << "it is not empty";
+  ring->pop(*ring->front());
+  for (std::uint64_t i = 2; i < 100; ++i) {
+    ring->push({i, 1, 2, 3, 4, 0, 0}, payload);
+    ASSERT_EQ(ring->front(), first);
+    ASSERT_EQ(first->time, i);
+    ring->pop(*first);
+  }
+}
+
+TEST(Fifo, KeepsTheOrderWhileGrowingAndShrinking) {
+  Fifo<std::uint32_t> fifo;
+  std::deque<std::uint32_t> model;
+  std::minstd_rand random(4);
+  for (std::uint32_t i = 0; i < 50'000; ++i) {
+    const bool grows = i / 1000 % 2 == 0;
+    if (random() % (grows ? 2 : 4) == 0) {
+      fifo.push_back(i);
+      model.push_back(i);
+    } else if (random() % (grows ? 4 : 2) == 0 && !model.empty()) {
+      ASSERT_EQ(fifo.front(), model.front());
+      fifo.pop_front();
+      model.pop_front();
+    }
+    ASSERT_EQ(fifo.empty(), model.empty());
+    if (i % 100 != 0) continue;
+    ASSERT_TRUE(std::ranges::equal(fifo.inside(), model));
+  }
+}
+
+TEST(Fifo, TakesNoMoreThanTwiceWhatIsInside) {
+  Fifo<std::uint32_t> fifo;
+  fifo.push_back(0);
+  const std::uint32_t* first = fifo.inside().data();
+  for (std::uint32_t i = 1; i < 1000; ++i) {
+    fifo.pop_front();
+    fifo.push_back(i);
+    ASSERT_EQ(fifo.inside().data(), first) << "empty each time";
+  }
+  for (std::uint32_t i = 0; i < 100; ++i) fifo.push_back(i);
+  for (std::uint32_t i = 0; i < 100'000; ++i) {
+    fifo.push_back(i);
+    fifo.pop_front();
+  }
+  EXPECT_LE(fifo.capacity(), 512U) << "101 and as many gone, doubled as vectors grow";
 }
 
 }  // namespace

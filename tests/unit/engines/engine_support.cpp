@@ -24,7 +24,9 @@ PeMemory make_pe(const Image& image, std::size_t number, std::size_t count) {
   window.local_memory_bytes = kBytes;
   NiuChannel& channel = *niu_channel_at(pe.channel.bytes().data());
   channel.torus_queue = 4;
+  channel.torus_departures.set_places(channel.torus_queue);
   channel.bus_queue = 4;
+  channel.bus_departures.set_places(channel.bus_queue);
   channel.pes = static_cast<std::uint32_t>(count);
   channel.most_cycles_between_hints = 1'000'000'000;
   channel.wanted = kNever;

@@ -113,8 +113,11 @@ TEST(Malformed, LayersThatThereAreNotAreRefused) {
 TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
   const std::vector<std::function<void(PeStores&)>> changes = {
       [](PeStores& s) { s.subspaces[3].polygon_count = 0xFFFF'FFFF; },
-      [](PeStores& s) { s.polygon_list[0] = 0xFFFF; },
-      [](PeStores& s) { std::swap(s.polygon_list[0], s.polygon_list[1]); },
+      [](PeStores& s) { s.polygon_list[0].polygon = 0xFFFF; },
+      [](PeStores& s) { s.polygon_list[0].polygon = protocol::kGroup; },
+      [](PeStores& s) { s.polygon_list[0].polygon = protocol::kGroup | s.subspaces[0].polygon_count; },
+      [](PeStores& s) { s.polygon_list[0].polygon = protocol::kGroup | 1U; },
+      [](PeStores& s) { s.polygon_list[1].polygon = protocol::kGroup | 1U; },
       [](PeStores& s) { s.polygons[0].corner[1][1] = std::numeric_limits<float>::quiet_NaN(); },
       [](PeStores& s) { s.polygons[0].corner[1][1] = 1.5F; },
       [](PeStores& s) { s.polygons[2].material = 3; },

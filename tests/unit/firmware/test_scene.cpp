@@ -175,10 +175,11 @@ class Builder {
       for (std::uint32_t y = 0; y < scene_.cells[1]; ++y)
         for (std::uint32_t x = 0; x < scene_.cells[0]; ++x, ++index) {
           if (index % 32 == 0) out.cell_words.push_back({0, static_cast<std::uint32_t>(out.cell_entries.size())});
-          const auto first = static_cast<std::uint32_t>(out.polygon_list.size());
-          std::vector<std::uint32_t> list;
+          std::vector<protocol::ListedPolygon> list;
           for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
-            if (stands_in(scene_.polygons[p], out.layout.cell_size, {x, y, z})) list.push_back(p);
+            const auto& corner = scene_.polygons[p].corner;
+            if (!stands_in(scene_.polygons[p], out.layout.cell_size, {x, y, z})) continue;
+            list.push_back({protocol::box_in_cell(corner, out.layout.cell_size, {x, y, z}), p});
           }
           if (list.empty() && !scene_.stop_everywhere) continue;
           out.cell_words.back().stops |= 1U << (index % 32);
@@ -187,10 +188,25 @@ class Builder {
             out.cell_entries.push_back(owner);
             continue;
           }
+          if (scene_.groups) group_list(list, 0);
           out.cell_entries.push_back(protocol::held_as(static_cast<std::uint32_t>(out.subspaces.size())));
-          out.subspaces.push_back({first, static_cast<std::uint32_t>(list.size())});
+          out.subspaces.push_back(
+              {static_cast<std::uint32_t>(out.polygon_list.size()), static_cast<std::uint32_t>(list.size())});
           out.polygon_list.insert(out.polygon_list.end(), list.begin(), list.end());
         }
+  }
+
+  /// Behind `first`, in the opposite order: groups of three and what is left over.
+  static void group_list(std::vector<protocol::ListedPolygon>& list, std::size_t first) {
+    const std::vector<protocol::ListedPolygon> entries(list.rbegin(), list.rend() - static_cast<std::ptrdiff_t>(first));
+    list.resize(first);
+    for (std::size_t i = 0; i < entries.size(); i += 3) {
+      const std::size_t end = std::min(entries.size(), i + 3);
+      protocol::PackedBox box = entries[i].box;
+      for (std::size_t k = i; k < end; ++k) box = protocol::box_around(box, entries[k].box);
+      list.push_back({box, protocol::kGroup | static_cast<std::uint32_t>(end - i)});
+      for (std::size_t k = i; k < end; ++k) list.push_back(entries[k]);
+    }
   }
 
   const TestScene& scene_;
@@ -285,6 +301,7 @@ pe::Scene PeStores::scene() {
   s.sample_places = sample_places;
   s.filter = filter;
   s.emitters = emitters;
+  s.prepare();
   return s;
 }
 

@@ -31,6 +31,7 @@ struct TestScene {
   std::uint32_t seed = 1;
   std::uint32_t bounces = 32;
   std::uint32_t hemicube_size = 4;
+  bool groups = false;  ///< subspaces' lists in groups, and not in the order of numbers
   std::uint32_t points = 1;
   float points_per_quantum = 1;
   float pixel_scale = 0x1p20F;
@@ -66,7 +67,7 @@ struct PeStores {
   std::vector<protocol::CellWord> cell_words;
   std::vector<protocol::CellEntry> cell_entries;
   std::vector<protocol::Subspace> subspaces;
-  std::vector<std::uint32_t> polygon_list;
+  std::vector<protocol::ListedPolygon> polygon_list;
   std::vector<protocol::Polygon> polygons;
   std::vector<protocol::Material> materials;
   std::vector<protocol::Vec3f> normals;

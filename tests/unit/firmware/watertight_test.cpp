@@ -29,6 +29,7 @@ TEST(Watertight, NoRayEscapesFromARoomWhateverTheGrid) {
     Case even = room(4, grid, {1, 1, 1});
     no_ray_escapes(even, seed++);
     Case odd = room(3, grid, {1.0F, 0.71F, 0.37F});
+    odd.scene.groups = true;  // of equally near polygons the one with the lowest number all the same
     no_ray_escapes(odd, seed++);
     if (HasFatalFailure()) FAIL() << "grid " << grid[0] << " " << grid[1] << " " << grid[2];
   }
@@ -48,6 +49,7 @@ TEST(Watertight, NoRayEscapesFromABall) {
     Case c{{}, {0.3F, 0.3F, 0.3F}, {0.7F, 0.7F, 0.7F}, 40'000};
     c.scene.materials = {diffuse_material(0.5F)};
     c.scene.cells = {g, g, g};
+    c.scene.groups = g != 4;
     add_ball(c.scene, {0.5F, 0.5F, 0.5F}, 0.5F, 12, 0, false);
     no_ray_escapes(c, g);
   }

@@ -61,7 +61,7 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
     add(l.cell_words, sizeof(protocol::CellWord));
     add(l.cell_entries, sizeof(protocol::CellEntry));
     add(l.subspaces, sizeof(protocol::Subspace));
-    add(l.polygon_list, 4);
+    add(l.polygon_list, sizeof(protocol::ListedPolygon));
     add(l.polygons, sizeof(protocol::Polygon));
     add(l.materials, sizeof(protocol::Material));
     add(l.patch_references, sizeof(protocol::PatchReference));
@@ -105,10 +105,12 @@ TEST_F(LayoutTest, MapsNameWhoHoldsWhatStandsInEachCell) {
   std::vector<bool> common(grid.count());
   for (CellIndex cell = 0; cell < grid.count(); cell += 3) common[cell] = !placement_.polygons_of_cell[cell].empty();
   for (const Scheme scheme : {Scheme::paper, Scheme::spread}) {
-    const Placement placement = make_placement(
-        mesh_, grid, placement_.polygons_of_cell,
-        {.torus = {3, 2}, .allocation = scheme == Scheme::paper ? "skewed" : "balanced", .scheme = scheme},
-        {.common_cell = scheme == Scheme::paper ? std::vector<bool>() : common});
+    const Placement placement = make_placement(mesh_, grid, placement_.polygons_of_cell,
+                                               {.torus = {3, 2},
+                                                .subspaces = {},
+                                                .allocation = scheme == Scheme::paper ? "skewed" : "balanced",
+                                                .scheme = scheme},
+                                               {.common_cell = scheme == Scheme::paper ? std::vector<bool>() : common});
     EXPECT_LT(placement.filled_cells, grid.count());
     EXPECT_EQ(placement.stops, scheme == Scheme::paper ? grid.count() : placement.filled_cells);
     std::map<CellIndex, std::set<protocol::CellEntry>> numbers;  ///< of common cells

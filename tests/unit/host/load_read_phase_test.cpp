@@ -191,9 +191,10 @@ TEST_F(LoadReadTest, ImagesReachTheirPesWhole) {
 TEST_F(LoadReadTest, WhatAllHaveIsSentOnce) {
   const Grid grid = make_grid(mesh_.space, std::array<std::uint32_t, 3>{4, 4, 4}, mesh_.triangles.size(), 6);
   for (const bool copies : {false, true}) {
-    const Placement placement = make_placement(mesh_, grid, polygons_by_cell(grid, mesh_.triangles),
-                                               {.torus = {3, 2}, .allocation = "balanced", .scheme = Scheme::spread},
-                                               {.common_cell = std::vector<bool>(grid.count(), copies)});
+    const Placement placement =
+        make_placement(mesh_, grid, polygons_by_cell(grid, mesh_.triangles),
+                       {.torus = {3, 2}, .subspaces = {}, .allocation = "balanced", .scheme = Scheme::spread},
+                       {.common_cell = std::vector<bool>(grid.count(), copies)});
     const auto load = [&](const Placement& of, PeNumber pe) {
       const PeLayout layout = lay_out(mesh_, of, pe, Stage::radiosity, {}, kMap);
       return PeLoad{layout.layout, radiosity_image(scene_, mesh_, of, pe, units_, layout)};
