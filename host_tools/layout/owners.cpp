@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host_tools/layout/copies.hpp"
+#include "host_tools/layout/golden_step.hpp"
 
 namespace torolux {
 namespace {
@@ -131,7 +132,10 @@ class Balanced {
     std::size_t at = 0;
     double until = std::max(0.0, level - loads[order[0]]);
     double given = 0;
-    for (std::size_t p = 0; p < stays_.size(); ++p) {
+    // Neighbours shoot in the same rounds, so that their owners, who make their points, should be many.
+    const std::uint64_t step = golden_step(stays_.size());
+    for (std::size_t i = 0; i < stays_.size(); ++i) {
+      const std::size_t p = i * step % stays_.size();
       if (stays_[p]) {
         homes[p] = pe_of_cell[patch_cell_[p]];
         continue;

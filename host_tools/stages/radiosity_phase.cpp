@@ -18,9 +18,11 @@ using protocol::Flux;
 using protocol::MessageKind;
 using protocol::ShotKind;
 
-/// Points that a PE has at a time: while the next one is on its way, it works on the other. When no more are left than
-/// there are PEs, each has one: at the end nobody waits for what another has in store.
+/// Points, or parts of points, that a PE has at a time: while the next one is on its way, it works on the other. When no
+/// more are left than there are PEs, each has one: at the end nobody waits for what another has in store.
 constexpr std::uint32_t kSupply = 2;
+/// Points are dealt in parts when fewer are left for each PE.
+constexpr std::uint64_t kPointsUndivided = 2;
 static_assert(kSupply <= protocol::kPointPlaces);
 
 /// Compares of a sort [n log2 n, rounded up].
@@ -186,7 +188,8 @@ void RadiosityPhase::deal(HostPort& port) {
   while (!wanting_.empty() && !owners_.empty()) {
     port.work(HostWork::entry, 1);
     const PeNumber to = wanting_.front();
-    if (points_left_ <= settings_.pes && supplied_[to] > 0 && settings_.points_travel) break;
+    const bool ends = points_left_ * protocol::kPointParts <= settings_.pes;
+    if (ends && supplied_[to] > 0 && settings_.points_travel) break;
     wanting_.pop_front();
     turn_ = turn_ < owners_.size() ? turn_ : 0;
     const PeNumber owner = settings_.points_travel ? owners_[turn_++] : to;
@@ -198,13 +201,22 @@ void RadiosityPhase::deal(HostPort& port) {
 void RadiosityPhase::deal_point(HostPort& port, PeNumber owner, PeNumber to) {
   RoundShot& shot = shots_of_[owner].front();
   if (!shot.begun) begin_shot(port, owner, shot);
+  const bool divide =
+      shot.part > 0 || (settings_.points_travel && points_left_ < kPointsUndivided * settings_.pes);
+  const std::uint32_t parts = divide ? protocol::kPointParts : 1U;
   protocol::Deal& deal = deals_[owner];
+  if (deal.count > 0 && deal.parts != parts) send_deal(port, owner);
   if (deal.count == 0) dealing_.push_back(owner);
+  deal.parts = parts;
   deal.pe[deal.count++] = to;
   ++supplied_[to];
   ++under_way_;
-  --points_left_;
-  const bool last = --shot.points == 0;
+  shot.part = (shot.part + 1U) % parts;
+  if (shot.part == 0) {
+    --points_left_;
+    --shot.points;
+  }
+  const bool last = shot.points == 0;
   if (last || deal.count == protocol::Deal::kMost) send_deal(port, owner);
   if (!last) return;
   shots_of_[owner].pop_front();
