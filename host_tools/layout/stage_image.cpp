@@ -33,7 +33,7 @@ class ImageWriter {
     write_polygons(nullptr);
     write_patch_references();
     write_patches();
-    put_all(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
+    put_all<protocol::HemicubeEntry>(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
     return std::move(bytes_);
   }
 
