@@ -90,11 +90,8 @@ class Balanced {
   }
 
  private:
-  bool has_patches() const { return placement_.scheme == Scheme::paper || load_.stage == Stage::radiosity; }
-  bool is_held(CellIndex cell) const {
-    if (placement_.scheme == Scheme::paper) return true;
-    return !placement_.common_cell[cell] && !placement_.polygons_of_cell[cell].empty();
-  }
+  bool has_patches() const { return load_.stage == Stage::radiosity; }
+  bool is_held(CellIndex cell) const { return !placement_.common_cell[cell] && placement_.stop_cell[cell]; }
 
   void add_cells() {
     for (CellIndex cell = 0; cell < placement_.grid.count(); ++cell) {
@@ -171,7 +168,7 @@ Owners choose_owners(const Mesh& mesh, const Placement& placement, const std::ve
   if (allocation == "balanced") return Balanced(mesh, placement, patch_cell, load).owners();
   Owners owners;
   owners.of_cell = allocate(allocation, placement.grid, placement.torus, {});
-  if (placement.scheme == Scheme::spread && load.stage == Stage::ray_tracing) return owners;
+  if (load.stage == Stage::ray_tracing) return owners;
   for (const CellIndex cell : patch_cell) owners.of_patch.push_back(owners.of_cell[cell]);
   return owners;
 }
