@@ -3,10 +3,12 @@
 #include "host_tools/layout/stage_image.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <type_traits>
 
 #include "emulator/errors.hpp"
+#include "firmware/protocol/store_names.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
 
@@ -19,21 +21,28 @@ using protocol::Store;
 class ImageWriter {
  public:
   ImageWriter(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe, const LightUnits& units,
-              const PeLayout& layout)
+              const PeLayout& layout, const PeLoad* common)
       : scene_(scene),
         mesh_(mesh),
         placement_(placement),
         pe_(pe),
         units_(units),
         layout_(layout.layout),
-        bytes_((layout.load_end - layout.layout.cell_words.address + 3) / 4 * 4) {}
+        bytes_((layout.load_end - layout.layout.cell_words.address + 3) / 4 * 4) {
+    if (common == nullptr) return;
+    common_ = common->layout;
+    next_node_ = common_.nodes.count;
+    next_lattice_ = common_.lattice.count;
+    copy_stores(*common);
+  }
 
   std::vector<std::byte> radiosity() {
     write_subspaces();
     write_polygons(nullptr);
     write_patch_references();
     write_patches();
-    put_all<protocol::HemicubeEntry>(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
+    if (common_.hemicube.count == 0)
+      put_all<protocol::HemicubeEntry>(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
     return std::move(bytes_);
   }
 
@@ -41,8 +50,9 @@ class ImageWriter {
     write_subspaces();
     write_textures();
     write_polygons(&lattice);
-    if (layout_.emitters.count > 0) put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
-    if (layout_.sample_places.count > 0) {
+    if (common_.emitters.count == 0 && layout_.emitters.count > 0)
+      put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
+    if (common_.sample_places.count == 0 && layout_.sample_places.count > 0) {
       put_all<protocol::SamplePlace>(layout_.sample_places, camera.sample_places);
       put_all<float>(layout_.filter, camera.filter);
     }
@@ -50,6 +60,22 @@ class ImageWriter {
   }
 
  private:
+  void copy_stores(const PeLoad& common) {
+    const auto from = protocol::store_extents(common.layout);
+    const auto to = protocol::store_extents(layout_);
+    for (std::size_t name = 0; name < from.size(); ++name) {
+      if (protocol::StoreName{static_cast<std::uint32_t>(name)} == protocol::StoreName::record_slots) continue;
+      if (from[name].store.count == 0) continue;
+      const std::size_t at = to[name].store.address - layout_.cell_words.address;
+      const std::size_t common_at = from[name].store.address - common.layout.cell_words.address;
+      const auto size = static_cast<std::size_t>(from[name].bytes());
+      if (from[name].store.count > to[name].store.count || at + size > bytes_.size()) {
+        throw MachineFailure("a PE lacks what all have");
+      }
+      std::memcpy(bytes_.data() + at, common.image.data() + common_at, size);
+    }
+  }
+
   template <typename T>
   void put(const Store& store, std::size_t index, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -69,8 +95,8 @@ class ImageWriter {
   }
 
   void write_subspaces() {
-    std::uint32_t first = 0;
-    for (std::size_t local = 0; local < placement_.cells_of_pe[pe_].size(); ++local) {
+    std::uint32_t first = common_.polygon_list.count;
+    for (std::size_t local = common_.subspaces.count; local < placement_.cells_of_pe[pe_].size(); ++local) {
       const auto& entries = placement_.entries_of_cell[placement_.cells_of_pe[pe_][local]];
       put(layout_.subspaces, local, protocol::Subspace{first, static_cast<std::uint32_t>(entries.size())});
       for (protocol::ListedPolygon entry : entries) {
@@ -78,9 +104,20 @@ class ImageWriter {
         put(layout_.polygon_list, first++, entry);
       }
     }
-    write_cell_map();
+    if (common_.cell_words.count == 0) write_cell_map();
+    for (std::size_t local = placement_.common_cells; local < placement_.cells_of_pe[pe_].size(); ++local) {
+      const CellIndex cell = placement_.cells_of_pe[pe_][local];
+      put(layout_.cell_entries, entry_of(cell), protocol::held_as(static_cast<std::uint32_t>(local)));
+    }
   }
 
+  std::uint32_t entry_of(CellIndex cell) const {
+    protocol::CellWord word{};
+    std::memcpy(&word, bytes_.data() + cell / 32 * sizeof word, sizeof word);
+    return word.before + static_cast<std::uint32_t>(std::popcount(word.stops & ((1U << (cell % 32)) - 1U)));
+  }
+
+  /// As of a PE without subspaces of its own.
   void write_cell_map() {
     std::vector<protocol::CellWord> words(layout_.cell_words.count);
     std::uint32_t entries = 0;
@@ -88,9 +125,8 @@ class ImageWriter {
       if (cell % 32 == 0) words[cell / 32].before = entries;
       if (!placement_.stop_cell[cell]) continue;
       words[cell / 32].stops |= 1U << (cell % 32);
-      const bool here = placement_.common_cell[cell] || placement_.pe_of_cell[cell] == pe_;
-      const protocol::CellEntry entry =
-          here ? protocol::held_as(placement_.local_of_cell[cell]) : protocol::CellEntry{placement_.pe_of_cell[cell]};
+      const protocol::CellEntry entry = placement_.common_cell[cell] ? protocol::held_as(placement_.local_of_cell[cell])
+                                                                     : protocol::CellEntry{placement_.pe_of_cell[cell]};
       put(layout_.cell_entries, entries++, entry);
     }
     put_all<protocol::CellWord>(layout_.cell_words, words);
@@ -107,10 +143,10 @@ class ImageWriter {
       if (lattice != nullptr && shown) material.texture = static_cast<std::uint32_t>(texture - textures.begin());
       put(layout_.materials, m, material);
     }
-    std::uint32_t normals = 0;
-    std::uint32_t texture_points = 0;
-    std::uint32_t references = 0;
-    for (std::size_t local = 0; local < placement_.polygons_of_pe[pe_].size(); ++local) {
+    std::uint32_t normals = common_.normals.count;
+    std::uint32_t texture_points = common_.texture_points.count;
+    std::uint32_t references = common_.patch_references.count;
+    for (std::size_t local = common_.polygons.count; local < placement_.polygons_of_pe[pe_].size(); ++local) {
       const std::uint32_t t = placement_.polygons_of_pe[pe_][local];
       const MeshTriangle& triangle = mesh_.triangles[t];
       protocol::Polygon polygon{};
@@ -137,6 +173,8 @@ class ImageWriter {
   }
 
   void write_textures() {
+    // All of the common textures are among a PE's.
+    if (layout_.textures.count == common_.textures.count) return;
     std::uint32_t number = 0;
     std::uint32_t first = 0;
     for (const std::uint32_t from : textures_of_pe(mesh_, placement_, pe_)) {
@@ -189,8 +227,9 @@ class ImageWriter {
   }
 
   void write_patch_references() {
-    std::uint32_t next = 0;
-    for (const std::uint32_t t : placement_.polygons_of_pe[pe_]) {
+    std::uint32_t next = common_.patch_references.count;
+    for (std::size_t local = common_.polygons.count; local < placement_.polygons_of_pe[pe_].size(); ++local) {
+      const std::uint32_t t = placement_.polygons_of_pe[pe_][local];
       const MeshTriangle& triangle = mesh_.triangles[t];
       if (triangle.sides == 0) continue;
       for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
@@ -249,6 +288,7 @@ class ImageWriter {
   PeNumber pe_;
   const LightUnits& units_;
   const protocol::StageLayout& layout_;
+  protocol::StageLayout common_{};  ///< of what stands there already: its counts are where each store goes on
   std::uint32_t next_node_ = 0;
   std::uint32_t next_lattice_ = 0;
   std::vector<std::byte> bytes_;  ///< elements stay zero, and are loaded as such
@@ -257,14 +297,14 @@ class ImageWriter {
 }  // namespace
 
 std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe,
-                                       const LightUnits& units, const PeLayout& layout) {
-  return ImageWriter(scene, mesh, placement, pe, units, layout).radiosity();
+                                       const LightUnits& units, const PeLayout& layout, const PeLoad* common) {
+  return ImageWriter(scene, mesh, placement, pe, units, layout, common).radiosity();
 }
 
 std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe,
                                          const LightUnits& units, const Lattice& lattice, const PeLayout& layout,
-                                         const CameraTables& camera) {
-  return ImageWriter(scene, mesh, placement, pe, units, layout).ray_tracing(lattice, camera);
+                                         const CameraTables& camera, const PeLoad* common) {
+  return ImageWriter(scene, mesh, placement, pe, units, layout, common).ray_tracing(lattice, camera);
 }
 
 }  // namespace torolux

@@ -19,11 +19,21 @@ struct CameraTables {
   std::span<const float> filter;
 };
 
-/// Bytes from layout.cell_words.address up to PeLayout::load_end; a multiple of 4.
+/// As of a PE that has nothing of its own (Placement::with_nobody): every PE's stores begin like these, and only what
+/// it has beside is made for each.
+struct PeLoad {
+  protocol::StageLayout layout;
+  std::vector<std::byte> image;  ///< from layout.cell_words.address on
+};
+
+/// Bytes from layout.cell_words.address up to PeLayout::load_end; a multiple of 4. common: of the same stage, or null.
+/// With it or without, the bytes are the same.
 std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, const Placement& placement,
-                                       protocol::PeNumber pe, const LightUnits& units, const PeLayout& layout);
+                                       protocol::PeNumber pe, const LightUnits& units, const PeLayout& layout,
+                                       const PeLoad* common = nullptr);
 std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement,
                                          protocol::PeNumber pe, const LightUnits& units, const Lattice& lattice,
-                                         const PeLayout& layout, const CameraTables& camera = {});
+                                         const PeLayout& layout, const CameraTables& camera = {},
+                                         const PeLoad* common = nullptr);
 
 }  // namespace torolux

@@ -4,26 +4,21 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "host_tools/layout/stage_layout.hpp"
+#include "host_tools/layout/stage_image.hpp"
 #include "host_tools/stages/phase.hpp"
 
 namespace torolux {
-
-struct PeLoad {
-  protocol::StageLayout layout;
-  std::vector<std::byte> image;  ///< from layout.cell_words.address on
-};
 
 /// Where the loads come from. Each function is called once for each PE, the second when its turn comes.
 struct Loads {
   std::function<protocol::StageLayout(PeNumber)> layout;
   std::function<std::vector<std::byte>(PeNumber)> image;
   /// As of a PE that has nothing of its own: its stores stand at the beginning of every PE's, but where those differ.
-  /// Absent: nothing is sent to all.
-  std::optional<PeLoad> common;
+  /// Null: nothing is sent to all.
+  std::shared_ptr<const PeLoad> common;
 };
 
 class LoadPhase : public Phase {

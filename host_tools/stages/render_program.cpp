@@ -107,22 +107,26 @@ std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
     layout.layout.view = job_.rays.view();
     return layout;
   };
-  const auto image_at = [this, &setup, stage, layout_at](const Placement& placement, PeNumber pe) {
+  const auto image_at = [this, &setup, stage, layout_at](const Placement& placement, PeNumber pe,
+                                                         const PeLoad* common) {
     const PeLayout layout = layout_at(placement, pe);
     return stage == Stage::radiosity
-               ? radiosity_image(job_.scene, setup.mesh, placement, pe, setup.units, layout)
+               ? radiosity_image(job_.scene, setup.mesh, placement, pe, setup.units, layout, common)
                : ray_tracing_image(job_.scene, setup.mesh, placement, pe, setup.units, lattice_, layout,
-                                   {job_.rays.samples().places(), job_.rays.samples().distances()});
+                                   {job_.rays.samples().places(), job_.rays.samples().distances()}, common);
   };
   const Placement& placement = setup.placement_of(stage);
   Loads loads;
   loads.layout = [&placement, layout_at](PeNumber pe) { return layout_at(placement, pe).layout; };
-  loads.image = [&placement, image_at](PeNumber pe) { return image_at(placement, pe); };
   if (setup.load_together) {
     const Placement common = placement.with_nobody();
     const auto nobody = static_cast<PeNumber>(placement.torus.pes());
-    loads.common = PeLoad{layout_at(common, nobody).layout, image_at(common, nobody)};
+    loads.common =
+        std::make_shared<const PeLoad>(PeLoad{layout_at(common, nobody).layout, image_at(common, nobody, nullptr)});
   }
+  loads.image = [&placement, image_at, common = loads.common](PeNumber pe) {
+    return image_at(placement, pe, common.get());
+  };
   return std::make_unique<LoadPhase>(placement.torus.pes(), std::move(loads));
 }
 
