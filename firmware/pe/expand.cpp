@@ -13,7 +13,7 @@ namespace {
 using protocol::Dimension;
 using protocol::PointRecord;
 
-enum class PointField : std::uint32_t { places, normal };
+enum class PointField : std::uint32_t { places, part };
 
 /// Two directions at right angles to a unit vector and each other (Duff et al. 2017, Building an Orthonormal Basis,
 /// Revisited, JCGT 6(1)).
@@ -24,20 +24,34 @@ Frame frame_about(const glm::vec3& z) {
   return {{1.0F + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
 }
 
+/// One pixel on. False: it gets no flux.
+bool step_pixel(const Scene& scene, Expansion& expansion) {
+  const HemicubeGrid& grid = scene.hemicube_grid;
+  expansion.pixel = expansion.next_pixel++;
+  const std::uint32_t weight = scene.hemicube[entry_of(grid.n, hemicube_pixel(grid, expansion.pixel))].weight;
+  std::int64_t any = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    expansion.pixel_flux[c] = protocol::next_part(expansion.point.flux[c], weight, expansion.rest[c]);
+    any |= expansion.pixel_flux[c];
+  }
+  return any != 0;
+}
+
 /// Moves on to the next pixel that gets any flux. False: the point is done.
 bool next_pixel(const Scene& scene, Expansion& expansion) {
-  const HemicubeGrid& grid = scene.hemicube_grid;
-  for (;;) {
-    if (expansion.next_pixel == protocol::hemicube_pixels(grid.n)) return false;
-    expansion.pixel = expansion.next_pixel++;
-    const std::uint32_t weight = scene.hemicube[entry_of(grid.n, hemicube_pixel(grid, expansion.pixel))].weight;
-    std::int64_t any = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      expansion.pixel_flux[c] = protocol::next_part(expansion.point.flux[c], weight, expansion.rest[c]);
-      any |= expansion.pixel_flux[c];
-    }
-    if (any != 0) return true;
+  while (expansion.next_pixel < expansion.end_pixel) {
+    if (step_pixel(scene, expansion)) return true;
   }
+  return false;
+}
+
+/// To the first of the pixels that are meant: those before have their shares, too, whoever makes records of them.
+void begin_pixels(const Scene& scene, Expansion& expansion) {
+  const std::uint32_t pixels = protocol::hemicube_pixels(scene.hemicube_grid.n);
+  const std::uint32_t part = (expansion.point.flags & protocol::kPartMask) >> protocol::kPartShift;
+  expansion.end_pixel = part == 0 ? pixels : pixels * part / protocol::kPointParts;
+  const std::uint32_t begin = part == 0 ? 0U : pixels * (part - 1U) / protocol::kPointParts;
+  while (expansion.next_pixel < begin) step_pixel(scene, expansion);
 }
 
 /// The next of the points that wait, until one has a record to make. False: there is none.
@@ -53,6 +67,7 @@ bool begin_point(Pe& pe) {
     expansion.key = protocol::hash_combine(point.key, expansion.number);
     expansion.within = protocol::stratified_pair(expansion.number, point.key);
     expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
+    begin_pixels(pe.scene, expansion);
     expansion.active = next_pixel(pe.scene, expansion);
     if (expansion.active) return true;
     ++pe.done.points;
@@ -84,7 +99,7 @@ void create_record(Pe& pe, Niu& niu) {
   record.key = expansion.key ^ shift;
   record.kind = protocol::RecordKind::light;
   record.bounce = 0;
-  record.flags = static_cast<std::uint8_t>(protocol::kFirst | expansion.point.flags);
+  record.flags = static_cast<std::uint8_t>(protocol::kFirst | (expansion.point.flags & protocol::kDirect));
   record.visited = 0;
   --pe.credits.in_hand;
   ++pe.tally.rays;
@@ -99,6 +114,10 @@ void take_point(Pe& pe, Niu& niu, const PointRecord& point) {
   const std::uint32_t held = points.waiting + (pe.expansion.active ? 1U : 0U);
   if (held >= protocol::kPointPlaces) {
     niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(PointField::places), held);
+  }
+  const std::uint32_t part = (point.flags & protocol::kPartMask) >> protocol::kPartShift;
+  if (part > protocol::kPointParts) {
+    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(PointField::part), part);
   }
   points.place[(points.first + points.waiting) % protocol::kPointPlaces] = point;
   ++points.waiting;

@@ -77,18 +77,30 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   shot.key = key_of(pe.scene, shot.command);
   shot.active = true;
   shot.point = 0;
+  shot.part = 0;
   begin_points(pe.scene, shot);
 }
 
 void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal) {
   const PhaseMark<Phase::shoot> mark(niu);
   Shot& shot = pe.shot;
-  require(niu, deal.count <= shot.points - shot.point, ShootField::deal, deal.count);
+  require(niu, deal.parts == 1U || deal.parts == protocol::kPointParts, ShootField::deal, deal.parts);
   for (std::uint32_t i = 0; i < deal.count; ++i) {
     require(niu, deal.pe[i] < niu.pes(), ShootField::deal, deal.pe[i]);
-    send_point(pe, niu, deal.pe[i], make_point(pe.scene, shot));
+    if (shot.part == 0) {
+      require(niu, shot.point < shot.points, ShootField::deal, i);
+      shot.divided = make_point(pe.scene, shot);
+    }
+    protocol::PointRecord point = shot.divided;
+    if (deal.parts > 1U) {
+      point.flags = static_cast<std::uint8_t>(point.flags | ((shot.part + 1U) << protocol::kPartShift));
+      shot.part = (shot.part + 1U) % protocol::kPointParts;
+    } else {
+      require(niu, shot.part == 0, ShootField::deal, deal.parts);
+    }
+    send_point(pe, niu, deal.pe[i], point);
   }
-  shot.active = shot.point < shot.points;
+  shot.active = shot.point < shot.points || shot.part > 0;
 }
 
 }  // namespace torolux::pe

@@ -35,6 +35,9 @@ struct Shot {
   glm::vec3 all{};           ///< what all of them would send
   FacetWalk walk{};          ///< at the end of the last point's part: each has an equal part of what facets send
   protocol::Flux given{};    ///< of the flux, to the points before
+  // Of a point that is dealt in parts.
+  protocol::PointRecord divided{};
+  std::uint32_t part = 0;  ///< the next one; 0: the next point
 };
 
 /// Where in a point's hemi-cube the next record is, and what it divides.
@@ -44,7 +47,8 @@ struct Expansion {
   std::uint32_t number = 0;  ///< of the point in its shot
   std::uint32_t key = 0;     ///< of the point's random numbers
   Frame frame{};             ///< spun, by the same turn at all points of the shot
-  std::uint32_t pixel = 0;   ///< the next record's
+  std::uint32_t end_pixel = 0;  ///< behind the last one that is meant
+  std::uint32_t pixel = 0;      ///< the next record's
   protocol::Flux pixel_flux{};
   std::uint32_t next_pixel = 0;
   protocol::StratifiedPair within{};    ///< where in the pixels the point goes through them; each has a shift of its own

@@ -8,7 +8,7 @@ namespace torolux::pe {
 namespace {
 
 /// Records made before the PE looks for what has come: few, so that others do not wait for it.
-constexpr std::uint32_t kRecordsAtATime = 8;
+constexpr std::uint32_t kRecordsAtATime = 4;
 /// Surplus credits go home so many at a time.
 constexpr std::uint32_t kManyCredits = 64;
 

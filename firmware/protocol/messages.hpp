@@ -96,11 +96,12 @@ struct Shoot {
 };
 static_assert(sizeof(Shoot) == 40);
 
-/// The shot's next points go to these PEs, one to each, in this order. When all its points have been dealt, the shot is
-/// over for its owner.
+/// The shot's next points go to these PEs, one to each, in this order; or each of these PEs gets the next part of a
+/// point. When all its points have been dealt, the shot is over for its owner.
 struct Deal {
   static constexpr std::uint32_t kMost = 64;
   std::uint32_t count;  ///< 1..kMost; only so many are sent
+  std::uint32_t parts;  ///< into which points are divided: 1 or kPointParts; no change within a point
   std::array<PeNumber, kMost> pe;
 };
 
@@ -116,7 +117,7 @@ struct Grant {
 };
 
 struct WorkDone {
-  std::uint32_t points;   ///< finished since the last such message; ray tracing stage: tiles
+  std::uint32_t points;   ///< or parts of points, or tiles, finished since the last such message; ray tracing stage: tiles
   std::uint32_t records;  ///< made since
 };
 

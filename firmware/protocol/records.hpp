@@ -39,6 +39,11 @@ inline constexpr std::uint8_t kGoesOn = 64;   ///< deposit: at the owner it goes
 inline constexpr std::uint32_t kEntryAxisShift = 4;
 inline constexpr std::uint8_t kEntryAxisMask = 0x30;
 
+/// Of a point: 0: all pixels of its hemi-cube; 1..kPointParts: that part of them only.
+inline constexpr std::uint32_t kPartShift = 4;
+inline constexpr std::uint8_t kPartMask = 0x70;
+inline constexpr std::uint32_t kPointParts = 4;
+
 /// Radiosity stage: one hemi-cube pixel's flux.
 struct RadiosityRecord {
   Vec3f origin;
@@ -66,7 +71,7 @@ struct PointRecord {
   std::uint32_t key;      ///< hash of (seed, patch, shot)
   RecordKind kind;
   std::uint8_t number_low;  ///< of the point in its shot, 16 bits
-  std::uint8_t flags;       ///< kDirect of emitted light
+  std::uint8_t flags;       ///< kDirect of emitted light; which of its pixels are meant (kPartMask)
   std::uint8_t number_high;
 };
 static_assert(sizeof(PointRecord) == sizeof(RadiosityRecord));

@@ -78,7 +78,7 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
   const auto& cells = plan.subspaces;
   line("subspaces", std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]) +
                         ", " + grouped(plan.filled_subspaces) + " with anything in them, " + machine.allocation);
-  if (machine.scheme == Scheme::spread)
+  if (machine.replicate != 0.0)
     line("on every PE", grouped(plan.radiosity_copies.cells) + " subspaces (" +
                             bytes_text(plan.radiosity_copies.bytes) + ") in the radiosity stage, " +
                             grouped(plan.ray_tracing_copies.cells) + " (" + bytes_text(plan.ray_tracing_copies.bytes) +

@@ -25,6 +25,15 @@ std::string in_quotes(std::string_view text) {
   throw UsageError(in_quotes(text) + " is not " + expected);
 }
 
+/// The value whose name `text` is.
+template <class Value>
+Value one_of(std::string_view text, std::initializer_list<Value> values, const std::string& expected) {
+  for (const Value value : values) {
+    if (text == name_of(value)) return value;
+  }
+  wrong_form(text, expected);
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -236,10 +245,19 @@ ToneCurve parse_tone_curve(const std::string& text) {
 }
 
 Scheme parse_scheme(const std::string& text) {
-  for (const Scheme scheme : {Scheme::spread, Scheme::paper}) {
-    if (text == name_of(scheme)) return scheme;
-  }
-  wrong_form(text, "a scheme; there are: spread, paper");
+  return one_of(text, {Scheme::spread, Scheme::paper}, "a scheme; there are: spread, paper");
+}
+
+Points parse_points(const std::string& text) {
+  return one_of(text, {Points::travel, Points::stay}, "a way of points; there are: travel, stay");
+}
+
+Empty parse_empty(const std::string& text) {
+  return one_of(text, {Empty::over, Empty::enter}, "a way with empty subspaces; there are: over, enter");
+}
+
+RayMaker parse_ray_maker(const std::string& text) {
+  return one_of(text, {RayMaker::pes, RayMaker::host}, "a maker of camera rays; there are: pes, host");
 }
 
 std::optional<double> parse_fraction(const std::string& text) {

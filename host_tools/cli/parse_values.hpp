@@ -61,6 +61,12 @@ bool parse_direct(const std::string& text);
 
 /// "spread" or "paper".
 Scheme parse_scheme(const std::string& text);
+/// "travel" or "stay".
+Points parse_points(const std::string& text);
+/// "over" or "enter".
+Empty parse_empty(const std::string& text);
+/// "pes" or "host".
+RayMaker parse_ray_maker(const std::string& text);
 /// A fraction 0..1, or "auto" (absent).
 std::optional<double> parse_fraction(const std::string& text);
 

@@ -264,13 +264,28 @@ void add_machine_options(CLI::App& command, RenderOptions& options) {
             })
       ->group(group);
   add_value(command, "--replicate", "FRACTION|auto",
-            "Most of a PE's memory for copies of subspaces that stand on every PE, 0 to 1; auto: what fits",
-            [&options](const std::string& text) { options.replicate = parse_fraction(text); })
-      ->default_str("auto")
+            "Most of a PE's memory for copies of subspaces that stand on every PE, 0 to 1; auto: what fits [auto; "
+            "--scheme paper: 0]",
+            [&options](const std::string& text) { options.replicate = ReplicateOption{parse_fraction(text)}; })
+      ->group(group);
+  add_value(command, "--points", "travel|stay",
+            "A shot's points are expanded by whoever has little work, or by the patch's owner [travel; --scheme "
+            "paper: stay]",
+            [&options](const std::string& text) { options.points = parse_points(text); })
+      ->group(group);
+  add_value(command, "--empty", "over|enter",
+            "Rays step over empty subspaces by themselves, or stop in each [over; --scheme paper: enter]",
+            [&options](const std::string& text) { options.empty = parse_empty(text); })
+      ->group(group);
+  add_value(command, "--camera-rays", "pes|host",
+            "PEs make the camera rays of tiles dealt to them, or the host does [pes; --scheme paper: host]",
+            [&options](const std::string& text) { options.camera_rays = parse_ray_maker(text); })
       ->group(group);
   command
-      .add_flag("--enter-empty", options.enter_empty,
-                "Camera rays begin in the outermost subspace on their way, not in the first one with anything in it")
+      .add_flag(
+          "--enter-empty", options.enter_empty,
+          "Camera rays of the host begin in the outermost subspace on their way, not in the first one with anything "
+          "in it")
       ->group(group);
   add_value(command, "--machine", "FILE.toml", "Parameters of the machine [built in]",
             [&options](const std::string& text) { take_path(options.machine, text); })

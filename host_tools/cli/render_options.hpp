@@ -30,6 +30,9 @@ struct LengthOption {
 struct SubspacesOption {
   std::optional<std::array<std::uint32_t, 3>> cells;
 };
+struct ReplicateOption {
+  std::optional<double> fraction;  ///< of a PE's memory; absent: as much as fits
+};
 
 /// --exposure and --tone-curve.
 struct ToneOptions {
@@ -70,7 +73,10 @@ struct RenderOptions {
   std::optional<std::uint32_t> pe_memory;
   std::optional<SubspacesOption> subspaces;
   std::optional<Scheme> scheme;
-  std::optional<double> replicate;  ///< absent: as much as fits
+  std::optional<ReplicateOption> replicate;
+  std::optional<Points> points;
+  std::optional<Empty> empty;
+  std::optional<RayMaker> camera_rays;
   std::optional<std::string> allocation, engine;
   Debugging debugging;
   FaultOptions faults;
@@ -97,8 +103,8 @@ void add_view_options(CLI::App& command, RenderOptions& options);
 void add_light_options(CLI::App& command, RenderOptions& options);
 /// --set: KEY=VALUE of the machine's parameters, checked, into `values`.
 void add_machine_values_option(CLI::App& command, std::vector<std::string>& values, const std::string& group);
-/// --pes, --pe-memory, --subspaces, --scheme, --allocation, --replicate, --enter-empty, --machine, --set, --ideal,
-/// --jitter, --fault, --threads.
+/// --pes, --pe-memory, --subspaces, --scheme, --allocation, --replicate, --points, --empty, --camera-rays,
+/// --enter-empty, --machine, --set, --ideal, --jitter, --fault, --threads.
 void add_machine_options(CLI::App& command, RenderOptions& options);
 /// --engine.
 void add_engine_option(CLI::App& command, RenderOptions& options);

@@ -144,9 +144,11 @@ MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
   else if (scene.defaults.subspaces)
     from_scene(scene.defaults.subspaces_place, "subspaces",
                [&] { machine.subspaces = parse_subspaces(*scene.defaults.subspaces); });
-  machine.scheme = options.scheme.value_or(machine.scheme);
-  machine.replicate = options.replicate;
-  machine.allocation = allocation_of(machine.scheme);
+  take_scheme(machine, options.scheme.value_or(machine.scheme));
+  if (options.replicate) machine.replicate = options.replicate->fraction;
+  machine.points = options.points.value_or(machine.points);
+  machine.empty = options.empty.value_or(machine.empty);
+  machine.camera_rays = options.camera_rays.value_or(machine.camera_rays);
   if (!options.allocation && scene.defaults.allocation)
     from_scene(scene.defaults.allocation_place, "allocation", [&] { check_allocation(*scene.defaults.allocation); });
   pick(machine.allocation, options.allocation, scene.defaults.allocation);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host_tools/layout/copies.hpp"
+#include "host_tools/layout/golden_step.hpp"
 
 namespace torolux {
 namespace {
@@ -89,11 +90,8 @@ class Balanced {
   }
 
  private:
-  bool has_patches() const { return placement_.scheme == Scheme::paper || load_.stage == Stage::radiosity; }
-  bool is_held(CellIndex cell) const {
-    if (placement_.scheme == Scheme::paper) return true;
-    return !placement_.common_cell[cell] && !placement_.polygons_of_cell[cell].empty();
-  }
+  bool has_patches() const { return load_.stage == Stage::radiosity; }
+  bool is_held(CellIndex cell) const { return !placement_.common_cell[cell] && placement_.stop_cell[cell]; }
 
   void add_cells() {
     for (CellIndex cell = 0; cell < placement_.grid.count(); ++cell) {
@@ -131,7 +129,10 @@ class Balanced {
     std::size_t at = 0;
     double until = std::max(0.0, level - loads[order[0]]);
     double given = 0;
-    for (std::size_t p = 0; p < stays_.size(); ++p) {
+    // Neighbours shoot in the same rounds, so that their owners, who make their points, should be many.
+    const std::uint64_t step = golden_step(stays_.size());
+    for (std::size_t i = 0; i < stays_.size(); ++i) {
+      const std::size_t p = i * step % stays_.size();
       if (stays_[p]) {
         homes[p] = pe_of_cell[patch_cell_[p]];
         continue;
@@ -167,7 +168,7 @@ Owners choose_owners(const Mesh& mesh, const Placement& placement, const std::ve
   if (allocation == "balanced") return Balanced(mesh, placement, patch_cell, load).owners();
   Owners owners;
   owners.of_cell = allocate(allocation, placement.grid, placement.torus, {});
-  if (placement.scheme == Scheme::spread && load.stage == Stage::ray_tracing) return owners;
+  if (load.stage == Stage::ray_tracing) return owners;
   for (const CellIndex cell : patch_cell) owners.of_patch.push_back(owners.of_cell[cell]);
   return owners;
 }

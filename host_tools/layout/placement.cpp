@@ -28,9 +28,6 @@ void spread_cells(Placement& placement) {
   placement.local_of_cell.resize(placement.grid.count());
   for (CellIndex cell = 0; cell < placement.grid.count(); ++cell) {
     const auto& of_cell = placement.polygons_of_cell[cell];
-    if (!of_cell.empty()) ++placement.filled_cells;
-    placement.stop_cell.push_back(placement.scheme == Scheme::paper || !of_cell.empty());
-    if (placement.stop_cell.back()) ++placement.stops;
     if (!placement.common_cell[cell]) continue;
     placement.local_of_cell[cell] = static_cast<std::uint32_t>(common.size());
     common.push_back(cell);
@@ -116,7 +113,11 @@ Placement make_placement(const Mesh& mesh, const Grid& grid, std::vector<std::ve
   placement.scheme = choice.scheme;
   placement.polygons_of_cell = std::move(polygons_of_cell);
   for (CellIndex cell = 0; cell < grid.count(); ++cell) {
-    placement.entries_of_cell.push_back(list_polygons(mesh.triangles, placement.polygons_of_cell[cell], grid, cell));
+    const auto& of_cell = placement.polygons_of_cell[cell];
+    placement.entries_of_cell.push_back(list_polygons(mesh.triangles, of_cell, grid, cell));
+    if (!of_cell.empty()) ++placement.filled_cells;
+    placement.stop_cell.push_back(choice.empty == Empty::enter || !of_cell.empty());
+    if (placement.stop_cell.back()) ++placement.stops;
   }
   placement.common_cell = load.common_cell;
   placement.common_cell.resize(grid.count());

@@ -20,10 +20,10 @@ namespace torolux {
 struct PatchHome {
   protocol::PeNumber pe = 0;
   std::uint32_t local = 0;  ///< local number at `pe`
-  CellIndex cell = 0;       ///< that holds its centre; scheme `spread`: not always one of the PE's
+  CellIndex cell = 0;       ///< that holds its centre; not always one of the PE's
 };
 
-/// Of one stage, or (scheme `paper`) of both.
+/// Of one stage, or (scheme `paper` without copies) of both.
 struct Placement {
   TorusSize torus;
   Grid grid;
@@ -33,12 +33,12 @@ struct Placement {
   std::vector<std::vector<protocol::ListedPolygon>> entries_of_cell;
   /// Of a common cell, and of one that nobody holds: any PE.
   std::vector<protocol::PeNumber> pe_of_cell;
-  std::vector<bool> stop_cell;               ///< by cell: a ray must stop there. Scheme `paper`: everywhere
+  std::vector<bool> stop_cell;               ///< by cell: a ray must stop there. Empty::enter: everywhere
   std::uint32_t stops = 0;                   ///< such cells
   std::vector<bool> common_cell;             ///< by cell: it stands on every PE
   std::vector<std::uint32_t> local_of_cell;  ///< where it is held
-  /// Local number -> cell: the common ones, ascending, then the PE's own, ascending. Scheme `spread`: nobody holds the
-  /// empty ones.
+  /// Local number -> cell: the common ones, ascending, then the PE's own, ascending. Nobody holds cells
+  /// at which no ray stops.
   std::vector<std::vector<CellIndex>> cells_of_pe;
   std::uint32_t common_cells = 0;
   /// Local number -> triangle: those of common cells, ascending, then what else the PE needs, ascending.
@@ -61,13 +61,14 @@ struct PlacementChoice {
   std::optional<std::array<std::uint32_t, 3>> subspaces;
   std::string allocation = "skewed";
   Scheme scheme = Scheme::paper;
+  Empty empty = empty_of(scheme);
 };
 
 /// What a placement is made for.
 struct StageLoad {
   protocol::Stage stage = protocol::Stage::radiosity;
   const Heat* heat = nullptr;          ///< for `balanced`; null: by memory alone
-  std::vector<bool> common_cell = {};  ///< scheme `spread`; empty: none
+  std::vector<bool> common_cell = {};  ///< empty: none
   /// `balanced` gives a PE at most so many times the mean of its own memory, but what is owned by one cell.
   double most_memory = kMostMemory;
 };

@@ -24,18 +24,19 @@ class Chooser {
   Chooser(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
           const Mesh& mesh, const StageParameters& parameters, const MemoryMap& map)
       : machine_(machine), mesh_(mesh), parameters_(parameters), map_(map) {
-    choice_ = {{machine.columns, machine.rows}, machine.subspaces, machine.allocation, machine.scheme};
+    choice_ = {{machine.columns, machine.rows}, machine.subspaces, machine.allocation, machine.scheme, machine.empty};
     if (!choice_.subspaces && machine.scheme == Scheme::spread) {
       choice_.subspaces =
           spread_cells(mesh.space, mesh.triangles.size(), machine.pe_memory.value_or(protocol::kDefaultLocalMemory));
     }
     grid_ = make_grid(mesh.space, choice_.subspaces, mesh.triangles.size(), choice_.torus.pes());
     lists_ = polygons_by_cell(grid_, mesh.triangles);
-    const bool needs_heat = machine.scheme == Scheme::spread || machine.allocation == "balanced";
+    const bool needs_heat = for_each_stage() || machine.allocation == "balanced";
     if (choice_.torus.pes() > 1 && needs_heat) {
-      const Placement whole = make_placement(mesh, grid_, lists_, {{1, 1}, std::nullopt, "modulo", machine.scheme}, {});
+      const Placement whole =
+          make_placement(mesh, grid_, lists_, {{1, 1}, std::nullopt, "modulo", machine.scheme, machine.empty}, {});
       radiosity_heat_ = sample_radiosity_heat(scene, mesh, whole, quality.bounces);
-      if (machine.scheme == Scheme::spread) {
+      if (for_each_stage()) {
         const CameraRays rays(camera, mesh.space, quality.width, quality.height,
                               PixelSamples(quality.filter, quality.samples, parameters.seed), parameters.seed);
         ray_heat_ = sample_ray_heat(scene, mesh, whole, rays, camera_sample_choice(quality, machine, parameters));
@@ -43,7 +44,12 @@ class Chooser {
     }
   }
 
-  Placements paper() const {
+  Placements choose() const { return for_each_stage() ? one_for_each() : one_for_both(); }
+
+ private:
+  bool for_each_stage() const { return machine_.scheme == Scheme::spread || machine_.replicate != 0.0; }
+
+  Placements one_for_both() const {
     Placements result;
     result.radiosity = place(Stage::radiosity, {}, kMostMemory);
     result.ray_tracing = result.radiosity;
@@ -51,7 +57,7 @@ class Chooser {
     return result;
   }
 
-  Placements spread() const {
+  Placements one_for_each() const {
     Placements result;
     for (const double most_memory : {kMostMemory, kTightMemory}) {
       result.radiosity = place(Stage::radiosity, {}, most_memory);
@@ -66,7 +72,6 @@ class Chooser {
     return result;
   }
 
- private:
   const Heat& heat(Stage stage) const { return stage == Stage::radiosity ? radiosity_heat_ : ray_heat_; }
 
   Placement place(Stage stage, std::vector<bool> common, double most_memory) const {
@@ -129,8 +134,7 @@ class Chooser {
 Placements choose_placements(const Scene& scene, const Camera& camera, const Quality& quality,
                              const MachineChoice& machine, const Mesh& mesh, const StageParameters& parameters,
                              const MemoryMap& map) {
-  const Chooser chooser(scene, camera, quality, machine, mesh, parameters, map);
-  return machine.scheme == Scheme::paper ? chooser.paper() : chooser.spread();
+  return Chooser(scene, camera, quality, machine, mesh, parameters, map).choose();
 }
 
 }  // namespace torolux

@@ -13,7 +13,7 @@
 namespace torolux {
 
 struct Placements {
-  Placement radiosity, ray_tracing;  ///< scheme `paper`: the same
+  Placement radiosity, ray_tracing;  ///< scheme `paper` without copies: the same
   MemoryNeed need;
   std::optional<std::uint32_t> memory;  ///< absent: does not fit
   StageCopies radiosity_copies, ray_tracing_copies;

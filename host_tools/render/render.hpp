@@ -51,25 +51,33 @@ struct Quality {
   std::uint64_t seed = 1;
 };
 
-/// What a scheme has where nothing is said.
-constexpr const char* allocation_of(Scheme scheme) {
-  return scheme == Scheme::paper ? "skewed" : "balanced";
-}
-
 /// The machine that makes it.
 struct MachineChoice {
   MachineDescription description;
   unsigned columns = 4, rows = 4;
   std::optional<std::uint32_t> pe_memory;                 ///< bytes; absent: smallest power of two from 1 MiB that fits
   std::optional<std::array<std::uint32_t, 3>> subspaces;  ///< absent: auto
-  Scheme scheme = Scheme::spread;
+  Scheme scheme = Scheme::spread;  ///< the values below are its own; another scheme's: take_scheme
   std::string allocation = allocation_of(Scheme::spread);
-  std::optional<double> replicate;   ///< most of a PE's memory for copies of subspaces, 0..1; absent: what fits
-  bool skip_empty_subspaces = true;  ///< camera rays begin in the first subspace on their way with anything in it
+  std::optional<double> replicate;  ///< most of a PE's memory for copies of subspaces, 0..1; absent: what fits
+  Points points = points_of(Scheme::spread);
+  Empty empty = empty_of(Scheme::spread);
+  RayMaker camera_rays = camera_rays_of(Scheme::spread);
+  bool skip_empty_subspaces = true;  ///< the host's camera rays begin in the first subspace on their way that is full
   std::string engine = kDefaultEngine;
   Debugging debugging;
   unsigned threads = 0;
 };
+
+/// The scheme, and all that it has where nothing else is said.
+inline void take_scheme(MachineChoice& machine, Scheme scheme) {
+  machine.scheme = scheme;
+  machine.allocation = allocation_of(scheme);
+  machine.replicate = replicate_of(scheme);
+  machine.points = points_of(scheme);
+  machine.empty = empty_of(scheme);
+  machine.camera_rays = camera_rays_of(scheme);
+}
 
 enum class RenderStage { load, radiosity, ray_tracing };
 

@@ -8,7 +8,7 @@
 
 namespace torolux {
 
-/// whole: the scene on one PE, on the grid that the heat is wanted for. Scheme `spread`: empty subspaces have none.
+/// whole: the scene on one PE, on the grid that the heat is wanted for. Where no ray stops there is none.
 Heat sample_radiosity_heat(const Scene& scene, const Mesh& mesh, const Placement& whole, std::uint32_t bounces);
 Heat sample_ray_heat(const Scene& scene, const Mesh& mesh, const Placement& whole, const CameraRays& rays,
                      const CameraSampleChoice& choice);

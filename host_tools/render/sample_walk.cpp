@@ -186,8 +186,7 @@ void SampleWalker::enter(CellIndex cell) {
 
 void SampleWalker::add_to_heat(CellIndex cell) {
   if (heat_ == nullptr) return;
-  // Empty subspaces are stepped over.
-  if (placement_.scheme == Scheme::spread && placement_.polygons_of_cell[cell].empty()) return;
+  if (!placement_.stop_cell[cell]) return;
   heat_->steps.push_back({cell, records_, first_});
   first_ = false;
 }

@@ -100,8 +100,9 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   const MachineDescription::Records& records = machine.description.records;
   setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,
                records.gather_records};
-  setup.paper = machine.scheme == Scheme::paper;
-  if (!setup.paper) {
+  setup.load_together = machine.scheme == Scheme::spread;
+  setup.points_travel = machine.points == Points::travel;
+  if (machine.camera_rays == RayMaker::pes) {
     setup.parameters.pixel_samples = quality.samples;
     setup.parameters.filter_entries = PixelSamples::entries(quality.filter, quality.samples);
   }
@@ -151,7 +152,7 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
   settings.shot_points = setup.parameters.shot_points;
   settings.emission_points = setup.parameters.emission_points;
   settings.points_per_quantum = setup.parameters.points_per_quantum;
-  settings.points_travel = !setup.paper;
+  settings.points_travel = setup.points_travel;
   settings.emitted = emitted;
   settings.enough_unshot = static_cast<std::int64_t>(emitted * quality.unshot);
   // Where no side has more than this, emitted or reflected, all of them together have no more than `enough_unshot`.

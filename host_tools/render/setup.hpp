@@ -17,9 +17,10 @@ namespace torolux {
 struct RenderSetup {
   Mesh mesh;
   LightUnits units;
-  bool paper = true;        ///< scheme `paper`
-  Placement placement;      ///< radiosity stage
-  Placement ray_placement;  ///< ray tracing stage
+  bool load_together = false;  ///< what all PEs have in common is broadcast
+  bool points_travel = false;  ///< RadiositySettings::points_travel
+  Placement placement;         ///< radiosity stage
+  Placement ray_placement;     ///< ray tracing stage
   StageCopies radiosity_copies, ray_tracing_copies;
   StageParameters parameters;
   MemoryMap map;

@@ -115,6 +115,9 @@ Words render_words(const Json& settings) {
   add(words, "--scheme", text(settings.at("scheme")));
   add(words, "--allocation", text(settings.at("allocation")));
   add(words, "--replicate", text(settings.at("replicate")));
+  add(words, "--points", text(settings.at("points")));
+  add(words, "--empty", text(settings.at("empty")));
+  add(words, "--camera-rays", text(settings.at("camera_rays")));
   if (!settings.at("skip_empty_subspaces").get<bool>()) words.emplace_back("--enter-empty");
   return words;
 }

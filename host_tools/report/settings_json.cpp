@@ -101,6 +101,9 @@ void add_machine(Json& json, const RunDescription& run, const RenderFigures* fig
   json["scheme"] = name_of(machine.scheme);
   json["allocation"] = machine.allocation;
   json["replicate"] = value_or_auto(machine.replicate);
+  json["points"] = name_of(machine.points);
+  json["empty"] = name_of(machine.empty);
+  json["camera_rays"] = name_of(machine.camera_rays);
   json["skip_empty_subspaces"] = machine.skip_empty_subspaces;
   if (!machine.debugging.qemu_pes.empty()) json["qemu_pes"] = machine.debugging.qemu_pes;
   json["machine"] = machine_json(machine.description);

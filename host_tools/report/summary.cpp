@@ -124,7 +124,7 @@ std::string energy_table(const EnergyBalance& energy) {
 
 /// Subspaces that stand on every PE in the radiosity and in the ray tracing stage.
 std::string copies_text(const RunDescription& run, const RenderFigures& figures) {
-  if (run.machine.scheme == Scheme::paper) return "";
+  if (run.machine.replicate == 0.0) return "";
   const StageCopies& radiosity = figures.radiosity_copies;
   const StageCopies& rays = figures.ray_tracing_copies;
   return left("on every PE", kLabel) + "  " + grouped(radiosity.cells) + " and " + grouped(rays.cells) + " of " +

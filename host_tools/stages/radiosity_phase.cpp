@@ -18,8 +18,11 @@ using protocol::Flux;
 using protocol::MessageKind;
 using protocol::ShotKind;
 
-/// Points that a PE has at a time: while the next one is on its way, it works on the others.
-constexpr std::uint32_t kSupply = 3;
+/// Points, or parts of points, that a PE has at a time: while the next one is on its way, it works on the other. When no
+/// more are left than there are PEs, each has one: at the end nobody waits for what another has in store.
+constexpr std::uint32_t kSupply = 2;
+/// Points are dealt in parts when fewer are left for each PE.
+constexpr std::uint64_t kPointsUndivided = 2;
 static_assert(kSupply <= protocol::kPointPlaces);
 
 /// Compares of a sort [n log2 n, rounded up].
@@ -135,6 +138,7 @@ void RadiosityPhase::begin_round(HostPort& port) {
 /// The number of a shot seeds its random numbers, so it follows the order of choice.
 void RadiosityPhase::add_shots() {
   owners_.clear();
+  points_left_ = 0;
   turn_ = 0;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i].candidate;
@@ -152,6 +156,9 @@ void RadiosityPhase::add_shots() {
          protocol::points_of_shot(candidate.kind, flux, settings_.points_per_quantum, settings_.shot_points,
                                   settings_.emission_points)});
   }
+  for (const auto& shots : shots_of_) {
+    for (const RoundShot& shot : shots) points_left_ += shot.points;
+  }
   for (unsigned pe = 0; pe < settings_.pes; ++pe) {
     if (!shots_of_[pe].empty()) owners_.push_back(static_cast<PeNumber>(pe));
   }
@@ -165,7 +172,14 @@ void RadiosityPhase::take_work_done(HostPort& port, PeNumber source, const proto
   rounds_.back().last_shot_done = port.now();
   supplied_[source] -= done.points;
   under_way_ -= done.points;
-  for (std::uint32_t i = 0; i < done.points; ++i) wanting_.push_back(source);
+  // Who has nothing left comes first.
+  for (std::uint32_t i = 0; i < done.points; ++i) {
+    if (supplied_[source] == 0) {
+      wanting_.push_front(source);
+    } else {
+      wanting_.push_back(source);
+    }
+  }
   deal(port);
 }
 
@@ -174,6 +188,8 @@ void RadiosityPhase::deal(HostPort& port) {
   while (!wanting_.empty() && !owners_.empty()) {
     port.work(HostWork::entry, 1);
     const PeNumber to = wanting_.front();
+    const bool ends = points_left_ * protocol::kPointParts <= settings_.pes;
+    if (ends && supplied_[to] > 0 && settings_.points_travel) break;
     wanting_.pop_front();
     turn_ = turn_ < owners_.size() ? turn_ : 0;
     const PeNumber owner = settings_.points_travel ? owners_[turn_++] : to;
@@ -185,12 +201,22 @@ void RadiosityPhase::deal(HostPort& port) {
 void RadiosityPhase::deal_point(HostPort& port, PeNumber owner, PeNumber to) {
   RoundShot& shot = shots_of_[owner].front();
   if (!shot.begun) begin_shot(port, owner, shot);
+  const bool divide =
+      shot.part > 0 || (settings_.points_travel && points_left_ < kPointsUndivided * settings_.pes);
+  const std::uint32_t parts = divide ? protocol::kPointParts : 1U;
   protocol::Deal& deal = deals_[owner];
+  if (deal.count > 0 && deal.parts != parts) send_deal(port, owner);
   if (deal.count == 0) dealing_.push_back(owner);
+  deal.parts = parts;
   deal.pe[deal.count++] = to;
   ++supplied_[to];
   ++under_way_;
-  const bool last = --shot.points == 0;
+  shot.part = (shot.part + 1U) % parts;
+  if (shot.part == 0) {
+    --points_left_;
+    --shot.points;
+  }
+  const bool last = shot.points == 0;
   if (last || deal.count == protocol::Deal::kMost) send_deal(port, owner);
   if (!last) return;
   shots_of_[owner].pop_front();

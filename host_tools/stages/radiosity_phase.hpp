@@ -53,7 +53,8 @@ class RadiosityPhase : public Phase {
   struct RoundShot {
     protocol::Candidate candidate;
     std::uint32_t number;  ///< of the shot, over the stage
-    std::uint32_t points;  ///< left to be dealt
+    std::uint32_t points;    ///< left to be dealt
+    std::uint32_t part = 0;  ///< of the next one, where it is dealt in parts
     bool begun = false;    ///< its owner has been told
   };
 
@@ -83,6 +84,7 @@ class RadiosityPhase : public Phase {
   std::vector<PeNumber> dealing_;                ///< owners whose deal is being filled
   std::deque<PeNumber> wanting_;                 ///< PEs that could do with a point more, longest ago first
   std::vector<std::uint32_t> supplied_;          ///< points that a PE has been dealt and not finished
+  std::uint64_t points_left_ = 0;                ///< to be dealt
   std::uint64_t under_way_ = 0;                  ///< of those, in all
   std::deque<PeNumber> hungry_;                  ///< PEs that have work and no credits
   std::uint64_t pool_;                           ///< credits at home

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <numeric>
 
+#include "host_tools/layout/golden_step.hpp"
 #include "host_tools/stages/phase.hpp"
 
 namespace torolux {
@@ -23,14 +23,5 @@ class RayPhase : public Phase {
   virtual std::uint64_t sent() const = 0;   ///< that met the object space
   virtual std::uint64_t credits_home() const = 0;
 };
-
-/// A step of about the golden section of `count`, which shares no divisor with it: taken round and round it comes to
-/// each of `count` things once, and to neighbours far apart in time. count > 0.
-inline std::uint64_t golden_step(std::uint64_t count) {
-  auto step = static_cast<std::uint64_t>(static_cast<double>(count) * 0.6180339887498949);
-  step = step == 0 ? 1 : step;
-  while (std::gcd(step, count) != 1) ++step;
-  return step;
-}
 
 }  // namespace torolux

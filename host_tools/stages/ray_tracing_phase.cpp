@@ -45,6 +45,12 @@ void RayTracingPhase::make_rays(HostPort& port) {
   port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
 }
 
+/// Where all PEs can begin a ray, they do so in turn.
+PeNumber RayTracingPhase::follower_of(CellIndex cell) {
+  if (placement_.stop_cell[cell] && !placement_.common_cell[cell]) return placement_.pe_of_cell[cell];
+  return static_cast<PeNumber>(turn_++ % placement_.torus.pes());
+}
+
 void RayTracingPhase::make_ray(HostPort& port) {
   const std::uint64_t pixels = std::uint64_t{settings_.width} * settings_.height;
   const auto sample = static_cast<std::uint32_t>(next_ / pixels);
@@ -71,7 +77,7 @@ void RayTracingPhase::make_ray(HostPort& port) {
   record.sample = static_cast<std::uint16_t>(sample);
   record.kind = protocol::RecordKind::light;
   record.flags = start->flags;
-  const PeNumber pe = placement_.pe_of_cell[start->cell];
+  const PeNumber pe = follower_of(start->cell);
   if (packet_[pe].empty()) open_.push_back(pe);
   packet_[pe].push_back(record);
   --pool_;

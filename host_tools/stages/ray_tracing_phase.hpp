@@ -28,6 +28,7 @@ class RayTracingPhase : public RayPhase {
  private:
   void make_rays(HostPort& port);
   void make_ray(HostPort& port);
+  PeNumber follower_of(CellIndex cell);
   void flush(HostPort& port, PeNumber pe);
 
   const Placement& placement_;
@@ -39,6 +40,7 @@ class RayTracingPhase : public RayPhase {
   std::uint64_t stride_;                                  ///< of the order in which pixels are taken
   std::uint64_t next_ = 0;
   std::uint64_t sent_ = 0;
+  std::uint64_t turn_ = 0;
   std::uint64_t pool_;
 };
 

@@ -89,7 +89,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       port.work(HostWork::irradiance_fit, lattice_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
-      if (!setup.paper) return std::make_unique<TilePhase>(setup.placement.torus.pes(), job_.ray_tracing);
+      if (setup.parameters.pixel_samples > 0)
+        return std::make_unique<TilePhase>(setup.placement.torus.pes(), job_.ray_tracing);
       return std::make_unique<RayTracingPhase>(setup.ray_placement, job_.rays, job_.ray_tracing);
     case Step::report:
       return std::make_unique<ReportPhase>(setup.placement.torus.pes());
@@ -117,7 +118,7 @@ std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
   const Placement& placement = setup.placement_of(stage);
   Loads loads;
   loads.layout = [&placement, layout_at](PeNumber pe) { return layout_at(placement, pe).layout; };
-  if (!setup.paper) {
+  if (setup.load_together) {
     const Placement common = placement.with_nobody();
     const auto nobody = static_cast<PeNumber>(placement.torus.pes());
     loads.common =

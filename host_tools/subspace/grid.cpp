@@ -12,10 +12,10 @@
 namespace torolux {
 namespace {
 
-/// Along the longest axis of a scene of one triangle; more by the cube root of their number. One PE is fastest with 32
-/// for 12,000.
-constexpr double kSpreadCells = 1.4;
-constexpr double kLeastSpreadCells = 8;
+/// Along the longest axis, times the cube root of the number of triangles. One PE is fastest with 24 to 32
+/// for 12,000, and with 3 for the 34 of the Cornell box.
+constexpr double kSpreadCells = 1.0;
+constexpr double kLeastSpreadCells = 2;
 constexpr double kMostSpreadCells = 64;
 /// Of the map, for each cell: a bit and its share of a word's rank, and an entry for about one cell in eight.
 constexpr double kMapBytes = 0.75;

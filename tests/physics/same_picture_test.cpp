@@ -168,12 +168,19 @@ INSTANTIATE_TEST_SUITE_P(Names, Allocation, testing::Values("skewed", "skewed-bo
                          });
 
 /// How a scene and the work on it are shared out: the published scheme, or copies on every PE of nothing, of some, of
-/// all subspaces, with points and tiles dealt to whoever has little.
+/// all subspaces, with points and tiles dealt to whoever has little; or one scheme with steps of the other.
 struct Sharing {
   const char* name;
-  Scheme scheme;
-  std::optional<double> replicate;
+  MachineChoice machine;
 };
+
+template <class Change>
+Sharing sharing(const char* name, Scheme scheme, Change change) {
+  Sharing result{name, {}};
+  take_scheme(result.machine, scheme);
+  change(result.machine);
+  return result;
+}
 
 struct Solved {
   std::vector<std::byte> picture;
@@ -203,12 +210,10 @@ TEST_P(Shared, MakesTheSamePictureAndRadiosities) {
     return alone;
   }());
   EXPECT_GT(one.radiosities.size(), 1000U);
+  cornell.machine = GetParam().machine;
   cornell.machine.columns = 3;
   cornell.machine.rows = 2;
   cornell.machine.subspaces = {5, 4, 6};
-  cornell.machine.scheme = GetParam().scheme;
-  cornell.machine.replicate = GetParam().replicate;
-  cornell.machine.allocation = allocation_of(GetParam().scheme);
   for (const auto& [engine, credits] : {std::pair{"native", 1U}, {"translated", 64U}}) {
     cornell.machine.engine = engine;
     cornell.machine.description.records.credits_per_pe = credits;
@@ -217,11 +222,35 @@ TEST_P(Shared, MakesTheSamePictureAndRadiosities) {
     EXPECT_EQ(other.radiosities, one.radiosities) << engine;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Schemes, Shared,
-                         testing::Values(Sharing{"paper", Scheme::paper, {}}, Sharing{"no_copies", Scheme::spread, 0.0},
-                                         Sharing{"some_copies", Scheme::spread, 0.02},
-                                         Sharing{"copies", Scheme::spread, {}}),
-                         [](const auto& sharing) { return sharing.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, Shared,
+    testing::Values(sharing("paper", Scheme::paper, [](MachineChoice&) {}),
+                    sharing("no_copies", Scheme::spread, [](MachineChoice& m) { m.replicate = 0; }),
+                    sharing("some_copies", Scheme::spread, [](MachineChoice& m) { m.replicate = 0.02; }),
+                    sharing("copies", Scheme::spread, [](MachineChoice&) {}),
+                    sharing("paper_points_travel", Scheme::paper, [](MachineChoice& m) { m.points = Points::travel; }),
+                    sharing("paper_over_empty_with_tiles", Scheme::paper,
+                            [](MachineChoice& m) {
+                              m.empty = Empty::over;
+                              m.camera_rays = RayMaker::pes;
+                            }),
+                    sharing("paper_copies_enter_outermost", Scheme::paper,
+                            [](MachineChoice& m) {
+                              m.replicate = 0.02;
+                              m.skip_empty_subspaces = false;
+                            }),
+                    sharing("points_stay", Scheme::spread, [](MachineChoice& m) { m.points = Points::stay; }),
+                    sharing("enter_empty_no_copies", Scheme::spread,
+                            [](MachineChoice& m) {
+                              m.empty = Empty::enter;
+                              m.replicate = 0;
+                            }),
+                    sharing("host_rays_enter_outermost", Scheme::spread,
+                            [](MachineChoice& m) {
+                              m.camera_rays = RayMaker::host;
+                              m.skip_empty_subspaces = false;
+                            })),
+    [](const auto& sharing) { return sharing.param.name; });
 
 class Grid : public testing::TestWithParam<std::array<std::uint32_t, 3>> {};
 

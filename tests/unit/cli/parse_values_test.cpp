@@ -41,6 +41,15 @@ TEST(ParseSubspaces, TakesThreeNumbersOrAuto) {
   EXPECT_EQ(parse_scheme("paper"), Scheme::paper);
   EXPECT_EQ(parse_scheme("spread"), Scheme::spread);
   EXPECT_THROW(parse_scheme("Paper"), UsageError);
+  EXPECT_EQ(parse_points("travel"), Points::travel);
+  EXPECT_EQ(parse_points("stay"), Points::stay);
+  EXPECT_THROW(parse_points("go"), UsageError);
+  EXPECT_EQ(parse_empty("over"), Empty::over);
+  EXPECT_EQ(parse_empty("enter"), Empty::enter);
+  EXPECT_THROW(parse_empty(""), UsageError);
+  EXPECT_EQ(parse_ray_maker("pes"), RayMaker::pes);
+  EXPECT_EQ(parse_ray_maker("host"), RayMaker::host);
+  EXPECT_THROW(parse_ray_maker("pe"), UsageError);
   EXPECT_EQ(parse_fraction("auto"), std::nullopt);
   EXPECT_EQ(parse_fraction("0.25"), 0.25);
   EXPECT_THROW(parse_fraction("1.5"), InputError);

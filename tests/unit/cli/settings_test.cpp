@@ -130,7 +130,11 @@ void any_machine(RenderOptions& o) {
   perhaps([&] { o.subspaces = SubspacesOption{{{whole<std::uint32_t>(1, 1024), 7, 9}}}; });
   perhaps([&] { o.scheme = *rc::gen::element(Scheme::spread, Scheme::paper); });
   perhaps([&] { o.allocation = allocation(); });
-  perhaps([&] { o.replicate = real(0, 1); });
+  perhaps([&] { o.replicate = ReplicateOption{real(0, 1)}; });
+  perhaps([&] { o.replicate = ReplicateOption{}; });
+  perhaps([&] { o.points = *rc::gen::element(Points::travel, Points::stay); });
+  perhaps([&] { o.empty = *rc::gen::element(Empty::over, Empty::enter); });
+  perhaps([&] { o.camera_rays = *rc::gen::element(RayMaker::pes, RayMaker::host); });
   perhaps([&] { o.engine = "qemu"; });
   perhaps([&] { o.debugging.qemu_pes = {0, 1, 7}; });
   o.enter_empty = *rc::gen::arbitrary<bool>();

@@ -74,9 +74,32 @@ TEST(Settle, AllocationFollowsTheScheme) {
   EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "skewed");
   EXPECT_EQ(settle(options, scene_with_defaults()).machine.allocation, "block") << "the scene's";
   options.allocation = "modulo";
-  options.replicate = 0.25;
+  options.replicate = ReplicateOption{0.25};
   EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "modulo");
   EXPECT_EQ(settle(options, bare_scene()).machine.replicate, 0.25);
+}
+
+TEST(Settle, EachStepFollowsTheSchemeUnlessGiven) {
+  RenderOptions options;
+  const auto machine = [&options] { return settle(options, bare_scene()).machine; };
+  EXPECT_EQ(machine().points, Points::travel);
+  EXPECT_EQ(machine().empty, Empty::over);
+  EXPECT_EQ(machine().camera_rays, RayMaker::pes);
+  EXPECT_EQ(machine().replicate, std::nullopt);
+  options.scheme = Scheme::paper;
+  EXPECT_EQ(machine().points, Points::stay);
+  EXPECT_EQ(machine().empty, Empty::enter);
+  EXPECT_EQ(machine().camera_rays, RayMaker::host);
+  EXPECT_EQ(machine().replicate, 0.0);
+  options.points = Points::travel;
+  EXPECT_EQ(machine().points, Points::travel);
+  EXPECT_EQ(machine().empty, Empty::enter) << "one at a time";
+  options.empty = Empty::over;
+  options.camera_rays = RayMaker::pes;
+  options.replicate = ReplicateOption{};
+  EXPECT_EQ(machine().empty, Empty::over);
+  EXPECT_EQ(machine().camera_rays, RayMaker::pes);
+  EXPECT_EQ(machine().replicate, std::nullopt) << "auto outweighs the scheme's 0";
 }
 
 TEST(Settle, SceneOutweighsBuiltIn) {

@@ -315,12 +315,12 @@ TEST(Malformed, PointsAreDealtAsOftenAsThereAre) {
   EXPECT_EQ(fault(deal({0, 1})), code(FaultCode::outside_store)) << "of one point";
   EXPECT_EQ(fault(deal({})), code(FaultCode::short_message)) << "nobody";
   EXPECT_EQ(fault([&](FakeMachine& machine) {
-              machine.message(0, MessageKind::deal, protocol::Deal{65, {}});
+              machine.message(0, MessageKind::deal, protocol::Deal{65, 1, {}});
             }),
             code(FaultCode::short_message))
       << "more than a message holds";
   EXPECT_EQ(fault([](FakeMachine& machine) {
-              const std::array<std::uint32_t, 2> cut{4, 0};  // of four entries two are there
+              const std::array<std::uint32_t, 3> cut{4, 1, 0};  // of four entries two are there
               machine.message(0, MessageKind::deal, cut);
             }),
             code(FaultCode::short_message));
@@ -334,7 +334,7 @@ TEST(Malformed, PointsAreDealtAsOftenAsThereAre) {
             code(FaultCode::unexpected_message))
       << "a shot in the midst of another";
   EXPECT_EQ(fault([](FakeMachine& machine) {
-              machine.message(1, MessageKind::deal, protocol::Deal{1, {}});
+              machine.message(1, MessageKind::deal, protocol::Deal{1, 1, {}});
             }),
             code(FaultCode::unexpected_message))
       << "of no shot";

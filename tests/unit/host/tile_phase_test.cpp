@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "tests/unit/host/fake_port.hpp"
@@ -46,8 +47,9 @@ class TileMachine {
          protocol::WorkDone{1, std::uint32_t{tile.columns} * tile.rows * kSamples - lost});
     take();
   }
-  void send_home(PeNumber pe) {
-    const std::uint32_t count = std::exchange(credits_[pe], 0);
+  void send_home(PeNumber pe, std::uint32_t most = 1000) {
+    const std::uint32_t count = std::min(credits_[pe], most);
+    credits_[pe] -= count;
     if (count > 0) tell(phase_, port_, pe, MessageKind::credits, protocol::Credits{count});
     take();
   }
@@ -153,6 +155,12 @@ TEST(TilePhase, CreditsGoToWhoHasNone) {
   machine.send_home(0);
   EXPECT_EQ(machine.credits_of(1), 6U) << "half a share of what has come home";
   EXPECT_EQ(machine.credits_out() + phase.credits_home(), 12U);
+  machine.need(2);
+  EXPECT_EQ(machine.credits_of(2), 6U);
+  EXPECT_EQ(phase.credits_home(), 0U);
+  machine.need(0);
+  machine.send_home(1, 1);
+  EXPECT_EQ(machine.credits_of(0), 1U) << "no more than there are";
 }
 
 TEST(TilePhase, OneCreditIsEnough) {
