@@ -187,7 +187,7 @@ class Rounds {
       const double records = records_of(*source);
       (source->emits ? emitted : reflected) += source->unshot;
       source->unshot = 0;
-      (setup_.paper ? round.of_pe[source->pe] : round.anywhere) += records * kCyclesToMake;
+      (setup_.points_travel ? round.anywhere : round.of_pe[source->pe]) += records * kCyclesToMake;
       round.add(kind.load, records);
       made += records;
       prediction.packets += records * kind.packets;
@@ -202,7 +202,7 @@ class Rounds {
     prediction.instructions += round.sum() / kCyclesPerInstruction;
     prediction.radiosity_cycles += round.cycles();
     if (round.of_pe.size() == 1) return unshot;
-    if (setup_.paper) {
+    if (!setup_.points_travel) {
       prediction.radiosity_cycles += round.cycles() * (1 / kUtilisation - 1);
     } else {
       prediction.radiosity_cycles += kTail * protocol::hemicube_pixels(setup_.parameters.hemicube) * round.sum() / made;
@@ -236,7 +236,7 @@ double load_cycles(const RenderSetup& setup, const MachineDescription& machine, 
     return static_cast<double>(made.load_end - made.layout.cell_words.address) - elements;
   };
   const unsigned pes = placement.torus.pes();
-  const double common = setup.paper ? 0 : bytes_of(placement.with_nobody(), pes);
+  const double common = setup.load_together ? bytes_of(placement.with_nobody(), pes) : 0;
   double all = common;
   double most = 0;
   for (unsigned pe = 0; pe < pes; ++pe) {
@@ -279,15 +279,16 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
   const CameraSample sample = sample_camera(scene, setup.mesh, setup.ray_placement, rays, choice, kPaths);
   const double count = sample.sent * static_cast<double>(rays.count());
   Load load(sample.paths, kCyclesToShow, kCyclesPerRayTurn);
-  if (setup.paper) {
+  const bool host_makes_rays = setup.parameters.pixel_samples == 0;
+  if (host_makes_rays) {
     for (double& pe : load.of_pe) pe += kCyclesToTakeRay / static_cast<double>(load.of_pe.size());
   } else {
     load.anywhere += kCyclesToMakeRay;
   }
-  const double utilisation = load.of_pe.size() == 1 ? 1.0 : setup.paper ? kRayUtilisation : kTileUtilisation;
+  const double utilisation = load.of_pe.size() == 1 ? 1.0 : host_makes_rays ? kRayUtilisation : kTileUtilisation;
   prediction.rays = count;
   prediction.ray_tracing_cycles = std::max(count * load.cycles() / utilisation,
-                                           setup.paper ? count * host_cycles_of_ray(machine.description) : 0.0);
+                                           host_makes_rays ? count * host_cycles_of_ray(machine.description) : 0.0);
   prediction.instructions += count * load.sum() / kCyclesPerInstruction;
   prediction.packets += count * sample.paths.sum().hand_overs / kHandedPerPacket;
 }

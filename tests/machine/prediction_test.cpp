@@ -29,7 +29,7 @@ TEST_P(Prediction, IsWithinAFactorOfTwo) {
   render_case.machine.engine = kDefaultEngine;
   render_case.machine.columns = GetParam().columns;
   render_case.machine.rows = GetParam().rows;
-  render_case.machine.scheme = GetParam().scheme;
+  take_scheme(render_case.machine, GetParam().scheme);
   render_case.machine.subspaces = {GetParam().cells, GetParam().cells, GetParam().cells};
   const RenderFigures figures = run_case(render_case).figures;
   const Scene scene = load_scene(render_case.scene, {});
@@ -92,7 +92,7 @@ TEST_P(PredictionOfEffects, IsWithinAQuarter) {
   render_case.machine.description = {};
   render_case.machine.engine = kDefaultEngine;
   render_case.machine.columns = render_case.machine.rows = 2;
-  render_case.machine.scheme = GetParam().scheme;
+  take_scheme(render_case.machine, GetParam().scheme);
   render_case.machine.subspaces = {8, 8, 8};
   const RenderFigures figures = run_case(render_case).figures;
   const auto& prediction = plan(scene, scene.camera.value(), quality, render_case.machine, pe_image()).prediction;
