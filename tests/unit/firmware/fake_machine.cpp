@@ -324,20 +324,20 @@ std::uint32_t FakeMachine::grant_to_all_in_need(std::uint32_t credits) {
 std::uint32_t FakeMachine::shoot(std::uint16_t owner, const protocol::Shoot& shoot, std::uint32_t credits) {
   const std::uint64_t before = rays();
   message(owner, MessageKind::shoot, shoot);
-  const std::uint32_t points = points_of(owner, shoot);
+  const std::uint32_t pieces = points_of(owner, shoot) * parts;
   std::vector<std::uint32_t> supplied(pes.size());
   std::uint32_t dealt = 0;
   protocol::WorkDone done{};
-  while (done.points < points) {
+  while (done.points < pieces) {
     std::vector<std::uint16_t> to;
-    while (dealt < points && to.size() < protocol::Deal::kMost) {
+    while (dealt < pieces && to.size() < protocol::Deal::kMost) {
       const auto next = static_cast<std::uint16_t>(points_travel ? (owner + dealt) % pes.size() : owner);
       if (supplied[next] == protocol::kPointPlaces) break;
       ++supplied[next];
       to.push_back(next);
       ++dealt;
     }
-    if (!to.empty()) deal(owner, to);
+    if (!to.empty()) deal(owner, to, parts);
     run();
     const std::uint32_t granted = grant_to_all_in_need(credits);
     run();
