@@ -35,7 +35,7 @@ constexpr double kCyclesToTakeRay = 340;     // that the host has made
 constexpr double kCyclesPerHandOver = 440;   // with a share of its packet; beside the start of what is left
 constexpr double kCyclesPerSentLight = 250;  // taken in and added to its element
 constexpr double kCyclesPerInstruction = 1.66;
-/// In scheme `paper`, of a PE's time in a round; the rest it waits for light that is on its way. With one PE nothing
+/// Where points stay, of a PE's time in a round; the rest it waits for light that is on its way. With one PE nothing
 /// waits.
 constexpr double kUtilisation = 0.85;
 /// In scheme `spread`: at a round's end a PE waits for others that expand their last point. Of a point's time.
@@ -187,7 +187,7 @@ class Rounds {
       const double records = records_of(*source);
       (source->emits ? emitted : reflected) += source->unshot;
       source->unshot = 0;
-      (setup_.points_travel ? round.anywhere : round.of_pe[source->pe]) += records * kCyclesToMake;
+      (!setup_.points_travel ? round.of_pe[source->pe] : round.anywhere) += records * kCyclesToMake;
       round.add(kind.load, records);
       made += records;
       prediction.packets += records * kind.packets;
@@ -226,7 +226,7 @@ double host_cycles(const MachineDescription& machine, HostWork work, double item
 }
 
 /// Of one stage: made by the host, over the bus and into each PE's memory, in turn. What all have alike goes to all at
-/// once; in scheme `paper` there is nothing like that.
+/// once, where that is sent to all together.
 double load_cycles(const RenderSetup& setup, const MachineDescription& machine, protocol::Stage stage) {
   const Placement& placement = setup.placement_of(stage);
   const auto bytes_of = [&](const Placement& of, unsigned pe) {
@@ -236,7 +236,7 @@ double load_cycles(const RenderSetup& setup, const MachineDescription& machine, 
     return static_cast<double>(made.load_end - made.layout.cell_words.address) - elements;
   };
   const unsigned pes = placement.torus.pes();
-  const double common = setup.load_together ? bytes_of(placement.with_nobody(), pes) : 0;
+  const double common = !setup.load_together ? 0 : bytes_of(placement.with_nobody(), pes);
   double all = common;
   double most = 0;
   for (unsigned pe = 0; pe < pes; ++pe) {
@@ -279,16 +279,16 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
   const CameraSample sample = sample_camera(scene, setup.mesh, setup.ray_placement, rays, choice, kPaths);
   const double count = sample.sent * static_cast<double>(rays.count());
   Load load(sample.paths, kCyclesToShow, kCyclesPerRayTurn);
-  const bool host_makes_rays = setup.parameters.pixel_samples == 0;
-  if (host_makes_rays) {
+  const bool by_host = setup.parameters.pixel_samples == 0;  // the camera rays
+  if (by_host) {
     for (double& pe : load.of_pe) pe += kCyclesToTakeRay / static_cast<double>(load.of_pe.size());
   } else {
     load.anywhere += kCyclesToMakeRay;
   }
-  const double utilisation = load.of_pe.size() == 1 ? 1.0 : host_makes_rays ? kRayUtilisation : kTileUtilisation;
+  const double utilisation = load.of_pe.size() == 1 ? 1.0 : by_host ? kRayUtilisation : kTileUtilisation;
   prediction.rays = count;
   prediction.ray_tracing_cycles = std::max(count * load.cycles() / utilisation,
-                                           host_makes_rays ? count * host_cycles_of_ray(machine.description) : 0.0);
+                                           by_host ? count * host_cycles_of_ray(machine.description) : 0.0);
   prediction.instructions += count * load.sum() / kCyclesPerInstruction;
   prediction.packets += count * sample.paths.sum().hand_overs / kHandedPerPacket;
 }

@@ -299,8 +299,8 @@ std::uint32_t FakeMachine::points_of(std::uint16_t pe, const protocol::Shoot& sh
   return protocol::points_of_shot(shoot.kind, flux, l.points_per_quantum, l.shot_points, l.emission_points);
 }
 
-void FakeMachine::deal(std::uint16_t owner, std::span<const std::uint16_t> to, std::uint32_t parts) {
-  protocol::Deal deal{static_cast<std::uint32_t>(to.size()), parts, {}};
+void FakeMachine::deal(std::uint16_t owner, std::span<const std::uint16_t> to, std::uint32_t in_parts) {
+  protocol::Deal deal{static_cast<std::uint32_t>(to.size()), in_parts, {}};
   std::copy(to.begin(), to.end(), deal.pe.begin());
   message(owner, MessageKind::deal,
           std::as_bytes(std::span(&deal, 1)).first(offsetof(protocol::Deal, pe) + to.size_bytes()));
@@ -324,20 +324,20 @@ std::uint32_t FakeMachine::grant_to_all_in_need(std::uint32_t credits) {
 std::uint32_t FakeMachine::shoot(std::uint16_t owner, const protocol::Shoot& shoot, std::uint32_t credits) {
   const std::uint64_t before = rays();
   message(owner, MessageKind::shoot, shoot);
-  const std::uint32_t points = points_of(owner, shoot);
+  const std::uint32_t pieces = points_of(owner, shoot) * parts;
   std::vector<std::uint32_t> supplied(pes.size());
   std::uint32_t dealt = 0;
   protocol::WorkDone done{};
-  while (done.points < points) {
+  while (done.points < pieces) {
     std::vector<std::uint16_t> to;
-    while (dealt < points && to.size() < protocol::Deal::kMost) {
+    while (dealt < pieces && to.size() < protocol::Deal::kMost) {
       const auto next = static_cast<std::uint16_t>(points_travel ? (owner + dealt) % pes.size() : owner);
       if (supplied[next] == protocol::kPointPlaces) break;
       ++supplied[next];
       to.push_back(next);
       ++dealt;
     }
-    if (!to.empty()) deal(owner, to);
+    if (!to.empty()) deal(owner, to, parts);
     run();
     const std::uint32_t granted = grant_to_all_in_need(credits);
     run();

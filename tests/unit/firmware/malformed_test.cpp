@@ -307,12 +307,22 @@ TEST(Malformed, PointsAreDealtAsOftenAsThereAre) {
       machine.run();
     });
   };
-  const auto deal = [](std::vector<std::uint16_t> to) {
-    return [to = std::move(to)](FakeMachine& machine) { machine.deal(0, to); };
+  const auto deal = [](std::vector<std::uint16_t> to, std::uint32_t parts = 1) {
+    return [to = std::move(to), parts](FakeMachine& machine) { machine.deal(0, to, parts); };
   };
   EXPECT_EQ(fault(deal({1})), 0U);
   EXPECT_EQ(fault(deal({2})), code(FaultCode::outside_store)) << "of two PEs";
   EXPECT_EQ(fault(deal({0, 1})), code(FaultCode::outside_store)) << "of one point";
+  EXPECT_EQ(fault(deal({1, 0, 1, 1}, 4)), 0U) << "in parts";
+  EXPECT_EQ(fault(deal({1, 0, 1, 1, 0}, 4)), code(FaultCode::outside_store)) << "of four parts";
+  EXPECT_EQ(fault(deal({1}, 3)), code(FaultCode::outside_store));
+  EXPECT_EQ(fault(deal({1}, 0)), code(FaultCode::outside_store));
+  EXPECT_EQ(fault([](FakeMachine& machine) {
+              machine.deal(0, std::array<std::uint16_t, 2>{1, 1}, 4);
+              machine.deal(0, std::array<std::uint16_t, 1>{1}, 1);
+            }),
+            code(FaultCode::outside_store))
+      << "whole, when half of it is dealt";
   EXPECT_EQ(fault(deal({})), code(FaultCode::short_message)) << "nobody";
   EXPECT_EQ(fault([&](FakeMachine& machine) {
               machine.message(0, MessageKind::deal, protocol::Deal{65, 1, {}});
@@ -426,6 +436,8 @@ TEST(Malformed, PointsThatDoNotHoldAreRefused) {
   EXPECT_EQ(fault([](protocol::PointRecord&) {}), 0U);
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.place = protocol::cell_code(1, 1, 2); }), bad);
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flux[2] = -1; }), bad);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = 4U << protocol::kPartShift; }), 0U);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = 5U << protocol::kPartShift; }), bad);
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flux[0] = (std::int64_t{1} << 56U) + 1; }), bad);
   // As many as there are places, with the one whose records are being made.
   EXPECT_EQ(fault([](protocol::PointRecord&) {}, protocol::kPointPlaces), 0U);

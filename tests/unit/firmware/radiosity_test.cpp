@@ -97,9 +97,10 @@ void gather(FakeMachine& machine, Outcome& out) {
 
 /// Shoots the best side of the whole machine `shots` times, as a host would, one at a time.
 Outcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits,
-                bool points_travel = true) {
+                bool points_travel = true, std::uint32_t parts = 1) {
   FakeMachine machine(scene.pes);
   machine.points_travel = points_travel;
+  machine.parts = parts;
   machine.load(scene, Stage::radiosity, niu_slots, 1, light_lamp);
   for (std::uint16_t p = 0; p < scene.pes; ++p) machine.message(p, protocol::MessageKind::begin);
   machine.run();
@@ -163,18 +164,20 @@ TEST(Radiosity, SameSumsWhateverTheMachine) {
     std::array<std::uint32_t, 3> cells;
     std::uint32_t slots, credits;
     bool stop_everywhere, copy_all, points_travel;
-    std::uint32_t open_batches;
+    std::uint32_t open_batches, parts;
   };
   for (const Machine& m :
-       {Machine{1, {5, 3, 4}, 64, 77, true, true, true, 64}, Machine{2, {2, 2, 2}, 64, 100, false, false, true, 2},
-        Machine{5, {4, 7, 3}, 200, 999, true, false, true, 8}, Machine{12, {6, 6, 6}, 16, 300, false, true, true, 16},
-        Machine{4, {6, 6, 6}, 64, 50, true, false, false, 1}, Machine{4, {6, 6, 6}, 64, 1, false, true, true, 4},
-        Machine{7, {3, 9, 5}, 64, 64, false, false, false, 4}}) {
+       {Machine{1, {5, 3, 4}, 64, 77, true, true, true, 64, 1},
+        Machine{2, {2, 2, 2}, 64, 100, false, false, true, 2, 4},
+        Machine{5, {4, 7, 3}, 200, 999, true, false, true, 8, 1},
+        Machine{12, {6, 6, 6}, 16, 300, false, true, true, 16, 4},
+        Machine{4, {6, 6, 6}, 64, 50, true, false, false, 1, 4}, Machine{4, {6, 6, 6}, 64, 1, false, true, true, 4, 1},
+        Machine{7, {3, 9, 5}, 64, 64, false, false, false, 4, 1}}) {
     TestScene scene = room_with_balls(m.pes, m.cells);
     scene.stop_everywhere = m.stop_everywhere;
     scene.copy_all = m.copy_all;
     scene.open_batches = m.open_batches;
-    const Outcome other = radiate(scene, 10, m.slots, m.credits, m.points_travel);
+    const Outcome other = radiate(scene, 10, m.slots, m.credits, m.points_travel, m.parts);
     EXPECT_EQ(other.flux, one.flux) << m.pes << " PEs";
     EXPECT_EQ(other.specular, one.specular);
     EXPECT_EQ(other.glossy, one.glossy);
@@ -262,7 +265,7 @@ TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
     s.copy_all = pick(0, 2) == 1;
     s.open_batches = 1U << pick(0, 7);
     s.credits_kept = pick(1, 100);
-    expect_balance(radiate(s, 3, pick(16, 65), pick(1, 200), pick(0, 2) == 1));
+    expect_balance(radiate(s, 3, pick(16, 65), pick(1, 200), pick(0, 2) == 1, pick(0, 2) == 1 ? 1 : 4));
     RC_ASSERT(!::testing::Test::HasFailure());
   });
   EXPECT_TRUE(holds);
@@ -290,8 +293,8 @@ struct Lamp {
     }
     machine.message(owner, MessageKind::shoot, shoot);
   }
-  void deal(std::vector<std::uint16_t> to) {
-    machine.deal(owner, to);
+  void deal(std::vector<std::uint16_t> to, std::uint32_t parts = 1) {
+    machine.deal(owner, to, parts);
     machine.run();
   }
   void grant(std::uint16_t pe, std::uint32_t credits) {
@@ -376,24 +379,28 @@ TEST(Credits, SurplusGoesHome) {
   }
 }
 
-// Whoever makes a point's records, they are the same ones: the sums of all elements are those that the owner alone
-// makes, and each PE tells the host of its own.
+// Whoever makes a point's records, or a part of them, they are the same ones: the sums of all elements are those that
+// the owner alone makes, and each PE tells the host of its own.
 TEST(Points, SameRecordsWhoeverMakesThem) {
-  const auto shot_by = [](const std::vector<std::uint16_t>& to) {
+  // to: who gets each piece; of a point, or of a part of one.
+  const auto shot_by = [](const std::vector<std::uint16_t>& to, std::uint32_t parts) {
     Lamp lamp;
-    lamp.deal(to);
     std::map<std::uint16_t, protocol::WorkDone> done;
-    std::uint32_t points = 0;
-    for (int turn = 0; points < 4 && turn < 1'000; ++turn) {
-      for (const std::uint16_t pe : lamp.asked()) lamp.grant(pe, 40);
-      for (const HostMessage& m : lamp.machine.take(MessageKind::work_done)) {
-        const auto part = m.as<protocol::WorkDone>();
-        done[m.source].points += part.points;
-        done[m.source].records += part.records;
-        points += part.points;
+    std::uint32_t pieces = 0;
+    for (std::size_t first = 0; first < to.size(); first += 4) {  // so that nobody has more than it has places for
+      lamp.deal({to.begin() + static_cast<std::ptrdiff_t>(first), to.begin() + static_cast<std::ptrdiff_t>(first + 4)},
+                parts);
+      for (int turn = 0; pieces < first + 4 && turn < 1'000; ++turn) {
+        for (const std::uint16_t pe : lamp.asked()) lamp.grant(pe, 40);
+        for (const HostMessage& m : lamp.machine.take(MessageKind::work_done)) {
+          const auto part = m.as<protocol::WorkDone>();
+          done[m.source].points += part.points;
+          done[m.source].records += part.records;
+          pieces += part.points;
+        }
       }
     }
-    EXPECT_EQ(points, 4U);
+    EXPECT_EQ(pieces, to.size());
     Outcome out;
     gather(lamp.machine, out);
     for (const auto& [pe, part] : done) {
@@ -403,16 +410,20 @@ TEST(Points, SameRecordsWhoeverMakesThem) {
     }
     return out;
   };
-  const Outcome alone = shot_by({0, 0, 0, 0});
+  const Outcome alone = shot_by({0, 0, 0, 0}, 1);
   EXPECT_GT(alone.records, 500U);
-  for (const std::vector<std::uint16_t>& to :
-       {std::vector<std::uint16_t>{1, 1, 1, 1}, {2, 2, 2, 2}, {0, 1, 2, 0}, {2, 1, 0, 1}}) {
-    const Outcome other = shot_by(to);
+  const auto expect_same = [&alone](const Outcome& other) {
     EXPECT_EQ(other.flux, alone.flux);
     EXPECT_EQ(other.specular, alone.specular);
     EXPECT_EQ(other.glossy, alone.glossy);
     EXPECT_EQ(other.records, alone.records);
+  };
+  for (const std::vector<std::uint16_t>& to :
+       {std::vector<std::uint16_t>{1, 1, 1, 1}, {2, 2, 2, 2}, {0, 1, 2, 0}, {2, 1, 0, 1}}) {
+    expect_same(shot_by(to, 1));
   }
+  expect_same(shot_by(std::vector<std::uint16_t>(16, 1), protocol::kPointParts));
+  expect_same(shot_by({0, 1, 2, 0, 2, 2, 1, 1, 0, 0, 0, 2, 1, 0, 2, 1}, protocol::kPointParts));
 }
 
 // A shot without flux has points all the same, and they are done without a record.

@@ -66,18 +66,30 @@ std::map<PeNumber, std::uint32_t> grants_in(const std::vector<Sent>& sent) {
   return grants;
 }
 
-/// Who was dealt a point, in order; of one owner or all.
-std::vector<PeNumber> deals_in(const std::vector<Sent>& sent, std::optional<PeNumber> owner = {}) {
-  std::vector<PeNumber> to;
+/// A point that was dealt, or a part of one.
+struct Piece {
+  PeNumber to;
+  std::uint32_t of_point;  ///< in parts of kPointParts
+};
+
+/// In the order of dealing; of one owner or all.
+std::vector<Piece> pieces_in(const std::vector<Sent>& sent, std::optional<PeNumber> owner = {}) {
+  std::vector<Piece> pieces;
   for (const Sent& one : sent) {
     if (!one.is(MessageKind::deal) || (owner && one.pe != *owner)) continue;
-    const auto count = one.as<std::uint32_t>();
-    const std::size_t head = offsetof(protocol::Deal, pe);
-    EXPECT_EQ(one.bytes.size(), head + count * sizeof(PeNumber)) << "only what is used is sent";
-    protocol::Deal whole{};
-    std::memcpy(&whole, one.bytes.data(), one.bytes.size());
-    to.insert(to.end(), whole.pe.begin(), whole.pe.begin() + whole.count);
+    protocol::Deal deal{};
+    std::memcpy(&deal, one.bytes.data(), std::min(one.bytes.size(), sizeof deal));
+    EXPECT_EQ(one.bytes.size(), offsetof(protocol::Deal, pe) + deal.count * sizeof(PeNumber)) << "no more is sent";
+    EXPECT_TRUE(deal.parts == 1 || deal.parts == protocol::kPointParts);
+    for (std::uint32_t i = 0; i < deal.count; ++i) pieces.push_back({deal.pe[i], protocol::kPointParts / deal.parts});
   }
+  return pieces;
+}
+
+/// Who was dealt something.
+std::vector<PeNumber> deals_in(const std::vector<Sent>& sent, std::optional<PeNumber> owner = {}) {
+  std::vector<PeNumber> to;
+  for (const Piece& piece : pieces_in(sent, owner)) to.push_back(piece.to);
   return to;
 }
 
@@ -132,8 +144,8 @@ TEST(RadiosityPhase, SaysWhatItComputes) {
   port.take();  // what was asked is on its way
   offer(phase, port, 2, {}, 1000);
   EXPECT_EQ(port.done(HostWork::compare), 5U * 3) << "five are sorted";
-  // Each of the four shots has one point to be dealt; three PEs get one or two of them, and credits.
-  EXPECT_EQ(port.done(HostWork::entry), 5U + 4 + 3);
+  // Each of the three PEs gets two parts of the four shots' points, and credits.
+  EXPECT_EQ(port.done(HostWork::entry), 5U + 6 + 3);
 }
 
 TEST(RadiosityPhase, TheBestOfAllPesShootAndTheirNumbersFollowTheOrderOfChoice) {
@@ -255,27 +267,44 @@ TEST(RadiosityPhase, PointsAreDealtToAllPesAndMoreToWhoHasDoneSome) {
   auto sent = port.take();
   ASSERT_TRUE(sent.front().is(MessageKind::shoot)) << "the owner hears what it is before whom it goes to";
   EXPECT_EQ(sent.front().pe, 1);
-  EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{0, 1, 2, 0, 1, 2, 0, 1, 2}));
-  EXPECT_EQ(deals_in(sent).size(), 9U) << "nobody else deals";
+  EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(deals_in(sent).size(), 6U) << "nobody else deals";
   tell(phase, port, 2, MessageKind::work_done, protocol::WorkDone{2, 100});
   EXPECT_EQ(deals_in(port.take(), PeNumber{1}), (std::vector<PeNumber>{2, 2}));
-  std::size_t dealt = 11;
-  std::vector<std::uint32_t> of_pe{3, 3, 5};
-  std::vector<std::uint32_t> has{3, 3, 3};
+  std::uint32_t dealt = 8 * protocol::kPointParts;
+  std::vector<std::uint32_t> of_pe{2 * 4, 2 * 4, 4 * 4};
+  std::vector<std::uint32_t> has{2, 2, 2};
+  std::uint32_t in_parts = 0;
   for (PeNumber pe = 0; has != std::vector<std::uint32_t>{0, 0, 0}; pe = static_cast<PeNumber>((pe + 1) % 3)) {
     if (has[pe] == 0) continue;
     --has[pe];
     tell(phase, port, pe, MessageKind::work_done, protocol::WorkDone{1, 100});
-    for (const PeNumber to : deals_in(port.take(), PeNumber{1})) {
-      EXPECT_EQ(to, pe);
-      ++has[to];
-      ++of_pe[to];
-      ++dealt;
-      EXPECT_LE(has[to], protocol::kPointPlaces);
+    for (const Piece& piece : pieces_in(port.take(), PeNumber{1})) {
+      EXPECT_EQ(piece.to, pe);
+      ++has[piece.to];
+      of_pe[piece.to] += piece.of_point;
+      dealt += piece.of_point;
+      in_parts += piece.of_point == 1 ? 1 : 0;
+      EXPECT_LE(has[piece.to], protocol::kPointPlaces);
     }
   }
-  EXPECT_EQ(dealt, 64U);
-  EXPECT_GE(*std::min_element(of_pe.begin(), of_pe.end()), 20U);
+  EXPECT_EQ(dealt, 64U * protocol::kPointParts);
+  EXPECT_EQ(in_parts, 5U * protocol::kPointParts) << "when less than two for each of three PEs are left";
+  EXPECT_GE(*std::min_element(of_pe.begin(), of_pe.end()), 19U * protocol::kPointParts);
+}
+
+// At the end nobody has two pieces while another has none.
+TEST(RadiosityPhase, TheLastPiecesGoToWhoHasNothing) {
+  FakePort port(5);
+  RadiosityPhase phase(settings(5));
+  phase.start(port);
+  port.take();
+  for (PeNumber pe = 0; pe < 5; ++pe) {
+    std::vector<Candidate> candidates;
+    if (pe == 3) candidates.push_back(candidate(400, 1, 0, ShotKind::emitted));
+    offer(phase, port, pe, candidates, 1000);
+  }
+  EXPECT_EQ(deals_in(port.take()), (std::vector<PeNumber>{0, 1, 2, 3})) << "the four parts of one point";
 }
 
 TEST(RadiosityPhase, PointsStayAtTheirOwnersWhereTheyDoNotTravel) {
@@ -284,10 +313,16 @@ TEST(RadiosityPhase, PointsStayAtTheirOwnersWhereTheyDoNotTravel) {
   some.points_travel = false;
   RadiosityPhase phase = one_shot(port, some, 1);
   const auto sent = port.take();
-  EXPECT_EQ(deals_in(sent), (std::vector<PeNumber>{1, 1, 1}));
+  EXPECT_EQ(deals_in(sent), (std::vector<PeNumber>{1, 1}));
   EXPECT_EQ(grants_in(sent).size(), 1U) << "nobody else has work";
   tell(phase, port, 1, MessageKind::work_done, protocol::WorkDone{1, 100});
   EXPECT_EQ(deals_in(port.take()), (std::vector<PeNumber>{1}));
+  const auto whole = [](const Piece& piece) { return piece.of_point == protocol::kPointParts; };
+  for (std::uint32_t point = 3; point < 64; ++point) {
+    tell(phase, port, 1, MessageKind::work_done, protocol::WorkDone{1, 100});
+    const auto pieces = pieces_in(port.take());
+    EXPECT_TRUE(std::all_of(pieces.begin(), pieces.end(), whole)) << "there is nobody to share with";
+  }
 }
 
 TEST(RadiosityPhase, OwnersMakePointsInTurnAndOneShotAfterTheOther) {
@@ -302,17 +337,23 @@ TEST(RadiosityPhase, OwnersMakePointsInTurnAndOneShotAfterTheOther) {
   offer(phase, port, 1, {lamp(3)}, 1000);
   auto sent = port.take();
   EXPECT_EQ(shots_in(sent).size(), 2U) << "the first of each";
-  EXPECT_EQ(deals_in(sent, PeNumber{0}), (std::vector<PeNumber>{0, 0, 0}));
-  EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{1, 1, 1}));
-  tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{3, 100});
+  EXPECT_EQ(deals_in(sent, PeNumber{0}), (std::vector<PeNumber>{0, 0}));
+  EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{1, 1}));
+  tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{2, 100});
   sent = port.take();
-  // Two points are left of the first two shots; then the second of PE 0 begins.
-  ASSERT_EQ(sent.size(), 4U);
-  EXPECT_TRUE(sent[0].is(MessageKind::deal));
+  EXPECT_EQ(deals_in(sent, PeNumber{0}), (std::vector<PeNumber>{0}));
+  EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{0}));
+  EXPECT_TRUE(shots_in(sent).empty());
+  // One point is left of each of the first two shots; then the second of PE 0 begins.
+  tell(phase, port, 1, MessageKind::work_done, protocol::WorkDone{1, 100});
+  tell(phase, port, 1, MessageKind::work_done, protocol::WorkDone{1, 100});
+  EXPECT_TRUE(shots_in(port.take()).empty());
+  tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 100});
+  sent = port.take();
+  ASSERT_EQ(sent.size(), 2U);
+  ASSERT_TRUE(sent[0].is(MessageKind::shoot));
+  EXPECT_EQ(sent[0].as<Shoot>().number, 1U);
   EXPECT_TRUE(sent[1].is(MessageKind::deal));
-  EXPECT_TRUE(sent[2].is(MessageKind::shoot));
-  EXPECT_EQ(sent[2].as<Shoot>().number, 1U);
-  EXPECT_TRUE(sent[3].is(MessageKind::deal));
 }
 
 TEST(RadiosityPhase, ADealIsNoLongerThanItsMessage) {
@@ -332,7 +373,7 @@ TEST(RadiosityPhase, ADealIsNoLongerThanItsMessage) {
   for (const Sent& one : port.take()) {
     if (one.is(MessageKind::deal)) counts.push_back(one.as<std::uint32_t>());
   }
-  EXPECT_EQ(counts, (std::vector<std::uint32_t>{64, 64, 22})) << "three points for each of 50 PEs";
+  EXPECT_EQ(counts, (std::vector<std::uint32_t>{64, 36})) << "two points for each of 50 PEs";
 }
 
 /// PEs that work at random: what they have in hand becomes records, which die anywhere.
@@ -353,7 +394,7 @@ class RandomPes {
     for (const auto& [pe, left] : left_) EXPECT_EQ(left, 0U) << "points never dealt";
   }
   std::uint64_t shots() const { return shots_; }
-  std::uint64_t points() const { return dealt_; }
+  std::uint64_t points() const { return dealt_; }  ///< in parts
 
  private:
   /// What the host has sent; false: a new selection.
@@ -364,15 +405,17 @@ class RandomPes {
       if (sent.is(MessageKind::shoot)) {
         EXPECT_EQ(left_[sent.pe], 0U) << "a shot while another has points left";
         const auto shoot = sent.as<Shoot>();
-        left_[sent.pe] = protocol::points_of_shot(shoot.kind, shoot.amount, settings_.points_per_quantum,
-                                                  settings_.shot_points, settings_.emission_points);
+        left_[sent.pe] =
+            protocol::kPointParts * protocol::points_of_shot(shoot.kind, shoot.amount, settings_.points_per_quantum,
+                                                             settings_.shot_points, settings_.emission_points);
         ++shots_;
       } else if (sent.is(MessageKind::deal)) {
-        for (const PeNumber to : deals_in({sent})) {
-          EXPECT_GT(left_[sent.pe], 0U) << "more points than there are";
-          --left_[sent.pe];
-          EXPECT_LE(++points_[to], protocol::kPointPlaces);
-          ++dealt_;
+        for (const Piece& piece : pieces_in({sent})) {
+          EXPECT_GE(left_[sent.pe], piece.of_point) << "more points than there are";
+          EXPECT_EQ(left_[sent.pe] % piece.of_point, 0U) << "a whole point after some parts of one";
+          left_[sent.pe] -= piece.of_point;
+          EXPECT_LE(++points_[piece.to], protocol::kPointPlaces);
+          dealt_ += piece.of_point;
         }
       } else {
         EXPECT_TRUE(sent.is(MessageKind::grant));
@@ -407,8 +450,8 @@ class RandomPes {
   FakePort& port_;
   RadiositySettings settings_;
   std::minstd_rand random_;
-  std::map<PeNumber, std::uint32_t> left_;    ///< points of the shot in progress that are still to be dealt, by owner
-  std::map<PeNumber, std::uint32_t> points_;  ///< dealt to it and not done
+  std::map<PeNumber, std::uint32_t> left_;    ///< of the owner's shot in progress, parts of points still to be dealt
+  std::map<PeNumber, std::uint32_t> points_;  ///< dealt to it, or parts of points, and not done
   std::map<PeNumber, std::uint64_t> held_;    ///< credits granted and not home
   std::map<PeNumber, bool> asked_;
   std::uint64_t out_ = 0;  ///< credits, their sum
@@ -432,7 +475,7 @@ TEST(RadiosityPhase, CreditsAreNeverMoreThanThereAreAndAllComeHome) {
     RandomPes pes(phase, port, some, seed);
     pes.work_until_the_round_ends();
     EXPECT_EQ(pes.shots(), 4U) << "seed " << seed;
-    EXPECT_EQ(pes.points(), 4U * some.shot_points * some.shot_points);
+    EXPECT_EQ(pes.points(), protocol::kPointParts * 4U * some.shot_points * some.shot_points);
     EXPECT_EQ(phase.shots(), 4U);
     EXPECT_EQ(phase.credits_home(), some.credits);
   }
@@ -464,7 +507,9 @@ TEST(RadiosityPhase, ARoundEndsWithTheLastPointAndTheLastCredit) {
     port.take();
     offer(phase, port, 0, {candidate(400, 1)}, 1000);
     EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{0, 100}}));
-    const auto done = [&] { tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 42}); };
+    for (int part = 0; part < 3; ++part) tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 10});
+    EXPECT_EQ(deals_in(port.take()).size(), 2U) << "four in all";
+    const auto done = [&] { tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 12}); };
     const auto home = [&] { tell(phase, port, 0, MessageKind::credits, protocol::Credits{100}); };
     credits_last ? done() : home();
     EXPECT_TRUE(port.take().empty());
@@ -491,8 +536,8 @@ TEST(RadiosityPhase, MessagesThatCannotBeAreRefused) {
   offer(phase, port, 0, {candidate(400, 1)}, 1000);
   EXPECT_THROW(tell(phase, port, 0, MessageKind::credits, protocol::Credits{1000}), MachineFailure)
       << "more than were handed out";
-  EXPECT_THROW(tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{2, 5}), MachineFailure)
-      << "one point was dealt";
+  EXPECT_THROW(tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{3, 5}), MachineFailure)
+      << "two parts of a point were dealt";
   EXPECT_THROW(tell(phase, port, 0, MessageKind::work_done, protocol::Credits{1}), MachineFailure) << "too short";
   EXPECT_THROW(tell(phase, port, 0, MessageKind::candidates), MachineFailure) << "while shooting";
 }
