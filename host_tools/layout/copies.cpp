@@ -116,7 +116,7 @@ CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t
   std::priority_queue<Offer> offers;
   const auto offer = [&](CellIndex cell) { offers.push({heat[cell] / bytes[cell], cell, bytes[cell]}); };
   for (CellIndex cell = 0; cell < bytes.size(); ++cell) {
-    if (polygons_of_cell[cell].empty() && heat[cell] == 0) continue;  // rays step over it
+    if (polygons_of_cell[cell].empty()) continue;
     bytes[cell] = static_cast<double>(cell_bytes(polygons_of_cell[cell].size()));
     for (const std::uint32_t item : items.of_cell(cell)) bytes[cell] += items.part(item);
     offer(cell);

@@ -11,11 +11,11 @@
 
 namespace torolux {
 
-/// Rough costs in cycles of pe.elf: only their proportions matter.
-inline constexpr double kHeatPerVisit = 130;   ///< of a subspace
-inline constexpr double kHeatPerPolygon = 46;  ///< in its list
-inline constexpr double kHeatPerHandOver = 400;
-inline constexpr double kHeatPerDeposit = 400;
+/// Rough costs in cycles of pe.elf, as fitted for host_tools/render/predict.cpp: only their proportions matter.
+inline constexpr double kHeatPerVisit = 560;   ///< of a subspace
+inline constexpr double kHeatPerPolygon = 46;  ///< in its list: its box, and a test of three in ten
+inline constexpr double kHeatPerHandOver = 1170;
+inline constexpr double kHeatPerDeposit = 250;  ///< at the patch's owner, sent by another PE
 
 /// Ways of records through subspaces that were followed as samples of a stage, one after the other.
 struct Heat {

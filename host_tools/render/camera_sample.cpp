@@ -13,6 +13,11 @@ namespace {
 /// Ways that may wait, as in a RayRecord.
 constexpr std::size_t kMostWaiting = protocol::kMostBranches;
 
+/// As candidates_of in firmware/pe/emitters.cpp.
+double points_of_aim(std::size_t emitters) {
+  return emitters <= 2 ? 1.0 : std::min(static_cast<double>(emitters) - 1, 16.0);
+}
+
 /// Fresnel's equations for unpolarised light. eta: index behind the surface over the one before it.
 double fresnel(double cosine, double eta) {
   const double square = 1 - (1 - cosine * cosine) / (eta * eta);
@@ -34,16 +39,13 @@ class CameraFollower {
         emitters_(scene, mesh) {}
 
   void follow(const SampleRay& ray, const SampleWalker::Cell& cell, Chance& chance) {
-    walker_.begin(1);
+    walker_.begin(1, cell);
     waiting_.assign(1, {ray, cell, 1, 0});
-    SampleWalker::Cell last = cell;
     while (!waiting_.empty()) {
       Way way = waiting_.back();
       waiting_.pop_back();
-      if (walker_.pe_of(last) != walker_.pe_of(way.cell)) walker_.work_at(way.cell).arrivals += 1;
       while (go(way, chance)) {
       }
-      last = way.cell;
     }
   }
 
@@ -70,12 +72,12 @@ class CameraFollower {
     const Vec3d normal = front ? flat : vec::scale(flat, -1);
     const SceneMaterial& material = scene_.materials[met.triangle->material];
     if (material.kind != SurfaceKind::diffuse) return turn(way, normal, front, material, chance);
-    walker_.work_at(way.cell).deposits += 1;
+    walker_.work().deposits += 1;
     return scatter(way, normal, material, chance);
   }
 
   bool turn(Way& way, const Vec3d& normal, bool front, const SceneMaterial& material, Chance& chance) {
-    walker_.work_at(way.cell).turns += 1;
+    walker_.work().turns += 1;
     if (++way.bounce >= choice_.bounces) return false;
     const Vec3d reflected = mirrored(way.ray.direction, normal);
     if (material.kind == SurfaceKind::mirror) {
@@ -111,7 +113,7 @@ class CameraFollower {
   }
 
   bool choose_lobe(Way& way, const Vec3d& normal, const SceneMaterial& material, Chance& chance) {
-    walker_.work_at(way.cell).turns += 1;
+    walker_.work().turns += 1;
     if (++way.bounce >= choice_.bounces) return false;
     way.ray.direction = chance.lobe_direction(mirrored(way.ray.direction, normal), material.exponent);
     way.weight *= vec::largest(material.specular) * (material.exponent + 2) / (material.exponent + 1) *
@@ -120,13 +122,14 @@ class CameraFollower {
   }
 
   void cast_shadow(const Way& from, const Vec3d& normal, Chance& chance) {
+    walker_.work().aims += points_of_aim(emitters_.count());
     const EmitterPoints::Point target = emitters_.point(chance);
     const Vec3d there = vec::subtract(target.place, from.ray.origin);
     if (!(vec::length(there) > 0) || !(vec::dot(there, normal) > 0)) return;
     if (!choice_.two_sided_lights && !(vec::dot(there, normal_of(*target.triangle)) < 0)) return;
     SampleWalker::Cell cell = from.cell;
     const Meeting met = walker_.walk({from.ray.origin, vec::unit(there)}, cell);
-    if (met.triangle == target.triangle) walker_.work_at(cell).deposits += 1;
+    if (met.triangle == target.triangle) walker_.work().deposits += 1;
     if (met.triangle == nullptr) sample_.escaped += 1;
   }
 
@@ -172,6 +175,7 @@ CameraSample sample_camera(const Scene& scene, const Mesh& mesh, const Placement
     follower.follow({to_double(ray.origin), to_double(ray.direction)}, placement.grid.cell(start->cell), chance);
   }
   for (PathWork& pe : result.paths.of_pe) pe *= 1 / std::max(1.0, result.sent);
+  result.paths.anywhere *= 1 / std::max(1.0, result.sent);
   result.paths.escaped /= std::max(1.0, result.sent);
   result.sent /= count;
   return result;

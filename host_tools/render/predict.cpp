@@ -3,6 +3,7 @@
 #include "host_tools/render/predict.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <thread>
 
 #include "firmware/protocol/triangle_grid.hpp"
@@ -15,22 +16,33 @@ namespace {
 /// Paths that are followed for a prediction, from emitters; each goes on over some surfaces.
 constexpr std::uint32_t kPaths = 4000;
 
-/// Cycles of pe.elf with the built-in latencies: fitted to the phases of renders of cornell_box, cornell_spheres,
-/// glossy_floor and two_mirrors on 1x1 to 4x4 PEs. They give the instructions for each record to 3 %, of
-/// cornell_spheres, where few of many polygons are met, to 17 %.
-constexpr double kCyclesToMake = 1450;    // a hemi-cube pixel's record, with its share of control
-constexpr double kCyclesToStart = 1750;   // a segment: set-up, and the polygons that it really meets
-constexpr double kCyclesPerVisit = 130;   // of a subspace
-constexpr double kCyclesPerPolygon = 46;  // in its list; most are passed over by their boxes
-constexpr double kCyclesPerArrival = 800;
-constexpr double kCyclesPerTurn = 1000;  // at mirror or glass, or by a lobe
-constexpr double kCyclesPerDeposit = 400;
-constexpr double kCyclesToShow = 1000;  // in place of a deposit: light of a surface, into the frame buffer
-constexpr double kCyclesPerInstruction = 1.7;
-/// Of a PE's time in a round; the rest it waits for light that is on its way. With one PE nothing waits.
+/// Cycles of pe.elf with the built-in latencies: fitted to the phases of drafts of cornell_box, interior, glossy_floor
+/// and a room with 1,000 boxes on one PE, in both schemes; hand-overs and sent light to what 4 to 16 PEs take more.
+/// They give each phase to 12 %, but glossy_floor's records, of which each takes 1,560 cycles to make.
+constexpr double kCyclesToMake = 970;     // a hemi-cube pixel's record, with its share of control
+constexpr double kCyclesToMakeRay = 800;  // by a PE
+constexpr double kCyclesToStart = 730;    // a segment
+constexpr double kCyclesPerStep = 44;     // into the next subspace
+constexpr double kCyclesPerVisit = 560;   // of one with polygons
+constexpr double kCyclesPerBox = 18;
+constexpr double kCyclesPerTest = 92;  // of a polygon
+constexpr double kCyclesPerDeposit = 420;
+constexpr double kCyclesPerTurn = 970;  // of light, at mirror or glass, or by a lobe
+constexpr double kCyclesToShow = 1430;  // in place of a deposit: light of a surface, into the frame buffer
+constexpr double kCyclesPerRayTurn = 1380;
+constexpr double kCyclesPerAim = 765;
+constexpr double kCyclesToTakeRay = 340;     // that the host has made
+constexpr double kCyclesPerHandOver = 440;   // with a share of its packet; beside the start of what is left
+constexpr double kCyclesPerSentLight = 250;  // taken in and added to its element
+constexpr double kCyclesPerInstruction = 1.66;
+/// Where points stay, of a PE's time in a round; the rest it waits for light that is on its way. With one PE nothing
+/// waits.
 constexpr double kUtilisation = 0.85;
+/// In scheme `spread`: at a round's end a PE waits for others that expand their last point. Of a point's time.
+constexpr double kTail = 0.85;
 /// In the ray tracing stage, which has no rounds.
 constexpr double kRayUtilisation = 0.9;
+constexpr double kTileUtilisation = 0.97;
 
 /// Instructions per second of this computer's cores and what a packet costs them, measured on one of 2020.
 struct HostSpeed {
@@ -40,20 +52,39 @@ struct HostSpeed {
 constexpr HostSpeed kQemuSpeed{400e6, 5e-6};
 constexpr HostSpeed kTranslatedSpeed{2000e6, 0.5e-6};
 
-/// Records in a packet on its way between PEs, on average.
-constexpr double kRecordsPerPacket = 9;
+/// Records in a packet on its way between PEs, on average: of records handed to neighbours, and of deposits, which wait
+/// for each other.
+constexpr double kHandedPerPacket = 3.5;
+constexpr double kSentPerPacket = 13;
 
-double path_cycles(const PathWork& work, double deposit) {
-  return work.starts * kCyclesToStart + work.arrivals * kCyclesPerArrival + work.visits * kCyclesPerVisit +
-         work.polygons * kCyclesPerPolygon + work.turns * kCyclesPerTurn + work.deposits * deposit;
+double path_cycles(const PathWork& work, double deposit, double turn) {
+  return (work.starts + work.hand_overs) * kCyclesToStart + work.hand_overs * kCyclesPerHandOver +
+         work.steps * kCyclesPerStep + work.visits * kCyclesPerVisit + work.boxes * kCyclesPerBox +
+         work.tests * kCyclesPerTest + work.deposits * deposit + work.sent_light * kCyclesPerSentLight +
+         work.turns * turn + work.aims * kCyclesPerAim;
 }
 
-/// Cycles of each PE per record of a sample. deposit: cycles of one.
-std::vector<double> cycles_of_pes(const PathSample& sample, double deposit = kCyclesPerDeposit) {
-  std::vector<double> cycles;
-  for (const PathWork& pe : sample.of_pe) cycles.push_back(path_cycles(pe, deposit));
-  return cycles;
-}
+/// Of a round or of a stage: what each PE must do itself, and what is dealt to whoever has least.
+struct Load {
+  std::vector<double> of_pe;  ///< [cycles]
+  double anywhere = 0;
+
+  explicit Load(std::size_t pes) : of_pe(pes) {}
+  /// deposit, turn: cycles of one.
+  Load(const PathSample& sample, double deposit, double turn) : anywhere(path_cycles(sample.anywhere, deposit, turn)) {
+    for (const PathWork& pe : sample.of_pe) of_pe.push_back(path_cycles(pe, deposit, turn));
+  }
+
+  void add(const Load& more, double times) {
+    for (std::size_t pe = 0; pe < of_pe.size(); ++pe) of_pe[pe] += times * more.of_pe[pe];
+    anywhere += times * more.anywhere;
+  }
+  double sum() const { return std::accumulate(of_pe.begin(), of_pe.end(), anywhere); }
+  /// Until the last PE is done.
+  double cycles() const {
+    return std::max(*std::max_element(of_pe.begin(), of_pe.end()), sum() / static_cast<double>(of_pe.size()));
+  }
+};
 
 /// One side of a patch as a source of light. Of all emitted light the same share falls on it as of the sample's, and
 /// likewise of all reflected light, wherever that comes from.
@@ -95,8 +126,11 @@ class Rounds {
  public:
   Rounds(const Scene& scene, const RenderSetup& setup, const Quality& quality, const LightSample& light)
       : setup_(setup), settings_(radiosity_settings(scene, setup, quality)), sources_(sources_of(scene, setup, light)) {
-    kinds_ = {Kind{cycles_of_pes(light.reflected), light.reflected.sum().arrivals},
-              Kind{cycles_of_pes(light.emitted), light.emitted.sum().arrivals}};
+    for (const PathSample* sample : {&light.reflected, &light.emitted}) {
+      const PathWork all = sample->sum();
+      kinds_.push_back({Load(*sample, kCyclesPerDeposit, kCyclesPerTurn),
+                        all.hand_overs / kHandedPerPacket + all.sent_light / kSentPerPacket});
+    }
     double emitted = 0;
     for (const Source& source : sources_) emitted += source.unshot;
     greatest_channel_ = kEmittedQuanta / emitted;
@@ -113,10 +147,9 @@ class Rounds {
   }
 
  private:
-  /// Of light reflected, or emitted.
   struct Kind {
-    std::vector<double> cycles;  ///< of each PE, per record
-    double arrivals;             ///< per record
+    Load load;       ///< per record
+    double packets;  ///< per record
   };
   const Kind& kind_of(const Source& source) const { return kinds_[source.emits ? 1 : 0]; }
   /// Of a shot, as if light had everywhere the colour that it was emitted in.
@@ -143,9 +176,10 @@ class Rounds {
 
   /// What is unshot afterwards.
   double shoot(std::size_t chosen, Prediction& prediction) {
-    std::vector<double> busy(setup_.placement.torus.pes());
+    Load round(setup_.placement.torus.pes());
     double emitted = 0;
     double reflected = 0;
+    double made = 0;
     for (auto source = sources_.begin(); chosen > 0; ++source) {
       if (!(source->unshot > static_cast<double>(settings_.least_unshot))) continue;
       --chosen;
@@ -153,10 +187,10 @@ class Rounds {
       const double records = records_of(*source);
       (source->emits ? emitted : reflected) += source->unshot;
       source->unshot = 0;
-      busy[source->pe] += records * kCyclesToMake;
-      for (std::size_t pe = 0; pe < busy.size(); ++pe) busy[pe] += records * kind.cycles[pe];
-      prediction.records += records;
-      prediction.packets += records * kind.arrivals / kRecordsPerPacket;
+      (!setup_.points_travel ? round.of_pe[source->pe] : round.anywhere) += records * kCyclesToMake;
+      round.add(kind.load, records);
+      made += records;
+      prediction.packets += records * kind.packets;
       ++shots_;
     }
     double unshot = 0;
@@ -164,15 +198,22 @@ class Rounds {
       source.unshot += emitted * source.from_emitted + reflected * source.from_reflected;
       unshot += source.unshot;
     }
-    for (const double cycles : busy) prediction.instructions += cycles / kCyclesPerInstruction;
-    prediction.radiosity_cycles += *std::max_element(busy.begin(), busy.end()) / (busy.size() > 1 ? kUtilisation : 1.0);
+    prediction.records += made;
+    prediction.instructions += round.sum() / kCyclesPerInstruction;
+    prediction.radiosity_cycles += round.cycles();
+    if (round.of_pe.size() == 1) return unshot;
+    if (!setup_.points_travel) {
+      prediction.radiosity_cycles += round.cycles() * (1 / kUtilisation - 1);
+    } else {
+      prediction.radiosity_cycles += kTail * protocol::hemicube_pixels(setup_.parameters.hemicube) * round.sum() / made;
+    }
     return unshot;
   }
 
   const RenderSetup& setup_;
   RadiositySettings settings_;
   std::vector<Source> sources_;
-  std::array<Kind, 2> kinds_;
+  std::vector<Kind> kinds_;  ///< of light reflected, and emitted
   double greatest_channel_;  ///< its share of the flux
   std::uint64_t shots_ = 0;
 };
@@ -184,14 +225,33 @@ double host_cycles(const MachineDescription& machine, HostWork work, double item
          machine.host.clock_hertz;
 }
 
-/// Of one stage, made by the host, over the bus in turn and into each PE's memory.
-double load_cycles(const RenderSetup& setup, const MachineDescription& machine) {
-  double all = 0;
-  for (const std::uint64_t bytes : setup.need.pe_bytes) all += static_cast<double>(bytes);
+/// Of one stage: made by the host, over the bus and into each PE's memory, in turn. What all have alike goes to all at
+/// once, where that is sent to all together.
+double load_cycles(const RenderSetup& setup, const MachineDescription& machine, protocol::Stage stage) {
+  const Placement& placement = setup.placement_of(stage);
+  const auto bytes_of = [&](const Placement& of, unsigned pe) {
+    const PeLayout made =
+        lay_out(setup.mesh, of, static_cast<protocol::PeNumber>(pe), stage, setup.parameters, setup.map);
+    const double elements = static_cast<double>(made.layout.elements.count) * sizeof(protocol::Element);
+    return static_cast<double>(made.load_end - made.layout.cell_words.address) - elements;
+  };
+  const unsigned pes = placement.torus.pes();
+  const double common = !setup.load_together ? 0 : bytes_of(placement.with_nobody(), pes);
+  double all = common;
+  double most = 0;
+  for (unsigned pe = 0; pe < pes; ++pe) {
+    const double bytes = bytes_of(placement, pe);
+    all += bytes - common;
+    most = std::max(most, bytes);
+  }
   const double lines = all / static_cast<double>(kHostLineBytes);
   const double host = host_cycles(machine, HostWork::message, all / protocol::kMostLoadBytes) +
                       host_cycles(machine, HostWork::copy, lines) + host_cycles(machine, HostWork::layout, lines);
-  return std::max({all / machine.bus.bytes_per_cycle, static_cast<double>(setup.need.most()), host});
+  double table = 0;
+  if (stage == protocol::Stage::radiosity) {
+    table = host_cycles(machine, HostWork::hemicube_entry, protocol::hemicube_weights(setup.parameters.hemicube));
+  }
+  return table + std::max({all / machine.bus.bytes_per_cycle, most, host});
 }
 
 double lattice_cycles(const RenderSetup& setup, const MachineDescription& machine) {
@@ -218,16 +278,19 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
   const CameraSampleChoice choice = camera_sample_choice(quality, machine, setup.parameters);
   const CameraSample sample = sample_camera(scene, setup.mesh, setup.ray_placement, rays, choice, kPaths);
   const double count = sample.sent * static_cast<double>(rays.count());
-  const std::vector<double> cycles = cycles_of_pes(sample.paths, kCyclesToShow);
-  const bool host_makes_rays = setup.parameters.pixel_samples == 0;
-  const double busiest = *std::max_element(cycles.begin(), cycles.end());
-  double sum = 0;
-  for (const double pe : cycles) sum += pe;
+  Load load(sample.paths, kCyclesToShow, kCyclesPerRayTurn);
+  const bool by_host = setup.parameters.pixel_samples == 0;  // the camera rays
+  if (by_host) {
+    for (double& pe : load.of_pe) pe += kCyclesToTakeRay / static_cast<double>(load.of_pe.size());
+  } else {
+    load.anywhere += kCyclesToMakeRay;
+  }
+  const double utilisation = load.of_pe.size() == 1 ? 1.0 : by_host ? kRayUtilisation : kTileUtilisation;
   prediction.rays = count;
-  prediction.ray_tracing_cycles = std::max(count * busiest / (cycles.size() > 1 ? kRayUtilisation : 1.0),
-                                           host_makes_rays ? count * host_cycles_of_ray(machine.description) : 0.0);
-  prediction.instructions += count * sum / kCyclesPerInstruction;
-  prediction.packets += count * sample.paths.sum().arrivals / kRecordsPerPacket;
+  prediction.ray_tracing_cycles = std::max(count * load.cycles() / utilisation,
+                                           by_host ? count * host_cycles_of_ray(machine.description) : 0.0);
+  prediction.instructions += count * load.sum() / kCyclesPerInstruction;
+  prediction.packets += count * sample.paths.sum().hand_overs / kHandedPerPacket;
 }
 
 /// Of the radiosity stage: what `predict` then takes for the draft's, too.
@@ -243,11 +306,14 @@ Prediction predict_radiosity(const Scene& scene, const RenderSetup& setup, const
 Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& setup, const RenderSetup* draft,
                    const Quality& quality, const MachineChoice& machine) {
   Prediction prediction = predict_radiosity(scene, setup, quality);
-  prediction.load_cycles = 2 * load_cycles(setup, machine.description) + lattice_cycles(setup, machine.description);
+  prediction.load_cycles = load_cycles(setup, machine.description, protocol::Stage::radiosity) +
+                           load_cycles(setup, machine.description, protocol::Stage::ray_tracing) +
+                           lattice_cycles(setup, machine.description);
   predict_rays(scene, camera, setup, quality, machine, prediction);
   if (draft != nullptr) {
     const Prediction rough = predict_radiosity(scene, *draft, draft_of(quality));
-    prediction.draft_cycles = kDrafts * (load_cycles(*draft, machine.description) + rough.radiosity_cycles);
+    prediction.draft_cycles =
+        kDrafts * (load_cycles(*draft, machine.description, protocol::Stage::radiosity) + rough.radiosity_cycles);
     prediction.draft_records = kDrafts * rough.records;
     prediction.draft_packets = kDrafts * rough.packets;
     prediction.draft_instructions = kDrafts * rough.instructions;

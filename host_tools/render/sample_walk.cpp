@@ -35,25 +35,42 @@ void meet(const SampleRay& ray, const MeshTriangle& triangle, Meeting& nearest) 
   nearest = {&triangle, t, b1, b2};
 }
 
+/// A box as protocol::boxes_apart wants it of a ray.
+std::uint32_t as_of_ray(protocol::PackedBox box) {
+  std::uint32_t packed = protocol::kBoxRayFlips;
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const std::uint32_t parts = protocol::highest_part(box, axis) | protocol::lowest_part(box, axis)
+                                                                        << protocol::kBoxUpperShift;
+    packed ^= parts << (protocol::kBoxAxisShift * axis);
+  }
+  return packed;
+}
+
 }  // namespace
 
 PathWork& PathWork::operator+=(const PathWork& other) {
   starts += other.starts;
-  arrivals += other.arrivals;
+  hand_overs += other.hand_overs;
+  steps += other.steps;
   visits += other.visits;
-  polygons += other.polygons;
+  boxes += other.boxes;
+  tests += other.tests;
   deposits += other.deposits;
+  sent_light += other.sent_light;
   turns += other.turns;
+  aims += other.aims;
   return *this;
 }
 
 PathWork& PathWork::operator*=(double factor) {
-  for (double* value : {&starts, &arrivals, &visits, &polygons, &deposits, &turns}) *value *= factor;
+  for (double* value : {&starts, &hand_overs, &steps, &visits, &boxes, &tests, &deposits, &sent_light, &turns, &aims}) {
+    *value *= factor;
+  }
   return *this;
 }
 
 PathWork PathSample::sum() const {
-  PathWork all;
+  PathWork all = anywhere;
   for (const PathWork& pe : of_pe) all += pe;
   return all;
 }
@@ -145,9 +162,26 @@ SampleWalker::SampleWalker(const Mesh& mesh, const Placement& placement, PathSam
   sample_.hits.resize(mesh.triangles.size());
 }
 
-void SampleWalker::begin(double records) {
+void SampleWalker::begin(double records, const Cell& cell) {
   records_ = static_cast<float>(records);
   first_ = true;
+  at_.reset();
+  if (placement_.scheme == Scheme::paper || placement_.torus.pes() == 1) {
+    at_ = placement_.pe_of_cell[placement_.grid.index(cell)];
+  }
+}
+
+double SampleWalker::elsewhere() const {
+  return at_ ? 1 : 1 - 1.0 / placement_.torus.pes();
+}
+
+/// The record is handed over where the subspace is not held.
+void SampleWalker::enter(CellIndex cell) {
+  if (!placement_.stop_cell[cell] || placement_.common_cell[cell]) return;
+  const protocol::PeNumber pe = placement_.pe_of_cell[cell];
+  if (at_ == pe) return;
+  sample_.of_pe[pe].hand_overs += elsewhere();
+  at_ = pe;
 }
 
 void SampleWalker::add_to_heat(CellIndex cell) {
@@ -161,14 +195,35 @@ SampleWalker::Cell SampleWalker::cell_of(const Vec3d& point) const {
   return placement_.grid.cell_of(to_float(point));
 }
 
+/// What find_nearest of firmware/pe/traverse.cpp does. from, to: where the ray enters and leaves.
+void SampleWalker::look_into(const SampleRay& ray, CellIndex index, const Cell& cell, double from, double to) {
+  const auto& entries = placement_.entries_of_cell[index];
+  if (entries.empty()) return;
+  const protocol::Vec3f begin = to_float(vec::add(ray.origin, vec::scale(ray.direction, from)));
+  const protocol::Vec3f end = to_float(vec::add(ray.origin, vec::scale(ray.direction, to)));
+  const std::uint32_t box = as_of_ray(
+      protocol::box_in_cell(std::array<protocol::Vec3f, 3>{begin, end, end}, placement_.grid.cell_size, cell));
+  PathWork& here = work();
+  here.visits += 1;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    here.boxes += 1;
+    const bool apart = protocol::boxes_apart(box, entries[i].box);
+    if ((entries[i].polygon & protocol::kGroup) == 0) {
+      here.tests += apart ? 0 : 1;
+    } else if (apart) {
+      i += entries[i].polygon & ~protocol::kGroup;
+    }
+  }
+}
+
 Meeting SampleWalker::walk(const SampleRay& ray, Cell& cell) {
   const Grid& grid = placement_.grid;
-  work_at(cell).starts += 1;
+  double entered = 0;
+  enter(grid.index(cell));
+  work().starts += 1;
   for (;;) {
-    const auto& polygons = placement_.polygons_of_cell[grid.index(cell)];
-    add_to_heat(grid.index(cell));
-    work_at(cell).visits += 1;
-    work_at(cell).polygons += static_cast<double>(polygons.size());
+    const CellIndex index = grid.index(cell);
+    add_to_heat(index);
     double out = HUGE_VAL;
     std::size_t axis = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -180,40 +235,28 @@ Meeting SampleWalker::walk(const SampleRay& ray, Cell& cell) {
         axis = i;
       }
     }
+    look_into(ray, index, cell, entered, out);
     Meeting nearest;
-    for (const std::uint32_t number : polygons) meet(ray, mesh_.triangles[number], nearest);
+    for (const std::uint32_t number : placement_.polygons_of_cell[index]) meet(ray, mesh_.triangles[number], nearest);
     if (nearest.triangle != nullptr && nearest.t <= out + kLeast) return nearest;
     if (cell[axis] == (ray.direction[axis] > 0 ? grid.cells[axis] - 1 : 0)) return {};
-    const protocol::PeNumber from = pe_of(cell);
     cell[axis] += ray.direction[axis] > 0 ? 1U : ~0U;
-    if (pe_of(cell) != from) work_at(cell).arrivals += 1;
+    entered = out;
+    work().steps += 1;
+    enter(grid.index(cell));
   }
 }
 
-std::uint32_t SampleWalker::deposit(const Meeting& met, const Cell& at) {
+std::uint32_t SampleWalker::deposit(const Meeting& met) {
   protocol::Weights weights{static_cast<float>(1 - met.b1 - met.b2), static_cast<float>(met.b1),
                             static_cast<float>(met.b2)};
   const std::uint32_t path = protocol::enter_level(weights, met.triangle->patch_level);
   const std::uint32_t patch = mesh_.parts[met.triangle->first_part + path].patch;
   const protocol::PeNumber owner = placement_.patch_home[patch].pe;
-  sample_.of_pe[owner].deposits += 1;
-  if (heat_ != nullptr) heat_->deposits[patch] += static_cast<double>(records_) * (kHeatPerDeposit + kHeatPerHandOver);
-  if (owner != pe_of(at)) {
-    sample_.of_pe[owner].arrivals += 1;
-    sample_.forwarded += 1;
-  }
+  work().deposits += 1;
+  if (at_ != owner) sample_.of_pe[owner].sent_light += elsewhere();
+  if (heat_ != nullptr) heat_->deposits[patch] += static_cast<double>(records_) * kHeatPerDeposit;
   return patch;
-}
-
-void SampleWalker::seek(std::uint32_t patch, const Cell& to) {
-  Cell cell = placement_.grid.cell(placement_.patch_home[patch].cell);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    while (cell[axis] != to[axis]) {
-      const protocol::PeNumber from = pe_of(cell);
-      cell[axis] += cell[axis] < to[axis] ? 1U : ~0U;
-      if (pe_of(cell) != from) work_at(cell).arrivals += 1;
-    }
-  }
 }
 
 }  // namespace torolux

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -15,12 +16,16 @@ namespace torolux {
 
 /// Means per record.
 struct PathWork {
-  double starts = 0;    ///< segments that begin here
-  double arrivals = 0;  ///< at this PE, from another one
-  double visits = 0;    ///< subspaces entered
-  double polygons = 0;  ///< in the lists of those
-  double deposits = 0;  ///< light that falls on a patch of this PE's, or is shown
-  double turns = 0;     ///< at mirror or glass, and by lobes
+  double starts = 0;      ///< segments that begin here
+  double hand_overs = 0;  ///< of records that go on here
+  double steps = 0;       ///< from one subspace into the next
+  double visits = 0;      ///< subspaces looked into
+  double boxes = 0;       ///< of polygons and of groups of them, compared there
+  double tests = 0;       ///< of polygons whose boxes are met
+  double deposits = 0;    ///< light that falls on a patch, or is shown
+  double sent_light = 0;  ///< deposits that come from other PEs to this one's patches
+  double turns = 0;       ///< at mirror or glass, and by lobes
+  double aims = 0;        ///< points on emitters among which a shadow ray's end is chosen
 
   PathWork& operator+=(const PathWork& other);
   PathWork& operator*=(double factor);
@@ -28,10 +33,11 @@ struct PathWork {
 
 struct PathSample {
   std::vector<PathWork> of_pe;
+  /// By whichever PE has made the record: until it comes to a subspace that is not everywhere, or its light to a patch.
+  PathWork anywhere;
   /// By triangle of the mesh, its front and its back: flux that falls there, of all that set out. Of light only.
   std::vector<std::array<double, 2>> hits;
-  double forwarded = 0;  ///< deposits whose patch another PE owns
-  double escaped = 0;    ///< paths that leave the object space
+  double escaped = 0;  ///< paths that leave the object space
 
   PathWork sum() const;
 };
@@ -70,6 +76,7 @@ class EmitterPoints {
   EmitterPoints(const Scene& scene, const Mesh& mesh);
 
   bool empty() const { return triangles_.empty(); }
+  std::size_t count() const { return triangles_.size(); }
   struct Point {
     const MeshTriangle* triangle;
     Vec3d place;
@@ -89,27 +96,33 @@ class SampleWalker {
   /// sample: gets room for all PEs and triangles. heat: gets the ways of records too, if given.
   SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample, Heat* heat = nullptr);
 
-  /// A record begins. records: that it stands for.
-  void begin(double records);
+  /// A record begins, at whichever PE has made it: scheme `paper`, or a single PE: who owns `cell`. records: that it
+  /// stands for.
+  void begin(double records, const Cell& cell);
 
   /// From subspace to subspace until something is met; `cell` ends there.
   Meeting walk(const SampleRay& ray, Cell& cell);
-  /// Light falls on a patch, which may be another PE's; its number. at: where it was met.
-  std::uint32_t deposit(const Meeting& met, const Cell& at);
-  /// From where the patch is at home to a point of it, as a record that goes on from there does.
-  void seek(std::uint32_t patch, const Cell& to);
+  /// Light falls on a patch, which may be another PE's; its number.
+  std::uint32_t deposit(const Meeting& met);
+  /// The record goes on from where a patch is at home.
+  void go_to_patch(std::uint32_t patch) { at_ = placement_.patch_home[patch].pe; }
 
-  PathWork& work_at(const Cell& cell) { return sample_.of_pe[pe_of(cell)]; }
+  /// Of the PE where the record is.
+  PathWork& work() { return at_ ? sample_.of_pe[*at_] : sample_.anywhere; }
   Cell cell_of(const Vec3d& point) const;
-  protocol::PeNumber pe_of(const Cell& cell) const { return placement_.pe_of_cell[placement_.grid.index(cell)]; }
 
  private:
+  /// Of the PEs, those at which a record that may be anywhere is not, or 1 where it is known to be elsewhere.
+  double elsewhere() const;
+  void enter(CellIndex cell);
+  void look_into(const SampleRay& ray, CellIndex index, const Cell& cell, double from, double to);
   void add_to_heat(CellIndex cell);
 
   const Mesh& mesh_;
   const Placement& placement_;
   PathSample& sample_;
   Heat* heat_;
+  std::optional<protocol::PeNumber> at_;  ///< where the record is; none: anywhere
   float records_ = 1;
   bool first_ = true;
 };

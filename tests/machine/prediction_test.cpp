@@ -13,6 +13,7 @@ struct Shape {
   const char* scene;
   unsigned columns, rows;
   std::uint32_t cells;  ///< along each axis
+  Scheme scheme = Scheme::spread;
 };
 
 class Prediction : public testing::TestWithParam<Shape> {};
@@ -28,6 +29,7 @@ TEST_P(Prediction, IsWithinAFactorOfTwo) {
   render_case.machine.engine = kDefaultEngine;
   render_case.machine.columns = GetParam().columns;
   render_case.machine.rows = GetParam().rows;
+  take_scheme(render_case.machine, GetParam().scheme);
   render_case.machine.subspaces = {GetParam().cells, GetParam().cells, GetParam().cells};
   const RenderFigures figures = run_case(render_case).figures;
   const Scene scene = load_scene(render_case.scene, {});
@@ -47,10 +49,14 @@ TEST_P(Prediction, IsWithinAFactorOfTwo) {
 }
 INSTANTIATE_TEST_SUITE_P(Machines, Prediction,
                          testing::Values(Shape{"cornell_box", 1, 1, 4}, Shape{"cornell_box", 4, 4, 8},
-                                         Shape{"cornell_box", 2, 3, 5}, Shape{"cornell_spheres", 2, 2, 8}),
+                                         Shape{"cornell_box", 2, 3, 5}, Shape{"cornell_spheres", 2, 2, 8},
+                                         Shape{"cornell_box", 1, 1, 4, Scheme::paper},
+                                         Shape{"cornell_box", 4, 4, 8, Scheme::paper},
+                                         Shape{"cornell_spheres", 2, 2, 8, Scheme::paper}),
                          [](const auto& shape) {
                            return std::string(shape.param.scene) + "_" + std::to_string(shape.param.columns) + "x" +
-                                  std::to_string(shape.param.rows);
+                                  std::to_string(shape.param.rows) +
+                                  (shape.param.scheme == Scheme::paper ? "_paper" : "");
                          });
 
 struct Effect {
@@ -58,6 +64,7 @@ struct Effect {
   const char* scene;
   double refine;
   bool shadow_rays;
+  Scheme scheme = Scheme::spread;
 };
 
 class PredictionOfEffects : public testing::TestWithParam<Effect> {};
@@ -85,6 +92,7 @@ TEST_P(PredictionOfEffects, IsWithinAQuarter) {
   render_case.machine.description = {};
   render_case.machine.engine = kDefaultEngine;
   render_case.machine.columns = render_case.machine.rows = 2;
+  take_scheme(render_case.machine, GetParam().scheme);
   render_case.machine.subspaces = {8, 8, 8};
   const RenderFigures figures = run_case(render_case).figures;
   const auto& prediction = plan(scene, scene.camera.value(), quality, render_case.machine, pe_image()).prediction;
@@ -107,6 +115,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PredictionOfEffects,
                          testing::Values(Effect{"draft", "cornell_box", 0.5, false},
                                          Effect{"lobes", "glossy_floor", 0, false},
                                          Effect{"mirrors", "two_mirrors", 0, false},
+                                         Effect{"lobes_paper", "glossy_floor", 0, false, Scheme::paper},
+                                         Effect{"shadow_rays_paper", "cornell_box", 0, true, Scheme::paper},
                                          Effect{"shadow_rays", "cornell_box", 0, true}),
                          [](const auto& effect) { return std::string(effect.param.name); });
 

@@ -20,7 +20,7 @@ NativeOptions short_hints() {
 }
 
 /// A program that tells the clock after each of so many messages received, and spends a PE's `pause` before the first.
-NativeProgram tell_times(unsigned messages, std::vector<Cycles> pauses) {
+NativeProgram tell_times(unsigned messages, const std::vector<Cycles>& pauses) {
   return [=](Niu& niu, NativeClock& clock) {
     clock.spend(pauses.at(niu.pe()));
     for (unsigned i = 0; i < messages; ++i) {

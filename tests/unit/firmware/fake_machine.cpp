@@ -299,8 +299,8 @@ std::uint32_t FakeMachine::points_of(std::uint16_t pe, const protocol::Shoot& sh
   return protocol::points_of_shot(shoot.kind, flux, l.points_per_quantum, l.shot_points, l.emission_points);
 }
 
-void FakeMachine::deal(std::uint16_t owner, std::span<const std::uint16_t> to, std::uint32_t parts) {
-  protocol::Deal deal{static_cast<std::uint32_t>(to.size()), parts, {}};
+void FakeMachine::deal(std::uint16_t owner, std::span<const std::uint16_t> to, std::uint32_t in_parts) {
+  protocol::Deal deal{static_cast<std::uint32_t>(to.size()), in_parts, {}};
   std::copy(to.begin(), to.end(), deal.pe.begin());
   message(owner, MessageKind::deal,
           std::as_bytes(std::span(&deal, 1)).first(offsetof(protocol::Deal, pe) + to.size_bytes()));

@@ -124,7 +124,7 @@ class FakeMachine {
   /// records were created. Checks that credits come home, and that PEs ask when they should.
   std::uint32_t shoot(std::uint16_t owner, const protocol::Shoot& shoot, std::uint32_t credits = 100);
   /// The owner's next points, one to each of these PEs.
-  void deal(std::uint16_t owner, std::span<const std::uint16_t> to, std::uint32_t parts = 1);
+  void deal(std::uint16_t owner, std::span<const std::uint16_t> to, std::uint32_t in_parts = 1);
   std::uint32_t points_of(std::uint16_t pe, const protocol::Shoot& shoot) const;
   std::vector<protocol::Candidate> select(std::uint16_t pe, std::uint32_t count, std::int64_t threshold);
   protocol::Tally tally(std::uint16_t pe);

@@ -28,11 +28,11 @@ TEST(PathSample, AClosedRoomKeepsAllLight) {
     EXPECT_EQ(sample->escaped, 0);
     EXPECT_NEAR(sample->sum().deposits, 1, 1e-9);
     EXPECT_NEAR(hits_of(*sample), 1, 1e-9);
-    EXPECT_EQ(sample->sum().arrivals, 0) << "one PE";
-    EXPECT_GT(sample->sum().visits, 1);
+    EXPECT_EQ(sample->sum().hand_overs + sample->sum().sent_light, 0) << "one PE";
+    EXPECT_GT(sample->sum().steps, 1);
   }
   // The lamp hangs below the ceiling and faces down: its light falls on floor and box first, and on the ceiling later.
-  EXPECT_GT(light.emitted.sum().polygons, 1);
+  EXPECT_GT(light.emitted.sum().tests, 1);
 }
 
 TEST(PathSample, HandOversFollowTheAllocation) {
@@ -40,10 +40,31 @@ TEST(PathSample, HandOversFollowTheAllocation) {
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2});
   const PathSample one = sample_light(scene, mesh, placed(mesh, {1, 1}, 6), 32, 500).emitted;
   const PathSample many = sample_light(scene, mesh, placed(mesh, {3, 2}, 6), 32, 500).emitted;
-  EXPECT_EQ(one.sum().visits, many.sum().visits) << "the same paths";
+  EXPECT_EQ(one.sum().steps, many.sum().steps) << "the same paths";
   // Each step crosses into another PE's subspace in a skewed allocation, and a deposit may go back to its owner.
-  EXPECT_NEAR(many.sum().arrivals, many.sum().visits - 1 + many.forwarded, 1e-9);
-  EXPECT_GT(many.forwarded, 0);
+  EXPECT_NEAR(many.sum().hand_overs, many.sum().steps, 1e-9);
+  EXPECT_GT(many.sum().sent_light, 0);
+}
+
+TEST(PathSample, WhatIsCommonIsHandedToNobody) {
+  const Scene scene = room_with_box();
+  const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2});
+  const Grid grid = make_grid(mesh.space, std::array<std::uint32_t, 3>{6, 6, 6}, mesh.triangles.size(), 6);
+  const auto emitted = [&](std::vector<bool> common) {
+    const PlacementChoice choice{{3, 2}, std::nullopt, "skewed", Scheme::spread};
+    const Placement placement = make_placement(mesh, grid, polygons_by_cell(grid, mesh.triangles), choice,
+                                               {protocol::Stage::radiosity, nullptr, std::move(common)});
+    return sample_light(scene, mesh, placement, 32, 500).emitted;
+  };
+  const PathSample all = emitted(std::vector<bool>(grid.count(), true));
+  EXPECT_EQ(all.sum().hand_overs, 0);
+  EXPECT_NEAR(all.anywhere.starts, 1, 1e-9) << "each path is followed where it is made";
+  EXPECT_NEAR(all.sum().sent_light, 5.0 / 6, 1e-9) << "one of six PEs has what the light falls on";
+  const PathSample none = emitted({});
+  EXPECT_GT(none.sum().hand_overs, 5.0 / 6);
+  EXPECT_LT(none.sum().hand_overs, none.sum().steps) << "empty subspaces are stepped over";
+  EXPECT_NEAR(none.sum().tests, all.sum().tests, 1e-9) << "the same paths";
+  EXPECT_EQ(none.anywhere.tests, 0) << "nobody but its owner looks into a subspace";
 }
 
 TEST(PathSample, LightLeavesAnOpenScene) {
