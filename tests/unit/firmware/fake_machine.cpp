@@ -324,7 +324,7 @@ std::uint32_t FakeMachine::grant_to_all_in_need(std::uint32_t credits) {
 std::uint32_t FakeMachine::shoot(std::uint16_t owner, const protocol::Shoot& shoot, std::uint32_t credits) {
   const std::uint64_t before = rays();
   message(owner, MessageKind::shoot, shoot);
-  const std::uint32_t pieces = points_of(owner, shoot) * parts;
+  const std::uint32_t pieces = points_of(owner, shoot) * shoot_in_parts;
   std::vector<std::uint32_t> supplied(pes.size());
   std::uint32_t dealt = 0;
   protocol::WorkDone done{};
@@ -337,7 +337,7 @@ std::uint32_t FakeMachine::shoot(std::uint16_t owner, const protocol::Shoot& sho
       to.push_back(next);
       ++dealt;
     }
-    if (!to.empty()) deal(owner, to, parts);
+    if (!to.empty()) deal(owner, to, shoot_in_parts);
     run();
     const std::uint32_t granted = grant_to_all_in_need(credits);
     run();

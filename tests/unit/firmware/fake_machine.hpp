@@ -145,8 +145,8 @@ class FakeMachine {
   Pixels pixels;                             ///< colours
   std::map<protocol::Plane, Pixels> layers;  ///< other planes
   std::uint64_t records_sent = 0, largest_packet = 0;
-  bool points_travel = true;  ///< shoot deals them to all PEs in turn; else to their owner
-  std::uint32_t parts = 1;    ///< in which it deals each
+  bool points_travel = true;         ///< shoot deals them to all PEs in turn; else to their owner
+  std::uint32_t shoot_in_parts = 1;  ///< into which it divides each
 
  private:
   std::uint32_t grant_to_all_in_need(std::uint32_t credits);

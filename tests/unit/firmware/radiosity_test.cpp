@@ -100,7 +100,7 @@ Outcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_s
                 bool points_travel = true, std::uint32_t parts = 1) {
   FakeMachine machine(scene.pes);
   machine.points_travel = points_travel;
-  machine.parts = parts;
+  machine.shoot_in_parts = parts;
   machine.load(scene, Stage::radiosity, niu_slots, 1, light_lamp);
   for (std::uint16_t p = 0; p < scene.pes; ++p) machine.message(p, protocol::MessageKind::begin);
   machine.run();

@@ -115,9 +115,9 @@ TEST(Grid, AutomaticGridFitsSceneAndMachine) {
   EXPECT_EQ(make_grid(SceneSpace{}, {}, 70'000, 16).cells, (std::array<std::uint32_t, 3>{32, 32, 32}));
   EXPECT_EQ(make_grid(SceneSpace{.size = {1, 0.5, 0.01}}, {}, 36, 16).cells, (std::array<std::uint32_t, 3>{11, 6, 1}));
   EXPECT_GE(make_grid(SceneSpace{}, {}, 36, 1024).count(), 4096U);
-  EXPECT_EQ(spread_cells(SceneSpace{}, 36, 1U << 20U), (std::array<std::uint32_t, 3>{8, 8, 8}));
+  EXPECT_EQ(spread_cells(SceneSpace{}, 36, 1U << 20U), (std::array<std::uint32_t, 3>{3, 3, 3}));
   EXPECT_EQ(spread_cells(SceneSpace{.size = {1, 0.5, 1}}, 12'014, 4U << 20U),
-            (std::array<std::uint32_t, 3>{32, 16, 32}));
+            (std::array<std::uint32_t, 3>{23, 12, 23}));
   EXPECT_EQ(spread_cells(SceneSpace{}, 10'000'000, 64U << 20U), (std::array<std::uint32_t, 3>{64, 64, 64}));
   // 0.75 bytes for each of 22^3 cells are 8 KiB, a 32nd of 256 KiB.
   EXPECT_EQ(spread_cells(SceneSpace{}, 10'000'000, 256U << 10U), (std::array<std::uint32_t, 3>{22, 22, 22}));
