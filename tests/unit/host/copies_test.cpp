@@ -115,7 +115,7 @@ TEST_F(Copies, WhatAllHaveAnywayIsFree) {
   std::set<std::uint32_t> free(lists_[last].begin(), lists_[last].end());
   EXPECT_TRUE(std::all_of(lists_[order.cells[0]].begin(), lists_[order.cells[0]].end(),
                           [&](std::uint32_t t) { return free.count(t) > 0; }));
-  std::uint64_t bytes = cell_bytes(lists_[order.cells[0]].size()) + sizeof(protocol::Material);
+  std::uint64_t bytes = cell_bytes(lists_[order.cells[0]].size());
   for (const std::uint32_t t : lists_[order.cells[0]]) bytes += polygon_bytes(mesh_.triangles[t], Stage::radiosity);
   EXPECT_GE(order.bytes[0], bytes) << "but its bytes are told in full";
 }
