@@ -167,8 +167,7 @@ TEST(Statistics, NameWhatBoundsAStage) {
   EXPECT_EQ(bounded_by(statistics_of(scene, {"--pes", "1x1"}), "radiosity"), "work");
   EXPECT_EQ(bounded_by(statistics_of(scene, {"--pes", "2x2", "--subspaces", "1x1x1", "--scheme", "paper"}), "radiosity"),
             "balance");
-  EXPECT_EQ(bounded_by(statistics_of(scene, {"--ideal", "all", "--set", "bus.bytes_per_cycle=1", "--scheme", "paper"}),
-                       "load"),
+  EXPECT_EQ(bounded_by(statistics_of(scene, {"--ideal", "all", "--set", "bus.arbitration_cycles=10000"}), "load"),
             "bus");
   EXPECT_EQ(bounded_by(statistics_of(scene, {"--set", "host.clock_hertz=1e6"}), "ray_tracing"), "host");
   EXPECT_EQ(bounded_by(statistics_of(scene, {"--set", "frame_buffer.cycles_per_pixel=100000"}), "ray_tracing"),

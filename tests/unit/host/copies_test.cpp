@@ -61,7 +61,7 @@ std::uint64_t bytes_of(const PeLayout& layout, const std::set<std::string>& stor
 
 // Held to the stores' layout: nothing that a copy brings is forgotten.
 TEST_F(Copies, BytesAreThoseOfTheStores) {
-  const std::set<std::string> stores{"subspaces", "polygon list",     "polygons", "materials",     "normals",
+  const std::set<std::string> stores{"subspaces", "polygon list",     "polygons", "normals",
                                      "nodes",     "patch references", "lattice",  "texture points"};
   for (const Stage stage : {Stage::radiosity, Stage::ray_tracing}) {
     const CopyOrder all = order(stage);
