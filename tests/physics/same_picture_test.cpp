@@ -402,13 +402,17 @@ TEST(Layers, MakeTheSamePictureAndAreTheSame) {
     EXPECT_EQ(layer.values, other.layers[i].values) << name_of(layer.plane);
     EXPECT_EQ(layer.numbers == other.layers[i].numbers, !of_the_machine) << name_of(layer.plane);
   }
+  // Who finds a surface hangs on whom the tile was dealt to, and so on cycles, which native code does not have.
+  std::vector<RenderResult> by_cycles;
   for (const char* engine : {"qemu", "translated"}) {
     cornell.machine.engine = engine;
-    const RenderResult again = run_case(cornell);
+    by_cycles.push_back(run_case(cornell));
+    const RenderResult& again = by_cycles.back();
     EXPECT_EQ(bytes_of(again.picture), reference_picture()) << engine;
     for (std::size_t i = 0; i < again.layers.size(); ++i) {
+      const bool owner = again.layers[i].plane == protocol::Plane::owner;
       EXPECT_EQ(again.layers[i].values, other.layers[i].values) << engine;
-      EXPECT_EQ(again.layers[i].numbers, other.layers[i].numbers) << engine;
+      EXPECT_EQ(again.layers[i].numbers, (owner ? by_cycles.front() : other).layers[i].numbers) << engine;
     }
   }
 }
