@@ -13,7 +13,8 @@ namespace {
 
 using protocol::Stage;
 
-/// Something that stands in a PE's stores once, whichever of its cells need it: a polygon, material or texture.
+/// Something that stands in a PE's stores once, whichever of its cells need it: a polygon or texture. (Materials stand
+/// on every PE anyway.)
 struct Item {
   std::uint64_t bytes = 0;
   double lacking = 1;            ///< share of the PEs that would not have it anyway
@@ -21,22 +22,18 @@ struct Item {
   bool taken = false;
 };
 
-/// Polygons, then materials, then textures.
+/// Polygons, then textures.
 class Items {
  public:
   Items(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage,
         std::span<const double> lacking)
       : of_cell_(polygons_of_cell.size()) {
-    std::uint32_t materials = 0;
-    for (const MeshTriangle& triangle : mesh.triangles) materials = std::max(materials, triangle.material + 1);
-    const auto first_material = static_cast<std::uint32_t>(mesh.triangles.size());
-    const std::uint32_t first_texture = first_material + materials;
+    const auto first_texture = static_cast<std::uint32_t>(mesh.triangles.size());
     items_.resize(first_texture + (stage == Stage::ray_tracing ? mesh.textures.size() : 0));
-    for (std::uint32_t t = 0; t < first_material; ++t) {
+    for (std::uint32_t t = 0; t < first_texture; ++t) {
       items_[t].bytes = polygon_bytes(mesh.triangles[t], stage);
       if (!lacking.empty()) items_[t].lacking = lacking[t];
     }
-    for (std::uint32_t m = first_material; m < first_texture; ++m) items_[m].bytes = sizeof(protocol::Material);
     for (std::size_t i = first_texture; i < items_.size(); ++i) {
       const auto& texels = mesh.textures[i - first_texture].texels;
       items_[i].bytes = sizeof(protocol::Texture) + texels.size() * sizeof(protocol::Texel);
@@ -46,7 +43,6 @@ class Items {
       needed = polygons_of_cell[cell];
       for (const std::uint32_t t : polygons_of_cell[cell]) {
         const MeshTriangle& triangle = mesh.triangles[t];
-        needed.push_back(first_material + triangle.material);
         const bool textured = stage == Stage::ray_tracing && triangle.texture != protocol::kNoTexture;
         if (textured) needed.push_back(first_texture + triangle.texture);
       }

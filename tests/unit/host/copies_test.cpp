@@ -61,7 +61,7 @@ std::uint64_t bytes_of(const PeLayout& layout, const std::set<std::string>& stor
 
 // Held to the stores' layout: nothing that a copy brings is forgotten.
 TEST_F(Copies, BytesAreThoseOfTheStores) {
-  const std::set<std::string> stores{"subspaces", "polygon list",     "polygons", "materials",     "normals",
+  const std::set<std::string> stores{"subspaces", "polygon list",     "polygons", "normals",
                                      "nodes",     "patch references", "lattice",  "texture points"};
   for (const Stage stage : {Stage::radiosity, Stage::ray_tracing}) {
     const CopyOrder all = order(stage);
@@ -115,7 +115,7 @@ TEST_F(Copies, WhatAllHaveAnywayIsFree) {
   std::set<std::uint32_t> free(lists_[last].begin(), lists_[last].end());
   EXPECT_TRUE(std::all_of(lists_[order.cells[0]].begin(), lists_[order.cells[0]].end(),
                           [&](std::uint32_t t) { return free.count(t) > 0; }));
-  std::uint64_t bytes = cell_bytes(lists_[order.cells[0]].size()) + sizeof(protocol::Material);
+  std::uint64_t bytes = cell_bytes(lists_[order.cells[0]].size());
   for (const std::uint32_t t : lists_[order.cells[0]]) bytes += polygon_bytes(mesh_.triangles[t], Stage::radiosity);
   EXPECT_GE(order.bytes[0], bytes) << "but its bytes are told in full";
 }
