@@ -103,10 +103,10 @@ struct MachineDescription {
   } ideal;
 
   struct Records {
-    std::uint32_t credits_per_pe = 1024;    ///< W = this * PEs, >= 1
-    std::uint32_t niu_slots = 2048;        ///< record slots of a NIU, >= kMostRecordsPerPacket
+    std::uint32_t credits_per_pe = 1024;  ///< W = this * PEs, >= 1
+    std::uint32_t niu_slots = 2048;       ///< record slots of a NIU, >= kMostRecordsPerPacket
     std::uint32_t gather_cycles = 16384;  ///< NiuWindow::gather of the PE firmware
-    std::uint32_t gather_records = 2048;   ///< likewise
+    std::uint32_t gather_records = 2048;  ///< likewise
 
     bool operator==(const Records&) const = default;
   } records;

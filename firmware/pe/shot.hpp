@@ -9,7 +9,6 @@
 #include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/records.hpp"
 #include "firmware/protocol/stratified.hpp"
-#include "firmware/protocol/stratified.hpp"
 
 namespace torolux::pe {
 
@@ -44,14 +43,14 @@ struct Shot {
 struct Expansion {
   bool active = false;
   protocol::PointRecord point{};
-  std::uint32_t number = 0;  ///< of the point in its shot
-  std::uint32_t key = 0;     ///< of the point's random numbers
-  Frame frame{};             ///< spun, by the same turn at all points of the shot
+  std::uint32_t number = 0;     ///< of the point in its shot
+  std::uint32_t key = 0;        ///< of the point's random numbers
+  Frame frame{};                ///< spun, by the same turn at all points of the shot
   std::uint32_t end_pixel = 0;  ///< behind the last one that is meant
   std::uint32_t pixel = 0;      ///< the next record's
   protocol::Flux pixel_flux{};
   std::uint32_t next_pixel = 0;
-  protocol::StratifiedPair within{};    ///< where in the pixels the point goes through them; each has a shift of its own
+  protocol::StratifiedPair within{};  ///< where in the pixels the point goes through them; each has a shift of its own
   std::array<std::uint32_t, 3> rest{};  ///< of the flux: less than a quantum, for the next pixel (next_part)
 };
 

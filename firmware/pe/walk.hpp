@@ -60,9 +60,7 @@ class Walk {
 
   /// Of the cell, in the map.
   std::uint32_t index() const { return index_; }
-  protocol::CellCode place() const {
-    return protocol::cell_code(cell_along(0), cell_along(1), cell_along(2));
-  }
+  protocol::CellCode place() const { return protocol::cell_code(cell_along(0), cell_along(1), cell_along(2)); }
   std::uint32_t cell_along(std::uint32_t axis) const {
     const Axis& a = axis_[axis];
     return (a.left ^ a.flip) + a.mirror;
@@ -121,11 +119,11 @@ class Walk {
  private:
   struct Axis {
     float origin, inverse, size;
-    float plane;           ///< number of the plane through which the ray leaves the cell
-    float step;            ///< to the next one: 1 or -1
-    float exit;            ///< distance to it
-    std::uint32_t left;    ///< cells that lie behind it
-    std::uint32_t stride;  ///< to the next cell's index
+    float plane;                 ///< number of the plane through which the ray leaves the cell
+    float step;                  ///< to the next one: 1 or -1
+    float exit;                  ///< distance to it
+    std::uint32_t left;          ///< cells that lie behind it
+    std::uint32_t stride;        ///< to the next cell's index
     std::uint32_t flip, mirror;  ///< (left ^ flip) + mirror is the cell: upward that is cells - 1 - left
   };
 

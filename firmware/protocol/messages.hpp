@@ -117,7 +117,8 @@ struct Grant {
 };
 
 struct WorkDone {
-  std::uint32_t points;   ///< or parts of points, or tiles, finished since the last such message; ray tracing stage: tiles
+  std::uint32_t
+      points;  ///< or parts of points, or tiles, finished since the last such message; ray tracing stage: tiles
   std::uint32_t records;  ///< made since
 };
 

@@ -114,7 +114,7 @@ struct Mesh {
   std::vector<std::uint32_t> nodes;
   std::vector<MeshFacet> facets;  ///< patch by patch, there in the order of the trees' leaves
   std::vector<MeshPatch> patches;
-  MeshLengths lengths;  ///< as given or chosen
+  MeshLengths lengths;          ///< as given or chosen
   std::uint32_t materials = 0;  ///< of the scene, up to the last one that is used
   std::uint32_t patch_sides = 0;
   std::uint32_t elements = 0;  ///< of all sides

@@ -287,8 +287,8 @@ void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& s
   }
   const double utilisation = load.of_pe.size() == 1 ? 1.0 : by_host ? kRayUtilisation : kTileUtilisation;
   prediction.rays = count;
-  prediction.ray_tracing_cycles = std::max(count * load.cycles() / utilisation,
-                                           by_host ? count * host_cycles_of_ray(machine.description) : 0.0);
+  prediction.ray_tracing_cycles =
+      std::max(count * load.cycles() / utilisation, by_host ? count * host_cycles_of_ray(machine.description) : 0.0);
   prediction.instructions += count * load.sum() / kCyclesPerInstruction;
   prediction.packets += count * sample.paths.sum().hand_overs / kHandedPerPacket;
 }

@@ -18,8 +18,8 @@ using protocol::Flux;
 using protocol::MessageKind;
 using protocol::ShotKind;
 
-/// Points, or parts of points, that a PE has at a time: while the next one is on its way, it works on the other. When no
-/// more are left than there are PEs, each has one: at the end nobody waits for what another has in store.
+/// Points, or parts of points, that a PE has at a time: while the next one is on its way, it works on the other. When
+/// no more are left than there are PEs, each has one: at the end nobody waits for what another has in store.
 constexpr std::uint32_t kSupply = 2;
 /// Points are dealt in parts when fewer are left for each PE.
 constexpr std::uint64_t kPointsUndivided = 2;
@@ -201,8 +201,7 @@ void RadiosityPhase::deal(HostPort& port) {
 void RadiosityPhase::deal_point(HostPort& port, PeNumber owner, PeNumber to) {
   RoundShot& shot = shots_of_[owner].front();
   if (!shot.begun) begin_shot(port, owner, shot);
-  const bool divide =
-      shot.part > 0 || (settings_.points_travel && points_left_ < kPointsUndivided * settings_.pes);
+  const bool divide = shot.part > 0 || (settings_.points_travel && points_left_ < kPointsUndivided * settings_.pes);
   const std::uint32_t parts = divide ? protocol::kPointParts : 1U;
   protocol::Deal& deal = deals_[owner];
   if (deal.count > 0 && deal.parts != parts) send_deal(port, owner);

@@ -52,10 +52,10 @@ class RadiosityPhase : public Phase {
   /// A shot of this round at its owner.
   struct RoundShot {
     protocol::Candidate candidate;
-    std::uint32_t number;  ///< of the shot, over the stage
+    std::uint32_t number;    ///< of the shot, over the stage
     std::uint32_t points;    ///< left to be dealt
     std::uint32_t part = 0;  ///< of the next one, where it is dealt in parts
-    bool begun = false;    ///< its owner has been told
+    bool begun = false;      ///< its owner has been told
   };
 
   void select(HostPort& port);

@@ -165,8 +165,9 @@ std::string bounded_by(const json& stats, const std::string& stage_name) {
 TEST(Statistics, NameWhatBoundsAStage) {
   const std::string scene = "cornell_box";
   EXPECT_EQ(bounded_by(statistics_of(scene, {"--pes", "1x1"}), "radiosity"), "work");
-  EXPECT_EQ(bounded_by(statistics_of(scene, {"--pes", "2x2", "--subspaces", "1x1x1", "--scheme", "paper"}), "radiosity"),
-            "balance");
+  EXPECT_EQ(
+      bounded_by(statistics_of(scene, {"--pes", "2x2", "--subspaces", "1x1x1", "--scheme", "paper"}), "radiosity"),
+      "balance");
   EXPECT_EQ(bounded_by(statistics_of(scene, {"--ideal", "all", "--set", "bus.arbitration_cycles=10000"}), "load"),
             "bus");
   EXPECT_EQ(bounded_by(statistics_of(scene, {"--set", "host.clock_hertz=1e6"}), "ray_tracing"), "host");
