@@ -11,26 +11,13 @@
 
 namespace torolux::pe {
 
-/// Bits that are set. Written out, as the processor has no instruction for it and a call costs as much again.
-constexpr std::uint32_t count_bits(std::uint32_t x) {
-  x -= (x >> 1U) & 0x5555'5555U;
-  x = (x & 0x3333'3333U) + ((x >> 2U) & 0x3333'3333U);
-  x = (x + (x >> 4U)) & 0x0F0F'0F0FU;
-  return (x * 0x0101'0101U) >> 24U;
-}
-static_assert(count_bits(0) == 0 && count_bits(0xFFFF'FFFFU) == 32 && count_bits(0x8000'0101U) == 3);
-
 struct CellMap {
   std::span<const protocol::CellWord> words;
   std::span<const protocol::CellEntry> entries;
 
   bool stops(std::uint32_t index) const { return ((words[index >> 5U].stops >> (index & 31U)) & 1U) != 0; }
   /// Of a cell at which a ray stops.
-  protocol::CellEntry entry(std::uint32_t index) const {
-    const protocol::CellWord& word = words[index >> 5U];
-    const std::uint32_t below = word.stops & ((1U << (index & 31U)) - 1U);
-    return entries[word.before + count_bits(below)];
-  }
+  protocol::CellEntry entry(std::uint32_t index) const { return entries[entry_number(words[index >> 5U], index)]; }
 };
 
 inline std::uint32_t cell_index(const protocol::StageLayout& layout, protocol::CellCode code) {

@@ -17,6 +17,9 @@ std::int64_t to_quanta(float value);
 
 class Homecoming {
  public:
+  /// Worth a message of their own.
+  static constexpr std::uint32_t kManyCredits = 64;
+
   bool empty() const { return pixels_ == 0 && credits_ == 0; }
   /// value: in quanta, before rounding. Sent when a message is full.
   void add_pixel(Niu& niu, std::uint32_t pixel, const glm::vec3& value) {
@@ -29,7 +32,6 @@ class Homecoming {
   void flush_pixels(Niu& niu);
 
  private:
-  static constexpr std::uint32_t kManyCredits = 64;
   std::uint32_t pixels_ = 0;  ///< in the NIU driver's batch message
   std::uint32_t credits_ = 0;
 };

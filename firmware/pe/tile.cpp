@@ -21,10 +21,6 @@ void require(Niu& niu, bool holds, TileField field, std::uint32_t value) {
   if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
 }
 
-protocol::CellCode code_of(const std::array<std::uint32_t, 3>& cell) {
-  return protocol::cell_code(cell[0], cell[1], cell[2]);
-}
-
 void begin_pixel(const Scene& scene, Tiles& tiles) {
   const Tile& tile = tiles.place[tiles.first];
   tiles.pixel = protocol::camera_pixel(scene.layout.view, tile.column + tiles.column, tile.row + tiles.row);
@@ -65,7 +61,7 @@ bool find_start(const Pe& pe, const Vec3f& direction, RayRecord& record) {
   const Vec3f& eye = pe.scene.layout.view.eye;
   const auto start = protocol::cell_of_entry(grid, protocol::RayPlanes(grid, eye, direction), eye, direction);
   if (!start) return false;
-  record.place = code_of(start->cell);
+  record.place = protocol::cell_code(start->cell);
   record.flags = start->flags;
   return true;
 }

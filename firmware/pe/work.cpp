@@ -9,8 +9,6 @@ namespace {
 
 /// Records made before the PE looks for what has come: few, so that others do not wait for it.
 constexpr std::uint32_t kRecordsAtATime = 4;
-/// Surplus credits go home so many at a time.
-constexpr std::uint32_t kManyCredits = 64;
 
 }  // namespace
 
@@ -42,7 +40,7 @@ void settle(Pe& pe, Niu& niu) {
   } else if (credits.in_hand == 0 && !credits.asked) {
     niu.send(protocol::MessageKind::need);
     credits.asked = true;
-  } else if (credits.in_hand >= pe.scene.layout.credits_kept + kManyCredits) {
+  } else if (credits.in_hand >= pe.scene.layout.credits_kept + Homecoming::kManyCredits) {
     pe.homecoming.add_credits(niu, credits.in_hand - pe.scene.layout.credits_kept);
     credits.in_hand = pe.scene.layout.credits_kept;
   }

@@ -105,16 +105,24 @@ std::uint32_t Placement::idle_pes() const {
   return idle;
 }
 
-Placement make_placement(const Mesh& mesh, const Grid& grid, std::vector<std::vector<std::uint32_t>> polygons_of_cell,
-                         const PlacementChoice& choice, const StageLoad& load) {
+CellLists list_cells(const Mesh& mesh, const Grid& grid) {
+  CellLists lists{grid, polygons_by_cell(grid, mesh.triangles), {}};
+  for (CellIndex cell = 0; cell < grid.count(); ++cell) {
+    lists.entries.push_back(list_polygons(mesh.triangles, lists.polygons[cell], grid, cell));
+  }
+  return lists;
+}
+
+Placement make_placement(const Mesh& mesh, const CellLists& lists, const PlacementChoice& choice,
+                         const StageLoad& load) {
+  const Grid& grid = lists.grid;
   Placement placement;
   placement.torus = choice.torus;
   placement.grid = grid;
   placement.scheme = choice.scheme;
-  placement.polygons_of_cell = std::move(polygons_of_cell);
-  for (CellIndex cell = 0; cell < grid.count(); ++cell) {
-    const auto& of_cell = placement.polygons_of_cell[cell];
-    placement.entries_of_cell.push_back(list_polygons(mesh.triangles, of_cell, grid, cell));
+  placement.polygons_of_cell = lists.polygons;
+  placement.entries_of_cell = lists.entries;
+  for (const auto& of_cell : placement.polygons_of_cell) {
     if (!of_cell.empty()) ++placement.filled_cells;
     placement.stop_cell.push_back(choice.empty == Empty::enter || !of_cell.empty());
     if (placement.stop_cell.back()) ++placement.stops;
@@ -132,7 +140,7 @@ Placement make_placement(const Mesh& mesh, const Grid& grid, std::vector<std::ve
 
 Placement make_placement(const Mesh& mesh, const PlacementChoice& choice) {
   const Grid grid = make_grid(mesh.space, choice.subspaces, mesh.triangles.size(), choice.torus.pes());
-  return make_placement(mesh, grid, polygons_by_cell(grid, mesh.triangles), choice, {});
+  return make_placement(mesh, list_cells(mesh, grid), choice, {});
 }
 
 }  // namespace torolux

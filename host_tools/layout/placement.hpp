@@ -64,6 +64,14 @@ struct PlacementChoice {
   Empty empty = empty_of(scheme);
 };
 
+/// What stands in each cell of a grid: `polygons_of_cell` and `entries_of_cell` of all placements on it.
+struct CellLists {
+  Grid grid;
+  std::vector<std::vector<std::uint32_t>> polygons;
+  std::vector<std::vector<protocol::ListedPolygon>> entries;
+};
+CellLists list_cells(const Mesh& mesh, const Grid& grid);
+
 /// What a placement is made for.
 struct StageLoad {
   protocol::Stage stage = protocol::Stage::radiosity;
@@ -76,7 +84,7 @@ struct StageLoad {
 /// Throws UsageError: unknown allocation, grid out of range.
 Placement make_placement(const Mesh& mesh, const PlacementChoice& choice);
 /// The same on a grid whose lists are known.
-Placement make_placement(const Mesh& mesh, const Grid& grid, std::vector<std::vector<std::uint32_t>> polygons_of_cell,
-                         const PlacementChoice& choice, const StageLoad& load);
+Placement make_placement(const Mesh& mesh, const CellLists& lists, const PlacementChoice& choice,
+                         const StageLoad& load);
 
 }  // namespace torolux

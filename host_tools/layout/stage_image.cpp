@@ -3,7 +3,6 @@
 #include "host_tools/layout/stage_image.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <type_traits>
 
@@ -114,7 +113,7 @@ class ImageWriter {
   std::uint32_t entry_of(CellIndex cell) const {
     protocol::CellWord word{};
     std::memcpy(&word, bytes_.data() + cell / 32 * sizeof word, sizeof word);
-    return word.before + static_cast<std::uint32_t>(std::popcount(word.stops & ((1U << (cell % 32)) - 1U)));
+    return protocol::entry_number(word, cell);
   }
 
   /// As of a PE without subspaces of its own.
@@ -291,7 +290,7 @@ class ImageWriter {
   protocol::StageLayout common_{};  ///< of what stands there already: its counts are where each store goes on
   std::uint32_t next_node_ = 0;
   std::uint32_t next_lattice_ = 0;
-  std::vector<std::byte> bytes_;  ///< elements stay zero, and are loaded as such
+  std::vector<std::byte> bytes_;  ///< elements stay zero
 };
 
 }  // namespace

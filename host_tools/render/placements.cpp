@@ -29,12 +29,11 @@ class Chooser {
       choice_.subspaces =
           spread_cells(mesh.space, mesh.triangles.size(), machine.pe_memory.value_or(protocol::kDefaultLocalMemory));
     }
-    grid_ = make_grid(mesh.space, choice_.subspaces, mesh.triangles.size(), choice_.torus.pes());
-    lists_ = polygons_by_cell(grid_, mesh.triangles);
+    lists_ = list_cells(mesh, make_grid(mesh.space, choice_.subspaces, mesh.triangles.size(), choice_.torus.pes()));
     const bool needs_heat = for_each_stage() || machine.allocation == "balanced";
     if (choice_.torus.pes() > 1 && needs_heat) {
       const Placement whole =
-          make_placement(mesh, grid_, lists_, {{1, 1}, std::nullopt, "modulo", machine.scheme, machine.empty}, {});
+          make_placement(mesh, lists_, {{1, 1}, std::nullopt, "modulo", machine.scheme, machine.empty}, {});
       radiosity_heat_ = sample_radiosity_heat(scene, mesh, whole, quality.bounces);
       if (for_each_stage()) {
         const CameraRays rays(camera, mesh.space, quality.width, quality.height,
@@ -76,7 +75,7 @@ class Chooser {
 
   Placement place(Stage stage, std::vector<bool> common, double most_memory) const {
     const Heat& of_stage = heat(stage);
-    return make_placement(mesh_, grid_, lists_, choice_,
+    return make_placement(mesh_, lists_, choice_,
                           {stage, of_stage.empty() ? nullptr : &of_stage, std::move(common), most_memory});
   }
 
@@ -99,9 +98,9 @@ class Chooser {
   /// Puts as many copies into `placement` as fit.
   void copy(Stage stage, std::uint32_t memory, double most_memory, Placement& placement, StageCopies& copies) const {
     if (choice_.torus.pes() == 1 || heat(stage).empty()) return;
-    const CopyOrder order = copy_order(mesh_, lists_, stage, heat_of_cells(heat(stage)), lacking(placement));
+    const CopyOrder order = copy_order(mesh_, lists_.polygons, stage, heat_of_cells(heat(stage)), lacking(placement));
     const auto try_with = [&](std::size_t count) {
-      Placement with = place(stage, order.first(count, grid_.count()), most_memory);
+      Placement with = place(stage, order.first(count, lists_.grid.count()), most_memory);
       MemoryNeed need;
       need.add(mesh_, with, stage, parameters_, map_);
       if (need.most() > memory) return false;
@@ -124,8 +123,7 @@ class Chooser {
   const StageParameters& parameters_;
   const MemoryMap& map_;
   PlacementChoice choice_;
-  Grid grid_;
-  std::vector<std::vector<std::uint32_t>> lists_;
+  CellLists lists_;
   Heat radiosity_heat_, ray_heat_;
 };
 

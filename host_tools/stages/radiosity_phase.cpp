@@ -45,7 +45,7 @@ RadiosityPhase::RadiosityPhase(RadiositySettings settings)
       shots_of_(settings_.pes),
       deals_(settings_.pes),
       supplied_(settings_.pes),
-      pool_(settings_.credits) {}
+      credits_(settings_.credits, settings_.pes) {}
 
 void RadiosityPhase::start(HostPort& port) {
   select(port);
@@ -69,14 +69,11 @@ void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kin
   if (state_ == State::selecting && kind == MessageKind::candidates) {
     take_candidates(port, source, contents);
   } else if (state_ == State::shooting && kind == MessageKind::credits) {
-    port.work(HostWork::entry, 1);
-    pool_ += contents_as<protocol::Credits>(contents).count;
-    if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
-    feed(port);
+    credits_.take_home(port, contents);
+    credits_.feed(port);
     end_round_if_over(port);
   } else if (state_ == State::shooting && kind == MessageKind::need) {
-    hungry_.push_back(source);
-    feed(port);
+    credits_.ask(port, source);
   } else if (state_ == State::shooting && kind == MessageKind::work_done) {
     take_work_done(port, source, contents_as<protocol::WorkDone>(contents));
     end_round_if_over(port);
@@ -122,17 +119,15 @@ void RadiosityPhase::begin_round(HostPort& port) {
   round.shooters = static_cast<std::uint32_t>(candidates_.size());
   add_shots();
   round.pes = static_cast<std::uint32_t>(owners_.size());
-  hungry_.clear();
   wanting_.clear();
   for (std::uint32_t i = 0; i < kSupply; ++i) {
     for (unsigned pe = 0; pe < settings_.pes; ++pe) wanting_.push_back(static_cast<PeNumber>(pe));
   }
   deal(port);
-  const std::uint64_t each = std::max<std::uint64_t>(1, settings_.credits / settings_.pes);
   for (unsigned pe = 0; pe < settings_.pes; ++pe) {
-    if (supplied_[pe] > 0 && pool_ > 0) grant(port, static_cast<PeNumber>(pe), each);
+    if (supplied_[pe] > 0) credits_.grant_share(port, static_cast<PeNumber>(pe));
   }
-  note_credits(port);
+  credits_.note(port);
 }
 
 /// The number of a shot seeds its random numbers, so it follows the order of choice.
@@ -238,29 +233,8 @@ void RadiosityPhase::begin_shot(HostPort& port, PeNumber owner, RoundShot& shot)
   shot.begun = true;
 }
 
-void RadiosityPhase::note_credits(HostPort& port) const {
-  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
-}
-
-void RadiosityPhase::grant(HostPort& port, PeNumber pe, std::uint64_t credits) {
-  port.work(HostWork::entry, 1);
-  const auto granted = static_cast<std::uint32_t>(std::min(credits, pool_));
-  pool_ -= granted;
-  torolux::send(port, pe, MessageKind::grant, protocol::Grant{granted});
-}
-
-/// PEs without credits get some, half of an equal share each.
-void RadiosityPhase::feed(HostPort& port) {
-  while (pool_ > 0 && !hungry_.empty()) {
-    const PeNumber pe = hungry_.front();
-    hungry_.pop_front();
-    grant(port, pe, std::max<std::uint64_t>(1, settings_.credits / settings_.pes / 2));
-  }
-  note_credits(port);
-}
-
 void RadiosityPhase::end_round_if_over(HostPort& port) {
-  if (!owners_.empty() || under_way_ > 0 || pool_ < settings_.credits) return;
+  if (!owners_.empty() || under_way_ > 0 || !credits_.all_home()) return;
   shots_ += candidates_.size();
   rounds_.back().end = port.now();
   if (settings_.max_shots > 0 && shots_ >= settings_.max_shots) {

@@ -7,6 +7,7 @@
 
 #include "host_tools/layout/light_units.hpp"
 #include "host_tools/mesh/mesh.hpp"
+#include "host_tools/stages/credit_pool.hpp"
 #include "host_tools/stages/phase.hpp"
 #include "host_tools/stages/rounds.hpp"
 
@@ -38,7 +39,7 @@ class RadiosityPhase : public Phase {
 
   std::uint64_t shots() const { return shots_; }
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< the present one, not ended, included
-  std::uint64_t credits_home() const { return pool_; }
+  std::uint64_t credits_home() const { return credits_.home(); }
   std::int64_t unshot() const { return unshot_; }  ///< [quanta, R + G + B], at the last selection
   const protocol::Flux& emitted_shot() const { return emitted_shot_; }
   const protocol::Flux& reflected_shot() const { return reflected_shot_; }
@@ -67,9 +68,6 @@ class RadiosityPhase : public Phase {
   void deal_point(HostPort& port, PeNumber owner, PeNumber to);
   void send_deal(HostPort& port, PeNumber owner);
   void begin_shot(HostPort& port, PeNumber owner, RoundShot& shot);
-  void note_credits(HostPort& port) const;
-  void grant(HostPort& port, PeNumber pe, std::uint64_t credits);
-  void feed(HostPort& port);
   void end_round_if_over(HostPort& port);
 
   RadiositySettings settings_;
@@ -84,10 +82,9 @@ class RadiosityPhase : public Phase {
   std::vector<PeNumber> dealing_;                ///< owners whose deal is being filled
   std::deque<PeNumber> wanting_;                 ///< PEs that could do with a point more, longest ago first
   std::vector<std::uint32_t> supplied_;          ///< points that a PE has been dealt and not finished
-  std::uint64_t points_left_ = 0;                ///< to be dealt
   std::uint64_t under_way_ = 0;                  ///< of those, in all
-  std::deque<PeNumber> hungry_;                  ///< PEs that have work and no credits
-  std::uint64_t pool_;                           ///< credits at home
+  std::uint64_t points_left_ = 0;                ///< to be dealt
+  CreditPool credits_;
   std::uint64_t shots_ = 0;
   std::vector<RoundFigures> rounds_;
   protocol::Flux emitted_shot_{};

@@ -21,7 +21,7 @@ RayTracingPhase::RayTracingPhase(const Placement& placement, CameraRays rays, co
       packet_(placement.torus.pes()),
       // Neighbours in time see different parts of the scene: so the load spreads over the PEs.
       stride_(golden_step(std::uint64_t{settings.width} * settings.height)),
-      pool_(settings.credits) {
+      credits_(settings.credits, placement.torus.pes()) {
   filled_.reserve(placement.polygons_of_cell.size());
   for (const auto& polygons : placement.polygons_of_cell) filled_.push_back(!polygons.empty());
 }
@@ -33,16 +33,14 @@ void RayTracingPhase::start(HostPort& port) {
 void RayTracingPhase::on_message(HostPort& port, PeNumber source, MessageKind kind,
                                  std::span<const std::byte> contents) {
   if (kind != MessageKind::credits) unexpected(source, kind, "tracing rays");
-  port.work(HostWork::entry, 1);
-  pool_ += contents_as<protocol::Credits>(contents).count;
-  if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
+  credits_.take_home(port, contents);
   make_rays(port);
 }
 
 void RayTracingPhase::make_rays(HostPort& port) {
-  while (pool_ > 0 && next_ < rays_.count()) make_ray(port);
+  while (credits_.home() > 0 && next_ < rays_.count()) make_ray(port);
   for (const PeNumber pe : std::exchange(open_, {})) flush(port, pe);
-  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
+  credits_.note(port);
 }
 
 /// Where all PEs can begin a ray, they do so in turn.
@@ -69,8 +67,7 @@ void RayTracingPhase::make_ray(HostPort& port) {
   record.direction = ray.direction;
   const float weight = 1.0F / static_cast<float>(settings_.samples);
   record.weight = {weight, weight, weight};
-  const auto cell = placement_.grid.cell(start->cell);
-  record.place = protocol::cell_code(cell[0], cell[1], cell[2]);
+  record.place = protocol::cell_code(placement_.grid.cell(start->cell));
   record.polygon = protocol::kNoPolygon;
   record.key = ray.key;
   record.pixel = pixel;
@@ -80,7 +77,7 @@ void RayTracingPhase::make_ray(HostPort& port) {
   const PeNumber pe = follower_of(start->cell);
   if (packet_[pe].empty()) open_.push_back(pe);
   packet_[pe].push_back(record);
-  --pool_;
+  credits_.spend();
   ++sent_;
   if (packet_[pe].size() == kPacket) {
     flush(port, pe);

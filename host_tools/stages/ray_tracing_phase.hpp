@@ -6,6 +6,7 @@
 
 #include "host_tools/layout/placement.hpp"
 #include "host_tools/stages/camera_rays.hpp"
+#include "host_tools/stages/credit_pool.hpp"
 #include "host_tools/stages/ray_phase.hpp"
 
 namespace torolux {
@@ -17,13 +18,13 @@ class RayTracingPhase : public RayPhase {
   void start(HostPort& port) override;
   void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
                   std::span<const std::byte> contents) override;
-  bool done() const override { return next_ == rays_.count() && pool_ == settings_.credits; }
+  bool done() const override { return next_ == rays_.count() && credits_.all_home(); }
   const char* waiting_for() const override { return "credits of camera rays"; }
 
   std::uint64_t made() const override { return next_; }
   std::uint64_t count() const override { return rays_.count(); }
   std::uint64_t sent() const override { return sent_; }
-  std::uint64_t credits_home() const override { return pool_; }
+  std::uint64_t credits_home() const override { return credits_.home(); }
 
  private:
   void make_rays(HostPort& port);
@@ -41,7 +42,7 @@ class RayTracingPhase : public RayPhase {
   std::uint64_t next_ = 0;
   std::uint64_t sent_ = 0;
   std::uint64_t turn_ = 0;
-  std::uint64_t pool_;
+  CreditPool credits_;
 };
 
 }  // namespace torolux

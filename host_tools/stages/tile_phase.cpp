@@ -48,28 +48,24 @@ TilePhase::TilePhase(unsigned pes, const RayTracingSettings& settings)
       grid_(tile_grid(settings.width, settings.height, settings.samples, pes)),
       step_(golden_step(grid_.count())),
       rays_held_(pes),
-      pool_(settings.credits) {}
+      credits_(settings.credits, pes) {}
 
 void TilePhase::start(HostPort& port) {
   for (std::uint32_t i = 0; i < kSupply; ++i) {
     for (unsigned pe = 0; pe < pes_; ++pe) deal(port, static_cast<PeNumber>(pe));
   }
-  const std::uint64_t each = std::max<std::uint64_t>(1, settings_.credits / pes_);
   for (unsigned pe = 0; pe < pes_; ++pe) {
-    if (pool_ > 0 && !rays_held_[pe].empty()) grant(port, static_cast<PeNumber>(pe), each);
+    if (!rays_held_[pe].empty()) credits_.grant_share(port, static_cast<PeNumber>(pe));
   }
-  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
+  credits_.note(port);
 }
 
 void TilePhase::on_message(HostPort& port, PeNumber source, MessageKind kind, std::span<const std::byte> contents) {
   if (kind == MessageKind::credits) {
-    port.work(HostWork::entry, 1);
-    pool_ += contents_as<protocol::Credits>(contents).count;
-    if (pool_ > settings_.credits) throw MachineFailure("more credits came home than were handed out");
-    feed(port);
+    credits_.take_home(port, contents);
+    credits_.feed(port);
   } else if (kind == MessageKind::need) {
-    hungry_.push_back(source);
-    feed(port);
+    credits_.ask(port, source);
   } else if (kind == MessageKind::work_done) {
     take_work_done(port, source, contents_as<protocol::WorkDone>(contents));
   } else {
@@ -99,23 +95,6 @@ void TilePhase::take_work_done(HostPort& port, PeNumber source, const protocol::
     held.pop_front();
     deal(port, source);
   }
-}
-
-void TilePhase::grant(HostPort& port, PeNumber pe, std::uint64_t credits) {
-  port.work(HostWork::entry, 1);
-  const auto granted = static_cast<std::uint32_t>(std::min(credits, pool_));
-  pool_ -= granted;
-  torolux::send(port, pe, MessageKind::grant, protocol::Grant{granted});
-}
-
-/// PEs without credits get some, half of an equal share each.
-void TilePhase::feed(HostPort& port) {
-  while (pool_ > 0 && !hungry_.empty()) {
-    const PeNumber pe = hungry_.front();
-    hungry_.pop_front();
-    grant(port, pe, std::max<std::uint64_t>(1, settings_.credits / pes_ / 2));
-  }
-  port.note(HostGauge::records_in_flight, static_cast<double>(settings_.credits - pool_));
 }
 
 }  // namespace torolux

@@ -6,6 +6,7 @@
 #include <deque>
 #include <vector>
 
+#include "host_tools/stages/credit_pool.hpp"
 #include "host_tools/stages/ray_phase.hpp"
 
 namespace torolux {
@@ -30,19 +31,17 @@ class TilePhase : public RayPhase {
   void start(HostPort& port) override;
   void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
                   std::span<const std::byte> contents) override;
-  bool done() const override { return next_ == grid_.count() && under_way_ == 0 && pool_ == settings_.credits; }
+  bool done() const override { return next_ == grid_.count() && under_way_ == 0 && credits_.all_home(); }
   const char* waiting_for() const override { return "tiles and credits"; }
 
   std::uint64_t made() const override { return made_; }
   std::uint64_t count() const override { return std::uint64_t{settings_.width} * settings_.height * settings_.samples; }
   std::uint64_t sent() const override { return sent_; }
-  std::uint64_t credits_home() const override { return pool_; }
+  std::uint64_t credits_home() const override { return credits_.home(); }
 
  private:
   void deal(HostPort& port, PeNumber pe);
   void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
-  void grant(HostPort& port, PeNumber pe, std::uint64_t credits);
-  void feed(HostPort& port);
 
   unsigned pes_;
   RayTracingSettings settings_;
@@ -51,8 +50,7 @@ class TilePhase : public RayPhase {
   std::uint64_t next_ = 0;                            ///< in that order
   std::vector<std::deque<std::uint64_t>> rays_held_;  ///< of the tiles that a PE has been dealt and not finished
   std::uint64_t under_way_ = 0;                       ///< of those tiles, in all
-  std::deque<PeNumber> hungry_;                       ///< PEs that have work and no credits
-  std::uint64_t pool_;                                ///< credits at home
+  CreditPool credits_;
   std::uint64_t made_ = 0;
   std::uint64_t sent_ = 0;
 };

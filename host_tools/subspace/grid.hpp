@@ -35,7 +35,7 @@ struct Grid {
 };
 
 /// The most cells along an axis and in all: cells are numbered in 16 bits along an axis.
-inline constexpr std::uint32_t kMostCellsPerAxis = 1024;
+using protocol::kMostCellsPerAxis;
 inline constexpr std::uint32_t kMostCells = 1U << 22U;
 
 /// cells: as given, each 1..kMostCellsPerAxis (else UsageError); absent: by the number of triangles, from 8 along the
@@ -43,9 +43,8 @@ inline constexpr std::uint32_t kMostCells = 1U << 22U;
 Grid make_grid(const SceneSpace& space, std::optional<std::array<std::uint32_t, 3>> cells, std::size_t triangles,
                std::size_t pes);
 
-/// Scheme `spread`: by the number of triangles, from 8 along the longest axis to 64, coarser where the map of the cells
-/// would take too much of a PE's memory [bytes]. Finer than automatic: who steps over empty cells need not be told of
-/// them by others, and fewer polygons stand in the full ones.
+/// Scheme `spread`: by the cube root of the number of triangles, 2 to 64 along the longest axis, coarser where the map
+/// of the cells would take too much of a PE's memory [bytes].
 std::array<std::uint32_t, 3> spread_cells(const SceneSpace& space, std::size_t triangles, std::uint32_t memory);
 
 /// For each cell, ascending numbers of the polygons that stand in it: those that touch its box grown by

@@ -24,7 +24,7 @@ class Copies : public testing::Test {
  protected:
   Placement placed(TorusSize torus, Stage stage, std::vector<bool> common, const Heat* heat = nullptr,
                    const std::string& allocation = "balanced") const {
-    return make_placement(mesh_, grid_, lists_, {torus, std::nullopt, allocation, Scheme::spread},
+    return make_placement(mesh_, cells_, {torus, std::nullopt, allocation, Scheme::spread},
                           {stage, heat, std::move(common)});
   }
   CopyOrder order(Stage stage) const { return copy_order(mesh_, lists_, stage, heat_of_cells(heat_)); }
@@ -48,9 +48,10 @@ class Copies : public testing::Test {
   const Scene scene_ = room_with_box();
   const Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.2, .element_length = 0.1});
   const Grid grid_ = make_grid(mesh_.space, std::array<std::uint32_t, 3>{6, 5, 7}, 0, 0);
-  const std::vector<std::vector<std::uint32_t>> lists_ = polygons_by_cell(grid_, mesh_.triangles);
+  const CellLists cells_ = list_cells(mesh_, grid_);
+  const std::vector<std::vector<std::uint32_t>>& lists_ = cells_.polygons;
   const Heat heat_ = sample_radiosity_heat(
-      scene_, mesh_, make_placement(mesh_, grid_, lists_, {{1, 1}, std::nullopt, "modulo", Scheme::spread}, {}), 32);
+      scene_, mesh_, make_placement(mesh_, cells_, {{1, 1}, std::nullopt, "modulo", Scheme::spread}, {}), 32);
 };
 
 std::uint64_t bytes_of(const PeLayout& layout, const std::set<std::string>& stores) {

@@ -106,7 +106,7 @@ TEST_F(LayoutTest, MapsNameWhoHoldsWhatStandsInEachCell) {
   std::vector<bool> common(grid.count());
   for (CellIndex cell = 0; cell < grid.count(); cell += 3) common[cell] = !placement_.polygons_of_cell[cell].empty();
   for (const Scheme scheme : {Scheme::paper, Scheme::spread}) {
-    const Placement placement = make_placement(mesh_, grid, placement_.polygons_of_cell,
+    const Placement placement = make_placement(mesh_, list_cells(mesh_, grid),
                                                {.torus = {3, 2},
                                                 .subspaces = {},
                                                 .allocation = scheme == Scheme::paper ? "skewed" : "balanced",

@@ -196,7 +196,7 @@ TEST_F(LoadReadTest, WhatAllHaveIsSentOnce) {
     std::vector<bool> common_cell(grid.count(), copies == Copies::all);
     for (CellIndex cell = 0; copies == Copies::some && cell < grid.count(); cell += 2) common_cell[cell] = true;
     const Placement placement =
-        make_placement(mesh_, grid, polygons_by_cell(grid, mesh_.triangles),
+        make_placement(mesh_, list_cells(mesh_, grid),
                        {.torus = {3, 2}, .subspaces = {}, .allocation = "balanced", .scheme = Scheme::spread},
                        {.common_cell = common_cell});
     const auto load = [&](const Placement& of, PeNumber pe, const PeLoad* common) {

@@ -52,8 +52,8 @@ TEST(PathSample, WhatIsCommonIsHandedToNobody) {
   const Grid grid = make_grid(mesh.space, std::array<std::uint32_t, 3>{6, 6, 6}, mesh.triangles.size(), 6);
   const auto emitted = [&](std::vector<bool> common) {
     const PlacementChoice choice{{3, 2}, std::nullopt, "skewed", Scheme::spread};
-    const Placement placement = make_placement(mesh, grid, polygons_by_cell(grid, mesh.triangles), choice,
-                                               {protocol::Stage::radiosity, nullptr, std::move(common)});
+    const Placement placement =
+        make_placement(mesh, list_cells(mesh, grid), choice, {protocol::Stage::radiosity, nullptr, std::move(common)});
     return sample_light(scene, mesh, placement, 32, 500).emitted;
   };
   const PathSample all = emitted(std::vector<bool>(grid.count(), true));

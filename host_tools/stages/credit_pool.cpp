@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// See credit_pool.hpp.
+#include "host_tools/stages/credit_pool.hpp"
+
+#include <algorithm>
+
+namespace torolux {
+
+void CreditPool::take_home(HostPort& port, std::span<const std::byte> contents) {
+  port.work(HostWork::entry, 1);
+  home_ += contents_as<protocol::Credits>(contents).count;
+  if (home_ > credits_) throw MachineFailure("more credits came home than were handed out");
+}
+
+void CreditPool::grant_share(HostPort& port, PeNumber pe) {
+  if (home_ > 0) grant(port, pe, std::max<std::uint64_t>(1, credits_ / pes_));
+}
+
+void CreditPool::ask(HostPort& port, PeNumber pe) {
+  hungry_.push_back(pe);
+  feed(port);
+}
+
+void CreditPool::feed(HostPort& port) {
+  while (home_ > 0 && !hungry_.empty()) {
+    const PeNumber pe = hungry_.front();
+    hungry_.pop_front();
+    grant(port, pe, std::max<std::uint64_t>(1, credits_ / pes_ / 2));
+  }
+  note(port);
+}
+
+void CreditPool::note(HostPort& port) const {
+  port.note(HostGauge::records_in_flight, static_cast<double>(credits_ - home_));
+}
+
+void CreditPool::grant(HostPort& port, PeNumber pe, std::uint64_t credits) {
+  port.work(HostWork::entry, 1);
+  const auto granted = static_cast<std::uint32_t>(std::min(credits, home_));
+  home_ -= granted;
+  send(port, pe, protocol::MessageKind::grant, protocol::Grant{granted});
+}
+
+}  // namespace torolux
