@@ -40,7 +40,8 @@ int make_descriptor(const std::string& name) {
 
 }  // namespace
 
-SharedMemory::SharedMemory(const std::string& name, std::size_t bytes, Use use) : size_(bytes) {
+SharedMemory::SharedMemory(const std::string& name, std::size_t bytes, Use use, std::size_t skew)
+    : size_(bytes), skew_(use == Use::here ? skew : 0) {
   int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
   if (use == Use::shared) {
     flags = MAP_SHARED;
@@ -49,7 +50,7 @@ SharedMemory::SharedMemory(const std::string& name, std::size_t bytes, Use use) 
   }
   void* mapped = MAP_FAILED;
   if (use == Use::here || ftruncate(descriptor_, static_cast<off_t>(bytes)) == 0) {
-    mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, flags, descriptor_, 0);
+    mapped = mmap(nullptr, bytes + skew_, PROT_READ | PROT_WRITE, flags, descriptor_, 0);
   }
   if (mapped == MAP_FAILED) {
     const int reason = errno;
@@ -57,24 +58,26 @@ SharedMemory::SharedMemory(const std::string& name, std::size_t bytes, Use use) 
     errno = reason;
     fail(name, bytes);
   }
-  data_ = static_cast<std::byte*>(mapped);
+  data_ = static_cast<std::byte*>(mapped) + skew_;
 }
 
 SharedMemory::SharedMemory(SharedMemory&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)),
       size_(std::exchange(other.size_, 0)),
+      skew_(std::exchange(other.skew_, 0)),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 SharedMemory& SharedMemory::operator=(SharedMemory&& other) noexcept {
   std::swap(data_, other.data_);
   std::swap(size_, other.size_);
+  std::swap(skew_, other.skew_);
   std::swap(descriptor_, other.descriptor_);
   return *this;
 }
 
 SharedMemory::~SharedMemory() {
   if (data_ != nullptr) {
-    munmap(data_, size_);
+    munmap(data_ - skew_, size_ + skew_);
   }
   if (descriptor_ >= 0) {
     close(descriptor_);

@@ -15,8 +15,8 @@ class SharedMemory {
   enum class Use : std::uint8_t { shared, here /* by this process alone: there may be any number of them */ };
 
   SharedMemory() = default;
-  /// Zeroed. name: for /proc only. Throws MachineFailure.
-  SharedMemory(const std::string& name, std::size_t bytes, Use use = Use::shared);
+  /// Zeroed. name: for /proc only. skew: of `here`, where in its first page it begins. Throws MachineFailure.
+  SharedMemory(const std::string& name, std::size_t bytes, Use use = Use::shared, std::size_t skew = 0);
   SharedMemory(SharedMemory&& other) noexcept;
   SharedMemory& operator=(SharedMemory&& other) noexcept;
   ~SharedMemory();
@@ -27,6 +27,7 @@ class SharedMemory {
  private:
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
+  std::size_t skew_ = 0;  // of data_ from the mapping's start
   int descriptor_ = -1;
 };
 

@@ -23,6 +23,10 @@ namespace torolux {
 namespace {
 
 constexpr double kProgressSeconds = 0.1;
+/// Of a computer's caches. Which set of a cache a line goes to hangs on where in its page it lies: were it the same
+/// place for all PEs, a thousand of them would share a few lines of the cache.
+constexpr std::size_t kCacheLine = 64;
+constexpr std::size_t kCacheColours = protocol::kPageBytes / kCacheLine;
 
 double clock_seconds(clockid_t clock) {
   timespec time{};
@@ -68,8 +72,9 @@ void check(const MachineSetup& setup) {
 PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, bool on_qemu) {
   const std::string name = "torolux-pe" + std::to_string(pe);
   const auto use = engine_runs_here(setup.engine) && !on_qemu ? SharedMemory::Use::here : SharedMemory::Use::shared;
-  PeMemory memory{SharedMemory(name + "-niu", niu_channel_bytes(), use),
-                  SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes), use), setup.local_memory_bytes};
+  PeMemory memory{SharedMemory(name + "-niu", niu_channel_bytes(), use, pe % kCacheColours * kCacheLine),
+                  SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes), use, pe % kCacheColours * kCacheLine),
+                  setup.local_memory_bytes};
   const auto local = memory.local.bytes().first(setup.local_memory_bytes);
   image.load_into(local);
   const std::uint32_t offset = image.niu_window - protocol::kLocalMemoryBase;

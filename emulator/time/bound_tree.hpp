@@ -28,7 +28,12 @@ class BoundTree {
   std::size_t least_index() const { return winner_[1]; }
   void set(std::size_t index, std::uint64_t value) {
     bound_[index] = value;
-    for (std::size_t i = (leaves_ + index) / 2; i >= 1; i /= 2) play(i);
+    for (std::size_t i = (leaves_ + index) / 2; i >= 1; i /= 2) {
+      const std::uint32_t before = winner_[i];
+      play(i);
+      // The game above was, and is, played by another, whose bound is what it was.
+      if (winner_[i] == before && before != index) return;
+    }
   }
 
  private:

@@ -15,10 +15,14 @@ constexpr std::size_t kChildren = 4;
 void EventQueue::push(Cycles time, std::uint32_t source, EventKind kind, std::uint16_t actor, std::uint8_t port,
                       std::uint32_t block) {
   const std::uint64_t order = (std::uint64_t{source} << 32U) | sequence_[source]++;
+  const bool far = time - now_ >= kWindow;  // earlier ones too: the difference wraps
+  if (!far && !(open_ && time == now_)) {
+    Node& node = push_near(time);
+    node.event = {time, order, block, actor, port, kind};
+    return;
+  }
   const Event event{time, order, block, actor, port, kind};
-  if (time - now_ >= kWindow) return push_far(event);  // earlier ones too: the difference wraps
-  if (open_ && time == now_) return push_open(event);
-  push_near(event);
+  return far ? push_far(event) : push_open(event);
 }
 
 /// Among the events of this cycle that have not gone yet.
@@ -29,7 +33,8 @@ void EventQueue::push_open(const Event& event) {
   opened_[at] = event;
 }
 
-void EventQueue::push_near(const Event& event) {
+/// A place for an event of this time, to be filled where it stands.
+EventQueue::Node& EventQueue::push_near(Cycles time) {
   std::uint32_t node = free_;
   if (node == kNobody) {
     node = static_cast<std::uint32_t>(nodes_.size());
@@ -37,11 +42,12 @@ void EventQueue::push_near(const Event& event) {
   } else {
     free_ = nodes_[node].next;
   }
-  const std::size_t number = event.time % kWindow;
-  nodes_[node] = {event, lists_[number]};
+  const std::size_t number = time % kWindow;
+  nodes_[node].next = lists_[number];
   lists_[number] = node;
   filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
-  near_ = std::min(near_, event.time);
+  near_ = std::min(near_, time);
+  return nodes_[node];
 }
 
 Event EventQueue::pop() {

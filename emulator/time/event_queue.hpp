@@ -72,7 +72,7 @@ class EventQueue {
   static bool before(const Event& a, const Event& b) { return a.time != b.time ? a.time < b.time : a.order < b.order; }
 
   void push_open(const Event& event);
-  void push_near(const Event& event);
+  Node& push_near(Cycles time);
   void push_far(const Event& event);
   Event pop_far();
   void open(Cycles time);

@@ -84,7 +84,7 @@ void Torus::withdraw(unsigned router, std::size_t input, std::size_t output, Cyc
   Output& out = routers_[router].outputs[output];
   out.waiting &= static_cast<std::uint8_t>(~(1U << input));
   if (out.waiting == 0 && out.stalled_at != kNotYet) {
-    out.figures.stalled += now - out.stalled_at;
+    routers_[router].seldom[output].stalled += now - out.stalled_at;
     out.stalled_at = kNotYet;
   }
   if (out.starving == input) cease_starving(router, output, now);
@@ -105,7 +105,7 @@ void Torus::grant(unsigned router, std::size_t input, std::size_t output, Cycles
     if (--out.may_enter == 0) cease_starving(router, output, now);
   }
   withdraw(router, input, output, now);
-  if (out.stalled_at != kNotYet) out.figures.stalled += now - out.stalled_at;
+  if (out.stalled_at != kNotYet) here.seldom[output].stalled += now - out.stalled_at;
   out.stalled_at = kNotYet;
   out.next_input = static_cast<std::uint8_t>((input + 1) % kPorts);
   in.free_at = tail;
@@ -122,7 +122,8 @@ void Torus::grant(unsigned router, std::size_t input, std::size_t output, Cycles
   } else {
     out.free_at = send(router, output, index, start);
   }
-  out.figures.busy += out.free_at - now;
+  const Cycles beyond = out.free_at - now - (block.copy == Copy::good ? block.flits : 0);
+  if (beyond != 0) here.seldom[output].busy_beyond += beyond;
   if (!in.queue.empty()) head(router, input, now);
   if (input == index_of(Port::local)) {
     client_.injected(router, tail);
@@ -153,8 +154,8 @@ Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles
     send_copy(router, output, index, start);
     return start + block.flits;
   }
-  ++out.figures.packets;
-  out.figures.flits += block.flits;
+  ++out.packets;
+  out.flits += block.flits;
   events_.push(start + hop_cycles_, source(router), EventKind::arrive, static_cast<std::uint16_t>(next),
                static_cast<std::uint8_t>(port), index);
   return start + block.flits;
@@ -166,7 +167,7 @@ void Torus::send_copy(unsigned router, std::size_t output, BlockIndex index, Cyc
   const auto next = static_cast<std::uint16_t>(neighbours_[router][output]);
   const auto port = static_cast<std::uint8_t>(opposite(static_cast<Port>(output)));
   ++packet_figures_.wasted_hops;
-  routers_[router].outputs[output].figures.wasted_flits += block.flits;
+  routers_[router].seldom[output].wasted_flits += block.flits;
   events_.push(start + hop_cycles_, source(router), EventKind::arrive, next, port, index);
   events_.push(start + hop_cycles_ + block.flits - 1, source(router), EventKind::tail, next, port, index);
 }
@@ -174,14 +175,14 @@ void Torus::send_copy(unsigned router, std::size_t output, BlockIndex index, Cyc
 void Torus::eject(unsigned router, BlockIndex index, Cycles tail) {
   const Block& block = pool_[index];
   const Cycles delivered = tail - 1 + hop_cycles_;
-  LinkFigures& figures = routers_[router].outputs[index_of(Port::local)].figures;
+  Output& out = routers_[router].outputs[index_of(Port::local)];
   if (block.copy == Copy::good) {
     --inside_;
     packet_figures_.add(block.hops, delivered - block.entered, block.records, block.bytes);
-    ++figures.packets;
-    figures.flits += block.flits;
+    ++out.packets;
+    out.flits += block.flits;
   } else {
-    figures.wasted_flits += block.flits;
+    routers_[router].seldom[index_of(Port::local)].wasted_flits += block.flits;
   }
   events_.push(delivered, source(router), EventKind::deliver, static_cast<std::uint16_t>(router), 0, index);
 }

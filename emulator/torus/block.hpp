@@ -33,7 +33,8 @@ enum class Copy : std::uint8_t {
   poisoned,  ///< a bad one that has been passed on, in a slot of its own
 };
 
-struct Block {
+/// What routers look at lies in one line of the caches.
+struct alignas(64) Block {
   std::uint64_t number;   ///< the source's own count in the lower half, the source in the upper: a name for hashes
   std::uint64_t entered;  ///< the outgoing queue to the torus [cycle]
   BlockIndex next;        ///< of the queue that it stands in

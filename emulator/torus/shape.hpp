@@ -33,6 +33,13 @@ class TorusShape {
   unsigned routers() const { return columns_ * rows_; }
   unsigned diameter() const { return columns_ / 2 + rows_ / 2; }  ///< most links between two PEs
 
+  struct Place {
+    std::uint16_t x, y;
+  };
+  Place place(unsigned router) const {
+    return {static_cast<std::uint16_t>(router % columns_), static_cast<std::uint16_t>(router / columns_)};
+  }
+
   unsigned neighbour(unsigned router, Port port) const {
     const unsigned x = router % columns_;
     const unsigned y = router / columns_;
@@ -52,15 +59,12 @@ class TorusShape {
 
   /// Dimension order: x first, the shorter way. At half a ring the way is fixed for each pair: a packet that starts at
   /// an even coordinate goes up, at an odd one down, which loads both directions alike.
-  Port route(unsigned router, unsigned destination) const {
-    const unsigned x = router % columns_;
-    const unsigned to_x = destination % columns_;
-    if (x != to_x) return step(x, to_x, columns_) ? Port::east : Port::west;
-    const unsigned y = router / columns_;
-    const unsigned to_y = destination / columns_;
-    if (y != to_y) return step(y, to_y, rows_) ? Port::south : Port::north;
+  Port route(Place from, Place to) const {
+    if (from.x != to.x) return step(from.x, to.x, columns_) ? Port::east : Port::west;
+    if (from.y != to.y) return step(from.y, to.y, rows_) ? Port::south : Port::north;
     return Port::local;
   }
+  Port route(unsigned router, unsigned destination) const { return route(place(router), place(destination)); }
 
   /// Links between two PEs.
   unsigned hops(unsigned from, unsigned to) const {

@@ -26,10 +26,12 @@ Torus::Torus(TorusShape shape, const MachineDescription::Torus& parameters, cons
       lines_(shape, parameters.link_cycles, events, sources.routers),
       routers_(shape.routers()),
       neighbours_(shape.routers()),
+      places_(shape.routers()),
       return_times_(std::size_t{shape.routers()} * kLinks * buffer_) {
   for (unsigned router = 0; router < shape.routers(); ++router) {
+    places_[router] = shape.place(router);
     for (std::size_t port = 0; port < kLinks; ++port) {
-      neighbours_[router][port] = shape.neighbour(router, static_cast<Port>(port));
+      neighbours_[router][port] = static_cast<std::uint16_t>(shape.neighbour(router, static_cast<Port>(port)));
       routers_[router].outputs[port].slots = buffer_;
     }
   }
@@ -119,7 +121,7 @@ void Torus::head(unsigned router, std::size_t input, Cycles now) {
 /// The first packet of an input asks for its output.
 void Torus::request(unsigned router, std::size_t input, Cycles now) {
   Input& in = routers_[router].inputs[input];
-  const auto output = index_of(shape_.route(router, pool_[in.queue.front()].destination));
+  const auto output = index_of(shape_.route(places_[router], places_[pool_[in.queue.front()].destination]));
   Output& out = routers_[router].outputs[output];
   const auto bit = static_cast<std::uint8_t>(1U << input);
   if ((out.waiting & bit) != 0) return;

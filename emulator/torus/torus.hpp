@@ -75,7 +75,8 @@ class Torus {
   static constexpr std::uint8_t kNobody = 0xFF;
   static constexpr std::uint8_t kAnyone = 0xFE;
 
-  struct Input {
+  // What each packet changes lies in one line of the caches for each input and output; there are thousands of these.
+  struct alignas(64) Input {
     BlockQueue queue;
     Cycles free_at = 0;       // its last packet's tail has left
     Cycles asked_at = 0;      // its first packet asked for an output
@@ -83,7 +84,7 @@ class Torus {
     std::uint8_t output = 0;  // that the first packet asks for
     std::uint32_t high_water = 0;
   };
-  struct Output {
+  struct alignas(64) Output {
     Cycles free_at = 0;
     Cycles scheduled = kNotYet;       // next arbitration
     Cycles stalled_at = kNotYet;      // since when it has been free and wanted, but nothing could go
@@ -93,11 +94,19 @@ class Torus {
     std::uint8_t starving = kNobody;  // the input that has waited too long to enter this ring
     std::uint32_t may_enter = 0;
     std::uint32_t first_return = 0, returns = 0;
-    LinkFigures figures;
+    std::uint64_t packets = 0, flits = 0;  // as in LinkFigures
+  };
+  static_assert(sizeof(Input) == 64 && sizeof(Output) == 64);
+  /// Of an output's figures, what few packets change.
+  struct Seldom {
+    std::uint64_t wasted_flits = 0;
+    Cycles stalled = 0;
+    Cycles busy_beyond = 0;  // `busy` - `flits`
   };
   struct Router {
     std::array<Input, kPorts> inputs;
     std::array<Output, kPorts> outputs;
+    std::array<Seldom, kPorts> seldom;
     LinkFigures injection;
   };
 
@@ -148,8 +157,9 @@ class Torus {
   TorusClient& client_;
   RingLines lines_;
   std::vector<Router> routers_;
-  std::vector<std::array<unsigned, kLinks>> neighbours_;
-  std::vector<Cycles> return_times_;  // rings of buffer_ entries, one per router and link
+  std::vector<std::array<std::uint16_t, kLinks>> neighbours_;
+  std::vector<TorusShape::Place> places_;  // of the routers
+  std::vector<Cycles> return_times_;       // rings of buffer_ entries, one per router and link
   PacketFigures packet_figures_;
   std::size_t inside_ = 0;
 };

@@ -9,8 +9,10 @@ namespace torolux {
 
 std::vector<RouterFigures> Torus::router_figures(Cycles now) const {
   std::vector<RouterFigures> result(routers_.size());
-  const auto figures_of = [&](const Output& out) {
-    LinkFigures figures = out.figures;
+  const auto figures_of = [&](const Router& here, std::size_t port) {
+    const Output& out = here.outputs[port];
+    const Seldom& seldom = here.seldom[port];
+    LinkFigures figures{out.packets, out.flits, seldom.wasted_flits, out.flits + seldom.busy_beyond, seldom.stalled};
     // Both are counted when a packet goes: in advance, or afterwards.
     figures.busy -= out.free_at > now ? out.free_at - now : 0;
     figures.stalled += out.stalled_at < now ? now - out.stalled_at : 0;
@@ -20,11 +22,11 @@ std::vector<RouterFigures> Torus::router_figures(Cycles now) const {
     const Router& here = routers_[router];
     RouterFigures& figures = result[router];
     for (std::size_t port = 0; port < kLinks; ++port) {
-      figures.links[port] = figures_of(here.outputs[port]);
+      figures.links[port] = figures_of(here, port);
       const std::size_t other = index_of(opposite(static_cast<Port>(port)));
       figures.links[port].queue_high_water = routers_[neighbours_[router][port]].inputs[other].high_water;
     }
-    figures.ejection = figures_of(here.outputs[index_of(Port::local)]);
+    figures.ejection = figures_of(here, index_of(Port::local));
     const Input& local = here.inputs[index_of(Port::local)];
     figures.injection = here.injection;
     figures.injection.busy -= local.free_at > now ? local.free_at - now : 0;
