@@ -43,6 +43,7 @@ void Emulation::attend_now_and_then() {
 
 /// Waits for a PE that runs: until its bound is later than `wanted`, or it waits itself, or a while has passed.
 void Emulation::await(unsigned pe, Cycles wanted) {
+  nius_[pe].wake_if_overlooked();
   if (engine_.help(pe, wanted)) {
     if (until_attend_ <= kHelpEvents) return attend_now_and_then();
     until_attend_ -= kHelpEvents;

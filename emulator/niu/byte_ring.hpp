@@ -50,7 +50,7 @@ class ByteRing {
     }
     std::memcpy(&data_[place(at)], &header, sizeof header);
     if (!payload.empty()) std::memcpy(&data_[place(at)] + sizeof header, payload.data(), payload.size());
-    written_.store(at + entry, std::memory_order_seq_cst);
+    written_.store(at + entry, std::memory_order_release);
   }
 
   // ---- reader ----
@@ -73,7 +73,7 @@ class ByteRing {
   }
   /// Removes the entry that `front` gave.
   void pop(const Header& header) {
-    read_.store(read_.load(std::memory_order_relaxed) + entry_bytes(header.bytes), std::memory_order_seq_cst);
+    read_.store(read_.load(std::memory_order_relaxed) + entry_bytes(header.bytes), std::memory_order_release);
   }
 
  private:

@@ -154,7 +154,7 @@ struct Departures {
   void add(std::uint64_t when) {
     const std::uint64_t n = count.load(std::memory_order_relaxed);
     time[n & mask].store(when, std::memory_order_relaxed);
-    count.store(n + 1, std::memory_order_seq_cst);
+    count.store(n + 1, std::memory_order_release);
   }
   /// Number n must have left, and number n + places not yet have been sent.
   std::uint64_t when(std::uint64_t n) const { return time[n & mask].load(std::memory_order_relaxed); }

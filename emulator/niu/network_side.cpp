@@ -142,7 +142,7 @@ void NiuNetworkSide::publish_horizon(Cycles horizon) {
   // What waits for room in the ring is not known to the processor.
   if (!overflow_.empty()) horizon = std::min(horizon, overflow_.front().time);
   if (channel_->horizon.load(std::memory_order_relaxed) >= horizon) return;
-  channel_->horizon.store(horizon, std::memory_order_seq_cst);
+  channel_->horizon.store(horizon, std::memory_order_release);
   if (says() == WaitKind::poll) wake_processor();  // it may just have begun to
 }
 
@@ -164,6 +164,10 @@ void NiuNetworkSide::wake_processor() {
   if (channel_->asleep.load(std::memory_order_seq_cst) == 0) return;
   channel_->asleep.store(0, std::memory_order_relaxed);
   signal_processor();
+}
+
+void NiuNetworkSide::wake_if_overlooked() {
+  if (waits_for() == WaitKind::running) wake_processor();
 }
 
 void NiuNetworkSide::signal_processor() {

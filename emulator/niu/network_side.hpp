@@ -47,6 +47,9 @@ class NiuNetworkSide {
   void release(Cycles horizon, PeTimes& times);
   /// The same for one that does not wait, but may ask.
   void publish_horizon(Cycles horizon);
+  /// Before the scheduler waits for a processor that may go on. What this side writes does not wait to be seen (that is
+  /// dear where it has to be fetched), so a processor that just then fell asleep may not have been woken.
+  void wake_if_overlooked();
   /// Sleeps until the processor's bound is later than `wanted`, or it waits, or some milliseconds have passed.
   void sleep_until_bound(Cycles wanted);
   void tell_to_stop();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Arbitration: the requests of a cycle in, one packet for each free output on its way.
 #include <algorithm>
+#include <bit>
 
 #include "emulator/torus/torus.hpp"
 
@@ -30,6 +31,10 @@ void Torus::arbitrate(unsigned router, std::size_t output, Cycles now) {
 std::optional<std::size_t> Torus::choose(unsigned router, std::size_t output) const {
   const Router& here = routers_[router];
   const Output& out = here.outputs[output];
+  if (std::has_single_bit(out.waiting)) {
+    const auto input = static_cast<std::size_t>(std::countr_zero(out.waiting));
+    return may_go(router, input, output) ? std::optional(input) : std::nullopt;
+  }
   std::optional<std::size_t> best;
   Cycles oldest = kNotYet;
   for (std::size_t i = 0; i < kPorts; ++i) {
@@ -140,7 +145,8 @@ Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles
   const unsigned next = neighbours_[router][output];
   const std::size_t port = index_of(opposite(static_cast<Port>(output)));
   --out.slots;
-  ++routers_[next].inputs[port].held;
+  ++out.held;
+  fetch_ahead(router, output, block);
   if (block.copy == Copy::bad) block.copy = Copy::poisoned;
   const std::uint32_t bad = block.copy == Copy::good ? faults_.bad_copies(block) : 0;
   ++block.hops;
@@ -159,6 +165,17 @@ Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles
   events_.push(start + hop_cycles_, source(router), EventKind::arrive, static_cast<std::uint16_t>(next),
                static_cast<std::uint8_t>(port), index);
   return start + block.flits;
+}
+
+/// The output that it will ask for at the next router, and what is needed there a few events from now, fetched into the
+/// caches meanwhile.
+void Torus::fetch_ahead(unsigned router, std::size_t output, Block& block) {
+  const unsigned next = neighbours_[router][output];
+  const Port port = shape_.route(places_[next], places_[block.destination]);
+  block.output = static_cast<std::uint8_t>(port);
+  __builtin_prefetch(&routers_[next].inputs[index_of(opposite(static_cast<Port>(output)))], 1);
+  __builtin_prefetch(&routers_[next].outputs[index_of(port)], 1);
+  if (port != Port::local) __builtin_prefetch(&return_time(next, index_of(port), 0), 1);
 }
 
 /// A copy that is not good: at the other end its head goes on like any, until its tail shows what it is.

@@ -46,6 +46,7 @@ struct alignas(64) Block {
   std::uint32_t hops;          ///< links crossed so far
   std::uint32_t bytes;         ///< of the payload
   Copy copy;
+  std::uint8_t output;  ///< of the router where it is, or to which it is on its way: that it asks for
   std::array<std::byte, kMostBlockBytes> data;
 
   bool is_broadcast() const { return destination == kEveryPe; }
@@ -60,6 +61,7 @@ struct alignas(64) Block {
     flits = good.flits;
     hops = good.hops;
     bytes = good.bytes;
+    output = good.output;
     copy = Copy::bad;
   }
   std::span<const std::byte> payload() const { return std::span(data).first(bytes); }
@@ -83,6 +85,7 @@ class BlockPool {
     Block& block = (*this)[index];
     block.number = block.entered = 0;
     block.copy = Copy::good;
+    block.output = 0;
     block.next = kNoBlock;
     block.source = block.destination = block.records = block.message_kind = 0;
     block.flits = block.hops = block.bytes = 0;

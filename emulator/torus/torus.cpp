@@ -69,6 +69,7 @@ void Torus::handle(const Event& event) {
 void Torus::inject(unsigned pe, BlockIndex block, Cycles now) {
   ++inside_;
   pool_[block].entered = now;
+  pool_[block].output = static_cast<std::uint8_t>(shape_.route(places_[pe], places_[pool_[block].destination]));
   Input& input = routers_[pe].inputs[index_of(Port::local)];
   input.queue.push(pool_, block);
   input.high_water = std::max(input.high_water, input.queue.size());
@@ -121,7 +122,7 @@ void Torus::head(unsigned router, std::size_t input, Cycles now) {
 /// The first packet of an input asks for its output.
 void Torus::request(unsigned router, std::size_t input, Cycles now) {
   Input& in = routers_[router].inputs[input];
-  const auto output = index_of(shape_.route(places_[router], places_[pool_[in.queue.front()].destination]));
+  const std::size_t output = pool_[in.queue.front()].output;
   Output& out = routers_[router].outputs[output];
   const auto bit = static_cast<std::uint8_t>(1U << input);
   if ((out.waiting & bit) != 0) return;
@@ -158,10 +159,10 @@ void Torus::collect_returns(unsigned router, std::size_t output, Cycles now) {
 
 /// The slot of a packet that has left is known to be free upstream a little later.
 void Torus::free_slot(unsigned router, std::size_t input, Cycles when, Cycles now) {
-  --routers_[router].inputs[input].held;
   const unsigned upstream = neighbours_[router][input];
   const std::size_t output = index_of(opposite(static_cast<Port>(input)));
   Output& out = routers_[upstream].outputs[output];
+  --out.held;
   return_time(upstream, output, out.first_return + out.returns) = when + slot_return_cycles_;
   ++out.returns;
   if (out.waiting != 0) {

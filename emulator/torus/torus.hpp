@@ -80,7 +80,6 @@ class Torus {
     BlockQueue queue;
     Cycles free_at = 0;       // its last packet's tail has left
     Cycles asked_at = 0;      // its first packet asked for an output
-    std::uint32_t held = 0;   // slots: packets granted to it and not granted onwards
     std::uint8_t output = 0;  // that the first packet asks for
     std::uint32_t high_water = 0;
   };
@@ -89,6 +88,7 @@ class Torus {
     Cycles scheduled = kNotYet;       // next arbitration
     Cycles stalled_at = kNotYet;      // since when it has been free and wanted, but nothing could go
     std::uint32_t slots = 0;          // free ones at the other end, as far as known here
+    std::uint32_t held = 0;           // slots there: packets granted to it and not granted onwards
     std::uint8_t waiting = 0;         // inputs that ask for it, a bit each
     std::uint8_t next_input = 0;      // round robin, among packets of one age
     std::uint8_t starving = kNobody;  // the input that has waited too long to enter this ring
@@ -126,6 +126,7 @@ class Torus {
   void withdraw(unsigned router, std::size_t input, std::size_t output, Cycles now);
   void grant(unsigned router, std::size_t input, std::size_t output, Cycles now);
   Cycles send(unsigned router, std::size_t output, BlockIndex index, Cycles start);
+  void fetch_ahead(unsigned router, std::size_t output, Block& block);
   void send_copy(unsigned router, std::size_t output, BlockIndex index, Cycles start);
   void eject(unsigned router, BlockIndex index, Cycles tail);
   void free_slot(unsigned router, std::size_t input, Cycles when, Cycles now);

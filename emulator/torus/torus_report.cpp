@@ -41,12 +41,10 @@ void Torus::check_slots() const {
   for (unsigned router = 0; router < shape_.routers(); ++router) {
     for (std::size_t port = 0; port < kLinks; ++port) {
       const Output& out = routers_[router].outputs[port];
-      const std::size_t at = index_of(opposite(static_cast<Port>(port)));
-      const std::uint32_t held = routers_[neighbours_[router][port]].inputs[at].held;
-      if (held > buffer_ || out.slots + out.returns + held != buffer_) {  // the sum may wrap
+      if (out.held > buffer_ || out.slots + out.returns + out.held != buffer_) {  // the sum may wrap
         throw MachineFailure("router " + std::to_string(router) + ", link " + std::to_string(port) + ": " +
                              std::to_string(out.slots) + " slots free, " + std::to_string(out.returns) +
-                             " on their way back, " + std::to_string(held) + " held; the buffer has " +
+                             " on their way back, " + std::to_string(out.held) + " held; the buffer has " +
                              std::to_string(buffer_));
       }
     }
