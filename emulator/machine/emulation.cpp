@@ -47,7 +47,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
 void Emulation::handle(const Event& event) {
   switch (event.kind) {
     case EventKind::command:
-      command(event.actor);
+      command(event.actor, PendingCommand(event, pool_));
       break;
     case EventKind::arrive:
     case EventKind::head:
@@ -94,12 +94,12 @@ void Emulation::handle(const Event& event) {
   }
 }
 
-void Emulation::command(unsigned pe) {
+void Emulation::command(unsigned pe, const PendingCommand& command) {
   NiuNetworkSide& niu = nius_[pe];
-  const PendingCommand command = niu.next_command();
   if (command.released != 0) niu.release_slots(command.released);
   switch (command.kind) {
     case CommandKind::send_records: {
+      niu.fetch_departures_ahead();
       Block& block = pool_[command.block];
       block.flits = torus_.flits(block.bytes);
       count_kinds(block);
@@ -204,6 +204,7 @@ bool Emulation::accept(unsigned pe, BlockIndex block) {
     if (!niu.has_receive_buffer()) return false;
     niu.reserve_slots(records);
     niu.reserve_receive_buffer();
+    niu.fetch_ahead();
     return true;
   }
   if (parts_[pe].diverting != kNoBlock) return false;

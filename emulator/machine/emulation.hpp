@@ -60,7 +60,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
 
   // ---- Events ----
   void handle(const Event& event);
-  void command(unsigned pe);
+  void command(unsigned pe, const PendingCommand& command);
   void deliver(unsigned pe, BlockIndex block);
   void drop(unsigned pe, BlockIndex block);
   void bus_done(BlockIndex block);

@@ -30,6 +30,13 @@ class ByteRing {
   /// else.
   void set_bytes(std::uint32_t bytes) { halvings_ = static_cast<std::uint32_t>(std::countr_zero(kMostBytes / bytes)); }
 
+  /// Both ends, into the caches.
+  void fetch_ahead() const {
+    __builtin_prefetch(&written_, 1);
+    __builtin_prefetch(&read_, 1);
+    __builtin_prefetch(&data_, 1);
+  }
+
   // ---- writer ----
 
   /// Whether an entry with so much payload fits, wherever it comes to lie.

@@ -41,6 +41,7 @@ NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, c
 }
 
 bool NiuNetworkSide::refresh(EventQueue& events, BlockPool& pool, PeTimes& times) {
+  channel_->commands.fetch_ahead();
   // In this order: a wait that is seen belongs to a bound that is seen, and both to commands that are seen.
   wait_ = channel_->wait.load(std::memory_order_seq_cst);
   bound_ = channel_->bound.load(std::memory_order_acquire);
@@ -183,31 +184,27 @@ void NiuNetworkSide::drain(EventQueue& events, BlockPool& pool) {
   bool any = false;
   while (const Command* command = ring.front()) {
     any = true;
-    PendingCommand pending{command->kind, command->released, kNoBlock};
+    BlockIndex index = kNoBlock;
     const auto payload = ring.payload(*command);
     const bool sends = command->kind == CommandKind::send_records || command->kind == CommandKind::send_message;
     if (sends || !payload.empty()) {
-      pending.block = pool.take();
-      Block& block = pool[pending.block];
+      index = pool.take();
+      Block& block = pool[index];
       block.number = (std::uint64_t{pe_} << 32U) | sends_++;
       block.source = static_cast<std::uint16_t>(pe_);
       block.destination = command->destination;
       block.message_kind = command->message_kind;
       block.records = command->records;
+      block.released = static_cast<std::uint16_t>(command->released);
       block.set_payload(payload);
     }
-    events.push(command->time, pe_, EventKind::command, static_cast<std::uint16_t>(pe_), 0, 0);
-    commands_.push_back(pending);
+    if (command->kind == CommandKind::release) index = command->released;
+    events.push(command->time, pe_, EventKind::command, static_cast<std::uint16_t>(pe_),
+                static_cast<std::uint8_t>(command->kind), index);
     ring.pop(*command);
   }
   // A processor that waits for room in the ring says that it runs.
   if (any && wait_kind(wait_) == WaitKind::running) wake_processor();
-}
-
-PendingCommand NiuNetworkSide::next_command() {
-  const PendingCommand command = commands_.front();
-  commands_.pop_front();
-  return command;
 }
 
 // ---- Slots ----

@@ -18,11 +18,18 @@
 
 namespace torolux {
 
-/// A command as it stands in line until its time; its payload lies in a block.
+/// A command as it stands in line until its time: its event has all of it, or the block with its payload.
 struct PendingCommand {
   CommandKind kind;
   std::uint32_t released;
   BlockIndex block;  ///< kNoBlock: no payload
+
+  /// As drain made it of what came through the ring.
+  PendingCommand(const Event& event, const BlockPool& pool) : kind(static_cast<CommandKind>(event.port)) {
+    const bool alone = kind == CommandKind::release;
+    block = alone ? kNoBlock : event.block;
+    released = alone ? event.block : block != kNoBlock ? pool[block].released : 0;
+  }
 };
 
 /// What the scheduler knows of each PE. Both are kNever where nothing happens before the network side acts.
@@ -54,11 +61,6 @@ class NiuNetworkSide {
   void sleep_until_bound(Cycles wanted);
   void tell_to_stop();
 
-  // ---- Commands ----
-
-  PendingCommand next_command();
-  bool has_command() const { return !commands_.empty(); }
-
   // ---- Record slots and control buffers ----
 
   void set_slots(std::uint32_t slots) { slots_ = slots; }
@@ -89,6 +91,14 @@ class NiuNetworkSide {
 
   // ---- Towards the processor ----
 
+  /// A packet is about to be delivered: what that needs of the channel, fetched into the caches meanwhile.
+  void fetch_ahead() const {
+    channel_->arrivals.fetch_ahead();
+    __builtin_prefetch(&channel_->wait);
+    __builtin_prefetch(&gathered_);
+  }
+  /// The same for a packet that is about to leave the outgoing queue.
+  void fetch_departures_ahead() const { __builtin_prefetch(&channel_->torus_departures, 1); }
   /// A packet or message, its room reserved, has come at `now`. The block belongs to the NIU from here on.
   void deliver(BlockIndex block, Cycles now, BlockPool& pool, PeTimes& times);
   /// The same of a message that others get, too: the block stays the caller's.
@@ -150,7 +160,6 @@ class NiuNetworkSide {
   Cycles copy_free_ = 0, copy_in_cycles_ = 0;
   std::array<std::uint32_t, kHostQueues> asked_{};  // slots, by HostQueue
   bool bus_buffer_used_ = false;
-  Fifo<PendingCommand> commands_;
   Fifo<Overflow> overflow_;  // delivered, but the ring was full
 };
 

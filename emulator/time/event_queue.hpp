@@ -12,7 +12,7 @@ namespace torolux {
 using Cycles = std::uint64_t;  ///< virtual time
 
 enum class EventKind : std::uint8_t {
-  command,        ///< actor: PE. Its next command takes effect
+  command,        ///< actor: PE, port, block: PendingCommand. It takes effect
   arrive,         ///< actor: router, port: input, block: a packet's head has come
   head,           ///< actor: router, port: input. Its next packet may ask for an output
   tail,           ///< actor: router, port: input, block: the tail of a packet with a bad CRC has come

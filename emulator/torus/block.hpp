@@ -45,6 +45,7 @@ struct alignas(64) Block {
   std::uint32_t flits;         ///< in the torus, header included, >= 1
   std::uint32_t hops;          ///< links crossed so far
   std::uint32_t bytes;         ///< of the payload
+  std::uint16_t released;      ///< of a command: NIU slots that became free with it
   Copy copy;
   std::uint8_t output;  ///< of the router where it is, or to which it is on its way: that it asks for
   std::array<std::byte, kMostBlockBytes> data;
@@ -87,7 +88,7 @@ class BlockPool {
     block.copy = Copy::good;
     block.output = 0;
     block.next = kNoBlock;
-    block.source = block.destination = block.records = block.message_kind = 0;
+    block.source = block.destination = block.records = block.message_kind = block.released = 0;
     block.flits = block.hops = block.bytes = 0;
     return index;
   }

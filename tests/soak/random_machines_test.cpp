@@ -113,6 +113,7 @@ class Drawn {
     const std::uint64_t copies = figures.radiosity_copies.cells + figures.ray_tracing_copies.cells;
     ++seen_[copies != 0 ? "copies" : "no copies"];
     for (const PeFigures& pe : figures.machine.pes) seen_["records diverted"] += pe.records_diverted;
+    seen_["packet hops"] += figures.machine.packets.hops;
     seen_["link retries"] += figures.machine.link_retries;
   }
   std::uint64_t count(const std::string& what) const { return seen_.contains(what) ? seen_.at(what) : 0; }
