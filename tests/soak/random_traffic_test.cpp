@@ -44,50 +44,72 @@ TEST(RandomTraffic, EveryRecordComesHomeTheSameWay) {
   }
 }
 
-/// run_traffic throws where it locks, and ends only when all packets that count have arrived.
-TEST(RandomTraffic, RingsOfEverySizeNeverLock) {
-  std::uint32_t seed = 1;
-  for (const auto& [columns, rows] : {std::pair(1U, 2U),
-                                      {1U, 3U},
-                                      {1U, 5U},
-                                      {1U, 8U},
-                                      {7U, 1U},
-                                      {16U, 1U},
-                                      {2U, 2U},
-                                      {2U, 3U},
-                                      {5U, 2U},
-                                      {2U, 8U},
-                                      {3U, 3U},
-                                      {3U, 5U},
-                                      {5U, 5U},
-                                      {5U, 8U},
-                                      {8U, 8U}}) {
-    for (const std::string_view pattern : traffic_pattern_names()) {
-      if (pattern == "transpose" && columns != rows) continue;
-      if (pattern == "tornado" && columns < 3 && rows < 3) continue;
-      for (const double errors : {0.0, 0.1, 0.5}) {
-        for (const std::uint32_t jitter : {0U, 20U}) {
-          MachineDice dice(seed);
-          TrafficSetup setup;
-          setup.columns = columns;
-          setup.rows = rows;
-          setup.pattern = pattern;
-          setup.rate = pattern == "hotspot" ? std::min(1.0, 3.0 / (columns * rows)) : 0.7;
-          setup.packet_flits = dice.number(1, 20);
-          setup.seed = seed++;
-          setup.warm_up = 1000;
-          setup.cycles = 10000;
-          setup.machine.torus.buffer_packets = 2;
-          setup.machine.torus.slot_return_cycles = dice.number(1, 20);
-          setup.machine.torus.patience_cycles = dice.chance(2) ? dice.number(1, 50) : 1000;
-          setup.machine.torus.link_error_rate = errors;
-          setup.machine.jitter = {.seed = jitter == 0 ? 0 : seed, .cycles = jitter};
-          SCOPED_TRACE(std::string(pattern) + ", " + to_text(setup.machine, columns, rows));
-          ASSERT_GT(run_traffic(setup).packets, 0U);
-        }
+/// By chance: short or long packets, the smallest buffers, with and without patience.
+TrafficSetup overload(std::uint32_t seed, unsigned columns, unsigned rows, std::string_view pattern) {
+  MachineDice dice(seed);
+  TrafficSetup setup;
+  setup.columns = columns;
+  setup.rows = rows;
+  setup.pattern = pattern;
+  setup.rate = pattern == "hotspot" ? std::min(1.0, 3.0 / (columns * rows)) : 0.7;
+  setup.packet_flits = dice.number(1, 20);
+  setup.seed = seed;
+  // All packets count: those made after a while might, beyond saturation, all be made after the end.
+  setup.warm_up = 0;
+  setup.cycles = 10000;
+  setup.machine.torus.buffer_packets = 2;
+  setup.machine.torus.slot_return_cycles = dice.number(1, 20);
+  setup.machine.torus.patience_cycles = dice.chance(2) ? dice.number(1, 50) : 1000;
+  return setup;
+}
+
+/// All patterns, errors and delays on one torus. Returns the links that packets have crossed.
+std::uint64_t overload_all_ways(std::uint32_t& seed, unsigned columns, unsigned rows) {
+  std::uint64_t hops = 0;
+  for (const std::string_view pattern : traffic_pattern_names()) {
+    if (pattern == "transpose" && columns != rows) continue;
+    if (pattern == "tornado" && columns < 3 && rows < 3) continue;
+    for (const double errors : {0.0, 0.1, 0.5}) {
+      for (const std::uint32_t jitter : {0U, 20U}) {
+        TrafficSetup setup = overload(++seed, columns, rows, pattern);
+        setup.machine.torus.link_error_rate = errors;
+        setup.machine.jitter = {.seed = jitter == 0 ? 0 : seed, .cycles = jitter};
+        SCOPED_TRACE(std::string(pattern) + ", " + to_text(setup.machine, columns, rows));
+        const TrafficFigures figures = run_traffic(setup);
+        EXPECT_GT(figures.packets, 0U);
+        hops += figures.packet_hops;
       }
     }
   }
+  return hops;
+}
+
+/// run_traffic throws where it locks, and ends only when all packets that count have arrived. Tori of every size in
+/// turn, until packets have crossed 10^8 links.
+TEST(RandomTraffic, RingsOfEverySizeNeverLock) {
+  constexpr std::uint64_t kHops = 100'000'000;
+  std::uint32_t seed = 0;
+  std::uint64_t hops = 0;
+  while (hops < kHops && !HasFailure()) {
+    for (const auto& [columns, rows] : {std::pair(1U, 2U),
+                                        {1U, 3U},
+                                        {1U, 5U},
+                                        {1U, 8U},
+                                        {7U, 1U},
+                                        {16U, 1U},
+                                        {2U, 2U},
+                                        {2U, 3U},
+                                        {5U, 2U},
+                                        {2U, 8U},
+                                        {3U, 3U},
+                                        {3U, 5U},
+                                        {5U, 5U},
+                                        {5U, 8U},
+                                        {8U, 8U}}) {
+      hops += overload_all_ways(seed, columns, rows);
+    }
+  }
+  std::printf("%u runs, packets crossed %llu links\n", seed, static_cast<unsigned long long>(hops));
 }
 
 }  // namespace
