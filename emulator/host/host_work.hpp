@@ -18,7 +18,7 @@ enum class HostWork : std::uint8_t {
   subspace,          ///< entered on a camera ray's walk to the first that is filled
   layout,            ///< 64 bytes of a PE's stores laid out
   unpack,            ///< 64 bytes read back, put where they belong
-  lattice_triangle,  ///< its share of the lattice: vertices around it, borders, its own three values
+  lattice_triangle,  ///< its share of the lattice, whose plan is there: sums at vertices, borders, its own three values
   irradiance_fit,    ///< at a vertex of a curved surface that is one patch: to all elements near it
   filter_entry,      ///< of the pixel filter's table
   hemicube_entry,    ///< of the hemi-cube's table

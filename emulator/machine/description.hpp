@@ -88,7 +88,7 @@ struct MachineDescription {
     double clock_hertz = 3e9;       ///< of its one processor
     std::uint32_t cost_factor = 1;  ///< of all its costs; 0: it takes no time
     /// By HostWork: its own cycles for an item. docs/costs.md says where they come from.
-    std::array<std::uint32_t, kHostWorks> cycles = {1500, 15, 30, 15, 600, 60, 100, 15, 9000, 4000, 2100, 9000};
+    std::array<std::uint32_t, kHostWorks> cycles = {1500, 15, 30, 15, 600, 60, 100, 15, 300, 2000, 2100, 9000};
 
     bool operator==(const Host&) const = default;
   } host;

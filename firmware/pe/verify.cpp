@@ -122,7 +122,14 @@ class Verifier {
   /// Inside the unit cube but for rounding; not a number fails, too.
   void check_corners(const std::array<protocol::Vec3f, 3>& corners, Index index, std::uint32_t number) {
     for (const protocol::Vec3f& corner : corners) {
-      for (const float x : corner) require(x >= -0x1p-20F && x <= 1.0F + 0x1p-20F, index, number, 1);
+      for (const float x : corner) {
+        // -2^-20 <= x <= 1 + 2^-20, by its bits: those of floats of one sign are in the order of their sizes.
+        const auto u = std::bit_cast<std::uint32_t>(x);
+        constexpr auto most = std::bit_cast<std::uint32_t>(1.0F + 0x1p-20F);
+        constexpr auto below_0 = std::bit_cast<std::uint32_t>(0x1p-20F);
+        constexpr auto sign = std::bit_cast<std::uint32_t>(-0.0F);
+        require(u <= most || u - sign <= below_0, index, number, 1);
+      }
     }
   }
 
@@ -179,7 +186,19 @@ class Verifier {
     }
     require(depth < protocol::kMostLevels, Index::tree_depth, node, protocol::kMostLevels);
     range(Index::node, node, 4, scene_.nodes.size());
-    for (std::uint32_t child = 0; child < 4; ++child) check_tree(scene_.nodes[node + child], limit, depth + 1U);
+    const auto children = scene_.nodes.subspan(node, 4);
+    // Any leaf is below the greatest limit, that of other PEs' patches.
+    if (limit == protocol::kLeaf && (children[0] & children[1] & children[2] & children[3] & protocol::kLeaf) != 0) {
+      return;
+    }
+    for (const std::uint32_t child : children) {
+      // Four out of five are leaves: no call for those.
+      if ((child & protocol::kLeaf) != 0) {
+        below(Index::leaf, child & ~protocol::kLeaf, limit);
+      } else {
+        check_tree(child, limit, depth + 1U);
+      }
+    }
   }
   /// Where this PE owns the patch, it has the sides and elements that the polygon promises. Of another PE's patch only
   /// that PE knows.

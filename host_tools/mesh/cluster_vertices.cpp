@@ -19,20 +19,18 @@ void sort_unique(std::vector<std::uint32_t>& numbers) {
 
 }  // namespace
 
-void ClusterVertices::add(const MeshPatch& patch, std::uint32_t facet, const std::array<std::uint32_t, 3>& corners,
-                          const protocol::Flux& flux) {
-  const MeshFacet& here = mesh_.facets[facet];
-  if (last_patch_ != patch.first_facet || last_element_ != here.element) {
-    Cluster& fresh = clusters_.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) fresh.irradiance[k] = static_cast<double>(flux[k]);
-    last_patch_ = patch.first_facet;
-    last_element_ = here.element;
+std::uint32_t ClusterVertices::add(const Mesh& mesh, std::uint32_t facet, const std::array<std::uint32_t, 3>& corners,
+                                   std::uint32_t element) {
+  const MeshFacet& here = mesh.facets[facet];
+  if (clusters_.empty() || clusters_.back().element != element) {
+    clusters_.emplace_back().element = element;
+    vertices_of_.emplace_back();
   }
   Cluster& cluster = clusters_.back();
-  const double area = mesh_.facet_area(here);
-  const Vec3d unit_normal = mesh_.facet_normal(here);
+  const double area = mesh.facet_area(here);
+  const Vec3d unit_normal = mesh.facet_normal(here);
   const Vec3d normal = vec::scale(unit_normal, area);
-  const auto places = grid_corners(mesh_.triangles[here.triangle], here.code);
+  const auto points = grid_corners(mesh.triangles[here.triangle], here.code);
   const auto number = static_cast<std::uint32_t>(clusters_.size() - 1);
   Facet& added = facets_.emplace_back(Facet{number, {}, unit_normal, area});
   for (std::size_t c = 0; c < 3; ++c) {
@@ -40,21 +38,24 @@ void ClusterVertices::add(const MeshPatch& patch, std::uint32_t facet, const std
     std::uint32_t& v = vertex_of_[corners[c]];
     if (v == protocol::kNoSide) {
       v = static_cast<std::uint32_t>(vertices_.size());
-      vertices_.emplace_back().place = places[c];
+      vertices_.emplace_back().surface_vertex = corners[c];
+      places_.emplace_back().point = points[c];
     }
     vertices_[v].normal = vec::add(vertices_[v].normal, normal);
-    vertices_[v].touching.push_back(number);
-    cluster.centre = vec::add(cluster.centre, vec::scale(places[c], area / 3));
-    cluster.vertices.push_back(v);
+    places_[v].touching.push_back(number);
+    cluster.centre = vec::add(cluster.centre, vec::scale(points[c], area / 3));
+    vertices_of_.back().push_back(v);
     added.vertex[c] = v;
   }
   cluster.normal = vec::add(cluster.normal, normal);
   cluster.area += area;
+  return static_cast<std::uint32_t>(facets_.size() - 1);
 }
 
 void ClusterVertices::link() {
-  for (Vertex& vertex : vertices_) {
-    sort_unique(vertex.touching);
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    sort_unique(places_[v].touching);
+    Vertex& vertex = vertices_[v];
     if (vec::length(vertex.normal) > 0) vertex.normal = vec::unit(vertex.normal);
   }
   beside_.resize(clusters_.size());
@@ -62,90 +63,52 @@ void ClusterVertices::link() {
     Cluster& cluster = clusters_[c];
     cluster.centre = vec::scale(cluster.centre, 1 / cluster.area);
     cluster.normal = vec::scale(cluster.normal, 1 / cluster.area);
-    cluster.irradiance = vec::scale(cluster.irradiance, 1 / cluster.area);
-    for (const std::uint32_t v : cluster.vertices) {
-      beside_[c].insert(beside_[c].end(), vertices_[v].touching.begin(), vertices_[v].touching.end());
+    for (const std::uint32_t v : vertices_of_[c]) {
+      beside_[c].insert(beside_[c].end(), places_[v].touching.begin(), places_[v].touching.end());
     }
     sort_unique(beside_[c]);
   }
 }
 
-std::vector<ClusterVertices::Near> ClusterVertices::near(const Vertex& vertex) const {
-  const double reach = kReach * mesh_.lengths.cluster * mesh_.space.scale;
+void ClusterVertices::find_near(const Mesh& mesh, Vertex& vertex, const Place& place) {
+  const double reach = kReach * mesh.lengths.cluster * mesh.space.scale;
+  vertex.first_near = static_cast<std::uint32_t>(near_.size());
   // Light does not pass from one cluster to another that it does not touch.
-  std::vector<std::uint32_t> seen = vertex.touching;
-  std::vector<Near> found;
+  std::vector<std::uint32_t> seen = place.touching;
   for (std::size_t n = 0; n < seen.size(); ++n) {
     const Cluster& cluster = clusters_[seen[n]];
-    const Vec3d offset = vec::scale(vec::subtract(cluster.centre, vertex.place), 1 / reach);
+    const Vec3d offset = vec::scale(vec::subtract(cluster.centre, place.point), 1 / reach);
     const double far = vec::length(offset);
     const double close = far < 1 ? (1 - far * far) * (1 - far * far) : 0;
     const double length = vec::length(cluster.normal);
     const double alike = length > 0 ? std::max(0.0, vec::dot(cluster.normal, vertex.normal) / length) : 0;
-    const bool touches = n < vertex.touching.size();
+    const bool touches = n < place.touching.size();
     // A little of what it touches in any case: a cluster may be longer than its reach.
     const double weight = std::max(close * alike * alike, touches ? 1e-3 : 0.0) * cluster.area;
     if (!(weight > 0)) continue;
-    found.push_back({seen[n], offset, weight});
+    near_.push_back({seen[n], offset, weight});
     for (const std::uint32_t other : beside_[seen[n]]) {
       if (std::find(seen.begin(), seen.end(), other) == seen.end()) seen.push_back(other);
     }
   }
-  return found;
+  vertex.near = static_cast<std::uint32_t>(near_.size()) - vertex.first_near;
 }
 
-void ClusterVertices::fit(Vertex& vertex) const {
-  std::vector<IrradianceSample> samples;
-  for (const Near& at : near(vertex)) {
-    const Cluster& cluster = clusters_[at.cluster];
-    samples.push_back({cluster.normal, at.offset, cluster.irradiance, at.weight});
-  }
-  vertex.fit = fit_irradiance(samples);
-}
-
-void ClusterVertices::make_up() {
-  std::vector<Vec3d> missing;
-  for (const Cluster& cluster : clusters_) missing.push_back(cluster.irradiance);
-  for (const Facet& facet : facets_) {
-    const double share = facet.area / clusters_[facet.cluster].area / 3;
-    for (const std::uint32_t v : facet.vertex) {
-      missing[facet.cluster] =
-          vec::subtract(missing[facet.cluster], vec::scale(vertices_[v].fit.facing(facet.normal), share));
-    }
-  }
-  for (Vertex& vertex : vertices_) {
-    Vec3d sum{0, 0, 0};
-    double weight = 0;
-    for (const Near& at : near(vertex)) {
-      sum = vec::add(sum, vec::scale(missing[at.cluster], at.weight));
-      weight += at.weight;
-    }
-    vertex.fit.value = vec::add(vertex.fit.value, vec::scale(sum, 1 / weight));
-  }
-}
-
-void ClusterVertices::smooth(std::vector<VertexSum>& sums) {
+void ClusterVertices::finish(const Mesh& mesh) {
   link();
-  for (Vertex& vertex : vertices_) fit(vertex);
-  make_up();
-  vertex_of_.resize(sums.size(), protocol::kNoSide);
-  for (std::size_t v = 0; v < sums.size(); ++v) {
-    if (vertex_of_[v] == protocol::kNoSide) continue;
-    Vertex& vertex = vertices_[vertex_of_[v]];
-    double area = 0;
-    for (const std::uint32_t c : vertex.touching) area += clusters_[c].area;
-    vertex.touching = {};  // a dense mesh has many vertices
-    const Vec3d light = vertex.fit.facing(vertex.normal);
-    sums[v].flux = vec::add(sums[v].flux, vec::scale(light, area));
-    sums[v].area += area;
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    find_near(mesh, vertices_[v], places_[v]);
+    for (const std::uint32_t c : places_[v].touching) vertices_[v].area += clusters_[c].area;
   }
+  // A dense mesh has many.
+  places_ = {};
+  vertices_of_ = {};
+  beside_ = {};
+  vertex_of_ = {};
 }
 
-Vec3d ClusterVertices::facing(std::uint32_t vertex, const Vec3d& unit_normal, const Vec3d& irradiance) const {
-  const Vertex& at = vertices_[vertex_of_[vertex]];
-  const Vec3d more = vec::subtract(at.fit.facing(unit_normal), at.fit.facing(at.normal));
-  const Vec3d light = vec::add(irradiance, more);
-  return {std::max(0.0, light[0]), std::max(0.0, light[1]), std::max(0.0, light[2])};
+void ClusterVertices::add_areas(std::vector<double>& areas) const {
+  for (const Vertex& vertex : vertices_) areas[vertex.surface_vertex] += vertex.area;
 }
 
 }  // namespace torolux

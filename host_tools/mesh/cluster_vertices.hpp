@@ -1,91 +1,80 @@
 // SPDX-License-Identifier: MIT
-// Light at the vertices of clusters. Enters: the flux of their elements; leaves: sums for each vertex, and how the
-// light there depends on the normal.
+// The vertices of clusters. Enters: their facets; leaves: which clusters count at each vertex, and how much.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "host_tools/mesh/irradiance_fit.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
 namespace torolux {
 
-/// Flux and area of the elements around a vertex.
-struct VertexSum {
-  Vec3d flux{0, 0, 0};  ///< [quanta]
-  double area = 0;      ///< [user units^2]
-
-  void add(const protocol::Flux& more, double more_area) {
-    for (std::size_t c = 0; c < 3; ++c) flux[c] += static_cast<double>(more[c]);
-    area += more_area;
-  }
-  Vec3d irradiance() const {
-    if (!(area > 0)) return {0, 0, 0};
-    return {flux[0] / area, flux[1] / area, flux[2] / area};
-  }
-};
-
 /// A cluster spans many triangles that do not face alike, so each vertex finds from the clusters near it how irradiance
-/// varies with place and normal: without that, clusters would show as flat spots.
+/// varies with place and normal (cluster_light.hpp): without that, clusters would show as flat spots.
 class ClusterVertices {
  public:
-  explicit ClusterVertices(const Mesh& mesh) : mesh_(mesh) {}
-
-  /// A facet of a cluster: its corners' vertices, and the flux of its element.
-  void add(const MeshPatch& patch, std::uint32_t facet, const std::array<std::uint32_t, 3>& corners,
-           const protocol::Flux& flux);
-  /// Adds to the sums of all vertices that facets of clusters have, once all have been added.
-  void smooth(std::vector<VertexSum>& sums);
-  /// Fits of irradiance in `smooth`.
-  std::uint64_t fits() const { return vertices_.size(); }
-  /// Irradiance at a vertex of a cluster's facet with this normal, where the vertex itself has so much.
-  Vec3d facing(std::uint32_t vertex, const Vec3d& unit_normal, const Vec3d& irradiance) const;
-
- private:
   struct Cluster {
-    Vec3d centre{0, 0, 0};      ///< [normalised], times area until `smooth`
+    std::uint32_t element = 0;  ///< global
+    Vec3d centre{0, 0, 0};      ///< [normalised], times area until `finish`
     Vec3d normal{0, 0, 0};      ///< mean, likewise
     double area = 0;            ///< [user units^2]
-    Vec3d irradiance{0, 0, 0};  ///< [quanta / user unit^2], flux until `smooth`
-    std::vector<std::uint32_t> vertices;
   };
-  struct Vertex {
-    std::vector<std::uint32_t> touching;  ///< clusters; until `smooth`
-    Vec3d place{0, 0, 0};                 ///< normalised
-    Vec3d normal{0, 0, 0};                ///< of its facets, times their area until `smooth`
-    IrradianceFit fit;
-  };
-
   /// A cluster that counts at a vertex.
   struct Near {
     std::uint32_t cluster;
     Vec3d offset;  ///< of its centre, in units of the reach
     double weight;
   };
+  struct Vertex {
+    std::uint32_t surface_vertex = 0;
+    Vec3d normal{0, 0, 0};  ///< of its facets, times their area until `finish`
+    double area = 0;        ///< of the clusters that it touches [user units^2]
+    std::uint32_t first_near = 0, near = 0;
+  };
   struct Facet {
     std::uint32_t cluster;
-    std::array<std::uint32_t, 3> vertex;  ///< into `vertices_`
+    std::array<std::uint32_t, 3> vertex;  ///< into vertices()
     Vec3d normal;
     double area;  ///< [user units^2]
   };
 
-  void link();
-  std::vector<Near> near(const Vertex& vertex) const;
-  void fit(Vertex& vertex) const;
-  /// What was smoothed away of each cluster's own light is added again, itself smoothed ("twicing", Tukey 1977,
-  /// "Exploratory data analysis").
-  void make_up();
+  /// A facet of a cluster: its corners' vertices of the surface, and its global element. Facets of a cluster follow
+  /// each other. Returns its number.
+  std::uint32_t add(const Mesh& mesh, std::uint32_t facet, const std::array<std::uint32_t, 3>& corners,
+                    std::uint32_t element);
+  /// Once all have been added.
+  void finish(const Mesh& mesh);
+  /// Adds to the areas of vertices of the surface those of the clusters that touch them.
+  void add_areas(std::vector<double>& areas) const;
 
-  const Mesh& mesh_;
+  std::uint64_t fits() const { return vertices_.size(); }  ///< of irradiance, one at each vertex
+  const std::vector<Cluster>& clusters() const { return clusters_; }
+  const std::vector<Facet>& facets() const { return facets_; }
+  const std::vector<Vertex>& vertices() const { return vertices_; }
+  std::span<const Near> near(const Vertex& vertex) const {
+    return std::span(near_).subspan(vertex.first_near, vertex.near);
+  }
+
+ private:
+  /// Of a vertex; until `finish`.
+  struct Place {
+    std::vector<std::uint32_t> touching;  ///< clusters
+    Vec3d point{0, 0, 0};                 ///< normalised
+  };
+
+  void link();
+  void find_near(const Mesh& mesh, Vertex& vertex, const Place& place);
+
   std::vector<Cluster> clusters_;
   std::vector<Facet> facets_;
-  std::vector<std::vector<std::uint32_t>> beside_;  ///< by cluster: which meet it at a vertex
-  std::vector<std::uint32_t> vertex_of_;            ///< by vertex of the surface: number of `vertices_`, or kNoSide
   std::vector<Vertex> vertices_;
-  std::uint32_t last_patch_ = protocol::kNoSide;
-  std::uint32_t last_element_ = 0;
+  std::vector<Near> near_;
+  std::vector<Place> places_;                            ///< by vertex
+  std::vector<std::vector<std::uint32_t>> vertices_of_;  ///< by cluster; until `finish`
+  std::vector<std::vector<std::uint32_t>> beside_;       ///< by cluster: which meet it at a vertex; until `finish`
+  std::vector<std::uint32_t> vertex_of_;                 ///< by vertex of the surface, or kNoSide; until `finish`
 };
 
 }  // namespace torolux

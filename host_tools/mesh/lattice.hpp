@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/mesh/lattice_plan.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
 namespace torolux {
@@ -22,7 +23,12 @@ struct Lattice {
 /// A vertex takes the flux of all elements around it on its smooth surface, divided by their area. A vertex on the edge
 /// of a larger element is anchored: it lies on the line between that element's corners. Facets of clusters share their
 /// vertices' light but for what their own normals make of it.
-Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
+Lattice make_lattice(const LatticePlan& plan, std::span<const protocol::Flux> flux, double watts_per_quantum,
                      double unit_radiance);
+/// With a plan for this once.
+inline Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
+                            double unit_radiance) {
+  return make_lattice(LatticePlan(mesh), flux, watts_per_quantum, unit_radiance);
+}
 
 }  // namespace torolux

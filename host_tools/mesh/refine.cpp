@@ -172,8 +172,9 @@ void add_ancestors(std::vector<Split>& splits) {
 
 /// The greater of its sides' for each element that may be cut; keys are not set.
 std::vector<Wish> wishes_of(const Mesh& mesh, const Scene& scene, const DraftLight& draft) {
-  const std::array<Lattice, 2> lattices{make_lattice(mesh, draft.flux[0], 1, 1),
-                                        make_lattice(mesh, draft.flux[1], 1, 1)};
+  const LatticePlan plan(mesh);
+  const std::array<Lattice, 2> lattices{make_lattice(plan, draft.flux[0], 1, 1),
+                                        make_lattice(plan, draft.flux[1], 1, 1)};
   const std::array<SideDoubts, 2> sides{SideDoubts(mesh, scene, draft, lattices, 0),
                                         SideDoubts(mesh, scene, draft, lattices, 1)};
   std::vector<Wish> wishes;

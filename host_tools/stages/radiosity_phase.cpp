@@ -59,9 +59,7 @@ void RadiosityPhase::select(HostPort& port) {
   rounds_.push_back({});
   rounds_.back().begin = port.now();
   const protocol::Select message{settings_.shooters, 0, settings_.least_unshot};
-  for (unsigned pe = 0; pe < settings_.pes; ++pe) {
-    torolux::send(port, static_cast<PeNumber>(pe), MessageKind::select, message);
-  }
+  port.broadcast(static_cast<std::uint16_t>(MessageKind::select), std::as_bytes(std::span(&message, 1)));
 }
 
 void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kind,

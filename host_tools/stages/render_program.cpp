@@ -83,7 +83,9 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       return std::make_unique<ReadPhase>(setup.mesh, setup.placement, std::move(layouts));
     }
     case Step::load_ray_tracing:
-      lattice_ = make_lattice(setup.mesh, incident_flux(*job_.solution, setup.parameters.emitters > 0),
+      // The plan is a matter of the mesh, and like that not charged (docs/costs.md): it is made here, as late as it can
+      // be, to spare memory.
+      lattice_ = make_lattice(LatticePlan(setup.mesh), incident_flux(*job_.solution, setup.parameters.emitters > 0),
                               setup.units.watts_per_quantum, setup.units.unit_radiance);
       port.work(HostWork::lattice_triangle, lattice_.triangles.size());
       port.work(HostWork::irradiance_fit, lattice_.fits);

@@ -13,6 +13,7 @@
 #include "firmware/protocol/messages.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
 #include "host_tools/layout/stage_image.hpp"
+#include "host_tools/mesh/cluster_light.hpp"
 #include "host_tools/mesh/irradiance_fit.hpp"
 #include "host_tools/mesh/lattice.hpp"
 #include "host_tools/render/setup.hpp"
@@ -122,18 +123,32 @@ void sort_candidates(benchmark::State& state) {
 }
 BENCHMARK(sort_candidates)->Arg(64)->Arg(1024);
 
+/// What is left to do once the elements' flux is known.
 void lattice(benchmark::State& state, const char* scene) {
   const Prepared prepared = prepare(scene);
+  const LatticePlan plan(prepared.setup.mesh);
   const std::vector<protocol::Flux> flux(prepared.setup.mesh.elements, protocol::Flux{1000, 2000, 3000});
   std::size_t triangles = 0;
   for (auto _ : state) {
-    const Lattice made = make_lattice(prepared.setup.mesh, flux, 1e-12, 1);
+    const Lattice made = make_lattice(plan, flux, 1e-12, 1);
     triangles = made.triangles.size();
   }
   per_item(state, static_cast<double>(triangles));
 }
 BENCHMARK_CAPTURE(lattice, cornell_box, "cornell_box");
 BENCHMARK_CAPTURE(lattice, interior, "interior");
+
+/// All that a vertex of a cluster takes, on a scene that has some.
+void cluster_light(benchmark::State& state) {
+  const Prepared prepared = prepare("interior");
+  const LatticePlan plan(prepared.setup.mesh);
+  const std::vector<protocol::Flux> flux(prepared.setup.mesh.elements, protocol::Flux{1000, 2000, 3000});
+  for (auto _ : state) {
+    for (const SidePlan& side : plan.side) benchmark::DoNotOptimize(ClusterLight(side.clusters, flux));
+  }
+  per_item(state, static_cast<double>(plan.side[0].clusters.fits() + plan.side[1].clusters.fits()));
+}
+BENCHMARK(cluster_light);
 
 /// From a dozen clusters, as cluster_vertices.cpp finds them.
 void irradiance_fit(benchmark::State& state) {

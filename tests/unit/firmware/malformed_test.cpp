@@ -110,6 +110,19 @@ TEST(Malformed, LayersThatThereAreNotAreRefused) {
   }
 }
 
+TEST(Malformed, CornersAtTheEdgeOfTheUnitCubeAreAccepted) {
+  for (const float x : {-0.0F, -0x1p-20F, 1.0F + 0x1p-20F}) {
+    FakeMachine machine(1);
+    machine.load(small_scene(), Stage::radiosity, 64, 1, [x](PeStores& s) { s.polygons[0].corner[1][1] = x; });
+    EXPECT_EQ(fault_of([&] {
+                machine.message(0, MessageKind::begin);
+                machine.run();
+              }),
+              0U)
+        << x;
+  }
+}
+
 TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
   const std::vector<std::function<void(PeStores&)>> changes = {
       [](PeStores& s) { s.subspaces[3].polygon_count = 0xFFFF'FFFF; },
@@ -120,6 +133,9 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
       [](PeStores& s) { s.polygon_list[1].polygon = protocol::kGroup | 1U; },
       [](PeStores& s) { s.polygons[0].corner[1][1] = std::numeric_limits<float>::quiet_NaN(); },
       [](PeStores& s) { s.polygons[0].corner[1][1] = 1.5F; },
+      [](PeStores& s) { s.polygons[0].corner[1][1] = -0x1p-19F; },
+      [](PeStores& s) { s.polygons[0].corner[1][1] = -std::numeric_limits<float>::quiet_NaN(); },
+      [](PeStores& s) { s.polygons[0].corner[1][1] = -std::numeric_limits<float>::infinity(); },
       [](PeStores& s) { s.polygons[2].material = 3; },
       [](PeStores& s) { s.polygons[2].normals = 0; },
       [](PeStores& s) { s.polygons[2].patch_level = 11; },

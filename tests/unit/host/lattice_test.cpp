@@ -366,5 +366,14 @@ TEST(Lattice, NothingPassesBetweenClustersThatDoNotTouch) {
   }
 }
 
+/// Flux over no area is no irradiance, and not the flux either.
+TEST(Lattice, WhatIsNotSeenAtAllIsDark) {
+  Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.6, .element_length = 0.2});
+  for (MeshFacet& facet : mesh.facets) facet.seen = 0;
+  for (const auto& triangle : make_lattice(mesh, uneven_flux(mesh), 1, 1).triangles) {
+    for (const protocol::Vec3f& value : triangle.irradiance_over_pi) EXPECT_EQ(value, (protocol::Vec3f{0, 0, 0}));
+  }
+}
+
 }  // namespace
 }  // namespace torolux
