@@ -244,6 +244,12 @@ ToneCurve parse_tone_curve(const std::string& text) {
   throw UsageError(in_quotes(text) + " is no tone curve; there are: filmic, linear");
 }
 
+MissingMaterials parse_missing_materials(const std::string& text) {
+  if (text == "refuse") return MissingMaterials::refuse;
+  if (text == "white") return MissingMaterials::white;
+  throw UsageError(in_quotes(text) + " is nothing that is done with missing materials; there are: refuse, white");
+}
+
 Scheme parse_scheme(const std::string& text) {
   return one_of(text, {Scheme::spread, Scheme::paper}, "a scheme; there are: spread, paper");
 }

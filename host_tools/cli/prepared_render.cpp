@@ -9,6 +9,7 @@
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/parse_words.hpp"
+#include "host_tools/scene/inspect.hpp"
 #include "host_tools/scene/recorded_files.hpp"
 
 namespace torolux {
@@ -37,6 +38,8 @@ PreparedRender prepare_render(const RenderOptions& options) {
   prepared.scene = load_scene_from(recorded, options.scene, scene_options(options));
   check_renderable(prepared.scene);
   prepared.settled = settle(options, prepared.scene);
+  prepared.findings = inspect(prepared.scene);
+  if (options.strict) refuse_what_is_told(prepared.findings);
   std::vector<InputFile> files = recorded.files();
   if (options.radiosity)
     files.push_back({"radiosity", options.radiosity->string(), sha256_of_file(*options.radiosity)});

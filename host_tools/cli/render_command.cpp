@@ -51,6 +51,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   settled.machine.debugging.listens = announce_debugger(firmware_image());
   check_results_writable(settled, options);
   print_notes(prepared.scene.warnings, options.quiet);
+  print_notes(prepared.findings, options.quiet);
   if (interrupted()) return {kInterrupted, ""};
   const RenderResult result = run_machine(prepared.scene, settled, options.quiet);
   if (interrupted()) return {kInterrupted, ""};

@@ -65,6 +65,17 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
   command.add_option(name, options.scene, help)->required()->type_name("")->group("Scene");
   command.add_flag("--studio", options.studio, "Put the mesh into a room with a lamp, both fitted to it")
       ->group("Scene");
+  add_value(command, "--missing-materials", "refuse|white",
+            "Materials, libraries and textures that are nowhere: refused, or white in their place",
+            [&options](const std::string& text) { options.missing_materials = parse_missing_materials(text); })
+      ->default_str("refuse")
+      ->group("Scene");
+  command
+      .add_flag(
+          "--strict", options.strict,
+          "Refuse what else is told: what in the scene's files is passed over or read as something near, and what "
+          "looks as if it was not meant so")
+      ->group("Scene");
 }
 
 void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group) {

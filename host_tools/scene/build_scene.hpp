@@ -14,7 +14,8 @@ namespace torolux {
 class SceneBuilder {
  public:
   /// files: where textures come from.
-  SceneBuilder(SceneFiles& files, Notices& notices) : notices_(notices), textures_(files, notices) {}
+  SceneBuilder(SceneFiles& files, MissingMaterials missing, Notices& notices)
+      : notices_(notices), missing_(missing), textures_(files, missing, notices) {}
 
   /// Overrides by name apply to all meshes. Throws InputError: a material that neither the mesh nor an override
   /// defines.
@@ -35,10 +36,12 @@ class SceneBuilder {
   std::uint32_t add_material(SceneMaterial material, const TextureUse& texture, const Place& place);
   std::uint32_t add_texture_points(const ImportedMesh& mesh, const ImportedTriangle& triangle, const TextureUse& use,
                                    const Place& place);
+  void check_corners(ImportedTriangle& triangle, const SceneMaterial& material, const Place& place);
   void check_material(SceneMaterial& material, const Place& place);
   void add_triangle(const SceneTriangle& triangle, const Place& place);
 
   Notices& notices_;
+  MissingMaterials missing_;
   TextureLibrary textures_;
   std::vector<Vec3d> positions_;
   std::vector<Vec3d> normals_;
