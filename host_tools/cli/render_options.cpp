@@ -8,6 +8,7 @@
 
 #include "emulator/engines/engine.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "firmware/protocol/stores.hpp"
 #include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
@@ -57,8 +58,10 @@ void take_path(std::optional<std::filesystem::path>& to, const std::string& text
 }  // namespace
 
 void check_allocation(const std::string& name) {
-  if (!is_allocation(name))
-    throw UsageError("\"" + name + "\" is not an allocation; there are: " + std::string(kAllocations));
+  if (is_allocation(name)) return;
+  const std::string near = did_you_mean(name, {"skewed", "skewed-both", "modulo", "block", "balanced"});
+  throw UsageError("\"" + name + "\" is no allocation" + near + (near.empty() ? "; there are: " : " There are: ") +
+                   std::string(kAllocations));
 }
 
 void add_scene_options(CLI::App& command, RenderOptions& options, const std::string& name, const std::string& help) {

@@ -5,11 +5,13 @@
 #include <algorithm>
 
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/build_scene.hpp"
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/obj.hpp"
 #include "host_tools/scene/plain_text.hpp"
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/studio.hpp"
 
 namespace torolux {
@@ -79,7 +81,12 @@ Scene load_scene(const std::filesystem::path& path, const SceneOptions& options)
 
 Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, const SceneOptions& options) {
   const std::filesystem::path path = scene_path(named, files);
-  if (!files.exists(path)) refuse({}, "there is no scene '" + path.string() + "'; " + kAllowed);
+  if (!files.exists(path)) {
+    const std::string near = nearest_name(path.filename().string(), files.names_in(path.parent_path()));
+    refuse({}, "there is no scene '" + path.string() + "'" +
+                   (near.empty() ? "" : "; did you mean " + in_quotes((path.parent_path() / near).string()) + "?") +
+                   "; " + kAllowed);
+  }
   const std::string extension = lower_extension(path);
   if (extension != ".toml" && extension != ".obj")
     refuse({path.string()}, "'" + extension + "' is not a kind of scene that is read; " + kAllowed);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/textures.hpp"
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {

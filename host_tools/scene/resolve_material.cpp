@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {

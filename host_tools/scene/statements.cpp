@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 namespace torolux {
 namespace {
@@ -42,21 +41,6 @@ std::string_view without_comment(std::string_view text, bool named) {
   for (std::size_t i = 1; !named && i < text.size(); ++i)
     if (text[i] == '#' && kBlank.find(text[i - 1]) != std::string_view::npos) return text.substr(0, i);
   return text;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0U : 1U)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -154,26 +138,6 @@ std::string_view keyword_among(std::string_view word, std::span<const std::strin
   const auto alike =
       std::ranges::find_if(known, [word](std::string_view other) { return equal_but_for_case(word, other); });
   return alike == known.end() ? std::string_view() : *alike;
-}
-
-std::string nearest_name(std::string_view word, const std::vector<std::string>& known) {
-  if (word.size() > 100) return {};
-  std::string best;
-  std::size_t best_distance = 1 + std::max<std::size_t>(2, word.size() / 3);
-  for (const std::string& name : known) {
-    if (name.size() > 100) continue;
-    const std::size_t distance = edit_distance(word, name);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = name;
-    }
-  }
-  return best;
-}
-
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  const std::string near = nearest_name(word, known);
-  return near.empty() ? "" : "; did you mean " + in_quotes(near) + "?";
 }
 
 }  // namespace torolux

@@ -53,11 +53,6 @@ bool equal_but_for_case(std::string_view a, std::string_view b);
 /// The one of `known` that `word` is, or is but for letter case; "" where there is none.
 std::string_view keyword_among(std::string_view word, std::span<const std::string_view> known);
 
-/// The one of `known` that is nearest to `word` by edit distance, letter case aside, or "" where none is near.
-std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
-/// "; did you mean 'NEAREST'?", or "" where none is near.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
-
 /// A word as it may stand in a message: cut to a bearable length, without control characters.
 std::string in_quotes(std::string_view word);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {

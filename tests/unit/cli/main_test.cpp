@@ -138,6 +138,48 @@ TEST(Main, UsageErrors) {
   }
 }
 
+TEST(Main, MistypedWordsSayWhatWasMeant) {
+  struct Case {
+    std::vector<std::string> words;
+    const char* meant;
+  };
+  for (const Case& one :
+       std::vector<Case>{{{"rendr", "scene"}, "\"rendr\" is no command; did you mean 'render'?"},
+                         {{"bench", "engin"}, "\"engin\" is no command of `torolux bench`; did you mean 'engine'?"},
+                         {{"scene", "render"}, "The command comes first: torolux render"},
+                         {{"--vesion"}, "there is no option '--vesion'; did you mean '--version'?"},
+                         {{"render", "scene", "--qualty", "draft"},
+                          "there is no option '--qualty' of `torolux render`; did you mean '--quality'?"},
+                         {{"render", "scene", "--alocation=block"}, "did you mean '--allocation'?"},
+                         {{"render", "scene", "-quality", "draft"}, "did you mean '--quality'?"},
+                         {{"render", "--qualty", "draft"}, "did you mean '--quality'?"},
+                         {{"render", "scene", "first", "second"}, "'first' is a word too many"},
+                         {{"render", "scene", "--quality", "drft"},
+                          "--quality: \"drft\" is no quality preset; did you mean 'draft'?"},
+                         {{"render", "scene", "--scheme", "sprad"}, "did you mean 'spread'?"},
+                         {{"render", "scene", "--engine", "tarnslated"}, "did you mean 'translated'?"},
+                         {{"render", "scene", "--allocation", "blok"}, "did you mean 'block'?"},
+                         {{"render", "scene", "--layers", "depth,onwer"}, "did you mean 'owner'?"},
+                         {{"render", "scene", "--direct", "shadowrays"}, "did you mean 'shadow-rays'?"},
+                         {{"network", "--traffic", "unifrom"}, "did you mean 'uniform'?"}}) {
+    const Outcome outcome = torolux(one.words);
+    EXPECT_EQ(outcome.code, 1) << testing::PrintToString(one.words);
+    EXPECT_THAT(outcome.err, HasSubstr(one.meant));
+  }
+  const Outcome key = torolux({"render", "scene", "--set", "torus.flit_byte=16"});
+  EXPECT_EQ(key.code, 2);
+  EXPECT_THAT(key.err, HasSubstr("did you mean 'torus.flit_bytes'?"));
+  EXPECT_THAT(torolux({"render", std::string(TOROLUX_SOURCE_DIR) + "/scenes/cornel_box"}).err,
+              HasSubstr("scenes/cornell_box'?"));
+}
+
+TEST(Main, HelpIsACommand) {
+  EXPECT_EQ(torolux({"help"}).out, torolux({"--help"}).out);
+  EXPECT_EQ(torolux({"help", "render"}).out, torolux({"render", "--help"}).out);
+  EXPECT_EQ(torolux({"help"}).code, 0);
+  EXPECT_EQ(torolux({"help", "paint"}).code, 1);
+}
+
 TEST(Main, ValuesThatAreNotAllowedAreBadInputAndNameTheOption) {
   const std::vector<std::array<const char*, 2>> cases = {{"--pes", "0x4"},
                                                          {"--pes", "256x256"},
@@ -266,6 +308,29 @@ TEST(Main, OutputsAreCheckedBeforeTheWork) {
     EXPECT_THAT(outcome.err, HasSubstr("missing/a.png"));
   }
   EXPECT_EQ(folder.files(), 2U) << "only the scene";
+}
+
+TEST(Main, ResultsInOneFileAreRefused) {
+  const TemporaryFolder folder;
+  const std::string scene = write_small_scene(folder.path()).string();
+  const auto at = [&](const char* name) { return (folder.path() / name).string(); };
+  std::filesystem::create_symlink(at("a.png"), at("link.json"));
+  using Words = std::vector<std::string>;
+  for (const Words& words :
+       {Words{"--output", at("a.png"), "--stats", at("a.png")},
+        Words{"--output", at("a.png"), "--stats", at("./a.png")},
+        Words{"--output", at("a.png"), "--output", at("a.png")},
+        Words{"--output", at("a.png"), "--stats", at("link.json")},
+        Words{"--save-radiosity", at("b"), "--save-mesh", at("b"), "--no-picture"},
+        Words{"--output", at("a.png"), "--output", at("a_depth.png"), "--layers", "depth"},
+        Words{"--no-picture", "--stats", at("room.mtl")}, Words{"--no-picture", "--save-mesh", scene}}) {
+    Words all{"render", scene};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = torolux(all);
+    EXPECT_EQ(outcome.code, 2) << testing::PrintToString(words);
+    EXPECT_THAT(outcome.err, HasSubstr("would be written over")) << testing::PrintToString(words);
+  }
+  EXPECT_EQ(folder.files(), 3U) << "the scene and the link";
 }
 
 TEST(Main, MissingFirmwareIsBadInputAndSaysWhatToDo) {
