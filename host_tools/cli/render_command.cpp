@@ -9,6 +9,7 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
+#include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/files/distinct_files.hpp"
@@ -79,6 +80,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   const RenderResult result = run_machine(prepared.scene, settled, options.quiet);
   if (interrupted()) return {kInterrupted, ""};
   print_notes(result.notes, options.quiet);
+  print_notes(findings_after(prepared.scene, result), options.quiet);
 
   for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
   std::string statistics = stats_json(prepared.run, result.figures);
