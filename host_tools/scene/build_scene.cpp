@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 #include "host_tools/scene/resolve_material.hpp"
 #include "host_tools/scene/statements.hpp"
@@ -105,7 +106,8 @@ void SceneBuilder::add_triangle(const SceneTriangle& triangle, const Place& plac
 }
 
 /// What a corner names but cannot have is told where nothing needs it, and refused where something does.
-void SceneBuilder::check_corners(ImportedTriangle& triangle, const SceneMaterial& material, const Place& place) {
+void SceneBuilder::check_corners(ImportedTriangle& triangle, const SceneMaterial& material, bool cut,
+                                 const Place& place) {
   if (triangle.normal[0] == kUnusable) {
     if (material.kind != SurfaceKind::diffuse || is_glossy(material))
       refuse(place, "a corner's normal (vn) is not there or not finite, and material " + in_quotes(material.name) +
@@ -114,7 +116,7 @@ void SceneBuilder::check_corners(ImportedTriangle& triangle, const SceneMaterial
     triangle.normal.fill(kNoNormal);
   }
   if (triangle.texture_point[0] == kUnusable) {
-    if (material.texture != kNoImage)
+    if (material.texture != kNoImage || cut)
       refuse(place, "a corner's texture point (vt) is not there or not finite, and material " +
                         in_quotes(material.name) + " has a texture; mend it, or take it out of the face");
     notices_.note("a face's texture points (vt) are not there or not finite; nothing needs them", place);
@@ -168,32 +170,101 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
   }
   for (const Vec3d& n : mesh.normals) normals_.push_back(vec::scale(transform.normal(n), entry.flip ? -1.0 : 1.0));
   const bool turn = transform.mirrors() != entry.flip;
+  std::vector<CutOut> cuts(mesh.materials.size());
   for (ImportedTriangle read : mesh.triangles) {
+    const Place place{mesh.file, read.line};
+    CutOut& cut = cuts[read.material];
     if (number[read.material] == not_yet) {
       const ImportedMaterial material = resolve_material(mesh, read.material, entry, overrides, missing_, notices_);
       number[read.material] = add_material(material.material, material.texture, material.place);
       textures[read.material] = material.texture;
+      cut = cut_out_of(material, materials_.back());
     }
-    check_corners(read, materials_[number[read.material]], {mesh.file, read.line});
+    check_corners(read, materials_[number[read.material]], cut.mask.has_value(), place);
     SceneTriangle triangle{read.position, read.normal, number[read.material]};
     for (std::size_t i = 0; i < 3; ++i) {
       triangle.position[i] += first_position;
       if (triangle.normal[i] != kNoNormal) triangle.normal[i] += first_normal;
     }
-    if (materials_[triangle.material].texture != kNoImage) {
-      const Place place{mesh.file, read.line};
+    if (materials_[triangle.material].texture != kNoImage)
       triangle.texture_points = add_texture_points(mesh, read, textures[read.material], place);
-    }
-    if (turn) {
-      std::swap(triangle.position[1], triangle.position[2]);
-      std::swap(triangle.normal[1], triangle.normal[2]);
-      if (triangle.texture_points != kNoImage)
-        std::swap(texture_points_[triangle.texture_points + 1], texture_points_[triangle.texture_points + 2]);
-    }
-    add_triangle(triangle, {mesh.file, read.line});
+    const auto parts = cut.mask ? parts_of(cut, mesh, read, place) : std::nullopt;
+    if (!parts) add_turned(triangle, turn, place);
+    for (std::size_t i = 0; parts && i < parts->size(); ++i) add_turned(part_of(triangle, (*parts)[i]), turn, place);
   }
   for (std::size_t i = 0; i < number.size(); ++i)
     if (number[i] == not_yet) tell_faults(mesh.materials[i].faults, notices_);
+}
+
+SceneBuilder::CutOut SceneBuilder::cut_out_of(const ImportedMaterial& material, const SceneMaterial& placed) {
+  if (placed.kind == SurfaceKind::glass) return {};
+  if (material.opacity.present()) return {textures_.load_mask(material.opacity), material.opacity};
+  if (placed.texture != kNoImage) return {textures_.mask(placed.texture), material.texture};
+  return {};
+}
+
+std::optional<std::vector<CutOutPart>> SceneBuilder::parts_of(const CutOut& cut, const ImportedMesh& mesh,
+                                                              const ImportedTriangle& read, const Place& place) {
+  if (read.texture_point[0] == kNoNormal) {
+    notices_.note("a face without texture points (vt) is not cut out", place);
+    return std::nullopt;
+  }
+  std::array<std::array<double, 2>, 3> points{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      points[i][axis] = mesh.texture_points[read.texture_point[i]][axis] * cut.use.scale[axis] + cut.use.offset[axis];
+  try {
+    return cut_out(*cut.mask, points);
+  } catch (const std::length_error&) {
+    refuse(place, "a cut-out repeats too often over a face; its texture points (vt) are too far apart");
+  }
+}
+
+SceneTriangle SceneBuilder::part_of(const SceneTriangle& whole, const CutOutPart& part) {
+  SceneTriangle result{whole.position, whole.normal, whole.material};
+  const auto mixed = [&](const std::vector<Vec3d>& values, const std::array<std::uint32_t, 3>& of,
+                         const CutOutCorner& w) {
+    return vec::add(vec::scale(values[of[0]], w[0]),
+                    vec::add(vec::scale(values[of[1]], w[1]), vec::scale(values[of[2]], w[2])));
+  };
+  const auto added = [](std::vector<Vec3d>& to, const Vec3d& value) {
+    to.push_back(value);
+    return static_cast<std::uint32_t>(to.size() - 1);
+  };
+  if (whole.texture_points != kNoImage) result.texture_points = static_cast<std::uint32_t>(texture_points_.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const CutOutCorner& weights = part[i];
+    if (whole.texture_points != kNoImage) {
+      std::array<double, 2> point{0, 0};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t axis = 0; axis < 2; ++axis)
+          point[axis] += weights[k] * texture_points_[whole.texture_points + k][axis];
+      texture_points_.push_back(point);
+    }
+    // A corner of the whole stays that very corner; in between, neighbours must come to the same bits.
+    const auto corner = std::ranges::find_if(weights, [](double w) { return w > 1 - 1e-9; });
+    if (corner != weights.end()) {
+      const auto k = static_cast<std::size_t>(corner - weights.begin());
+      result.position[i] = whole.position[k];
+      result.normal[i] = whole.normal[k];
+      continue;
+    }
+    Vec3d position = mixed(positions_, whole.position, weights);
+    for (double& x : position) x = static_cast<double>(static_cast<float>(x)) + 0.0;
+    result.position[i] = added(positions_, position);
+    if (whole.normal[0] != kNoNormal) result.normal[i] = added(normals_, mixed(normals_, whole.normal, weights));
+  }
+  return result;
+}
+
+void SceneBuilder::add_turned(SceneTriangle triangle, bool turn, const Place& place) {
+  if (turn) {
+    std::swap(triangle.position[1], triangle.position[2]);
+    std::swap(triangle.normal[1], triangle.normal[2]);
+    if (triangle.texture_points != kNoImage)
+      std::swap(texture_points_[triangle.texture_points + 1], texture_points_[triangle.texture_points + 2]);
+  }
+  add_triangle(triangle, place);
 }
 
 void SceneBuilder::add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material,

@@ -26,7 +26,17 @@ struct TextureUse {
 };
 
 /// What a material library says of a material, as far as it can be wrong.
-enum class MaterialValue : std::uint8_t { diffuse, specular, exponent, emission, index, filter, model, texture };
+enum class MaterialValue : std::uint8_t {
+  diffuse,
+  specular,
+  exponent,
+  emission,
+  index,
+  filter,
+  model,
+  texture,
+  opacity
+};
 
 /// Refused where the material needs the value, else told.
 struct MaterialFault {
@@ -41,6 +51,7 @@ struct ImportedMaterial {
   bool defined = true;  ///< false: used by faces, but in no library (scene.toml may still define it)
   Place place;          ///< its newmtl, or its first use
   TextureUse texture{};
+  TextureUse opacity{};  ///< map_d
   std::vector<MaterialFault> faults{};
 };
 

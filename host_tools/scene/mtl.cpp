@@ -74,7 +74,8 @@ bool same(const ImportedMaterial& a, const ImportedMaterial& b) {
   const auto alike = [](const MaterialFault& x, const MaterialFault& y) {
     return x.value == y.value && x.message == y.message;
   };
-  return a.material == b.material && same(a.texture, b.texture) && std::ranges::equal(a.faults, b.faults, alike);
+  return a.material == b.material && same(a.texture, b.texture) && same(a.opacity, b.opacity) &&
+         std::ranges::equal(a.faults, b.faults, alike);
 }
 
 /// A name given again: the last counts.
@@ -105,7 +106,11 @@ void import_mtl(std::string_view text, const std::string& file, const std::files
   // An empty library still gives tinyobjloader's own default material.
   for (std::size_t i = 0; i < library.materials.size(); ++i) {
     CheckedMaterial& checked = library.materials[i];
-    ImportedMaterial material{mapped(read.at(i), checked, notices), true, checked.place, std::move(checked.texture),
+    ImportedMaterial material{mapped(read.at(i), checked, notices),
+                              true,
+                              checked.place,
+                              std::move(checked.texture),
+                              std::move(checked.opacity),
                               std::move(checked.faults)};
     const auto [entry, fresh] = number.emplace(checked.name, materials.size());
     if (fresh)

@@ -13,8 +13,8 @@
 namespace torolux {
 namespace {
 
-constexpr std::array<std::string_view, 11> kRead{"newmtl", "Kd",    "Ks", "Ke", "Tf",    "Ni",
-                                                 "Ns",     "illum", "d",  "Tr", "map_Kd"};
+constexpr std::array<std::string_view, 12> kRead{"newmtl", "Kd",    "Ks", "Ke", "Tf",     "Ni",
+                                                 "Ns",     "illum", "d",  "Tr", "map_Kd", "map_d"};
 constexpr std::array<std::string_view, 5> kOtherTextures{"bump", "norm", "disp", "decal", "refl"};
 /// Values of other kinds of light, on which pictures here do not depend.
 constexpr std::array<std::string_view, 11> kQuiet{"Ka", "sharpness", "Km",  "Kr",    "Pr",    "Pm",
@@ -54,8 +54,8 @@ class MtlChecker {
       return notices_.note("statements before the first newmtl are passed over", place_, in_quotes(word));
     if (keyword.empty()) return tell_unread(word);
     if (keyword == "d" || keyword == "Tr") return check_transparency(statement, keyword);
-    if (keyword == "map_Kd") {
-      check_texture(statement);
+    if (keyword == "map_Kd" || keyword == "map_d") {
+      check_texture(statement, keyword == "map_d");
     } else {
       std::string fault = keyword == "illum" ? check_model(statement) : check_values(statement, keyword);
       set_fault(value_of(keyword), std::move(fault));
@@ -68,7 +68,7 @@ class MtlChecker {
 
   void tell_unread(std::string_view word) {
     if (equal_but_for_case(word.substr(0, 4), "map_") || !keyword_among(word, kOtherTextures).empty()) {
-      notices_.note("textures other than map_Kd are not used", place_, std::string(word.substr(0, 60)));
+      notices_.note("textures other than map_Kd and map_d are not used", place_, std::string(word.substr(0, 60)));
     } else if (keyword_among(word, kQuiet).empty()) {
       const std::vector<std::string> names(kRead.begin(), kRead.end());
       notices_.note("statement " + in_quotes(word) + " is not known and not used" +
@@ -146,12 +146,14 @@ class MtlChecker {
       notices_.note("transparency by d or Tr is not used; glass is illum 7", place_);
   }
 
-  void check_texture(const Statement& statement) {
+  void check_texture(const Statement& statement, bool opacity) {
     TextureUse use;
-    set_fault(MaterialValue::texture, read_texture_use(statement, place_, notices_, use));
+    set_fault(opacity ? MaterialValue::opacity : MaterialValue::texture,
+              read_texture_use(statement, place_, notices_, use));
     use.folders = {std::filesystem::path(file_).parent_path()};
     if (use.folders[0] != folder_) use.folders.push_back(folder_);
-    library_.materials.back().texture = std::move(use);
+    CheckedMaterial& material = library_.materials.back();
+    (opacity ? material.opacity : material.texture) = std::move(use);
   }
 
   std::string file_;

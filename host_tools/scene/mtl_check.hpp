@@ -15,7 +15,7 @@ struct CheckedMaterial {
   std::string name;  ///< may be empty
   Place place;
   bool has_kd = false, has_ni = false, has_ns = false;
-  TextureUse texture{};
+  TextureUse texture{}, opacity{};
   std::vector<MaterialFault> faults{};  ///< at most one for each value: the last statement counts
 };
 

@@ -58,12 +58,14 @@ ImportedMaterial resolved(const ImportedMesh& mesh, std::size_t number, const Me
     result.material = result.defined ? own->material : SceneMaterial{};
     result.material.name = name;
     result.texture = result.defined ? own->texture : TextureUse{};
+    result.opacity = result.defined ? own->opacity : TextureUse{};
     result.faults = result.defined ? own->faults : std::vector<MaterialFault>{};
     result.place = entry.place;
   }
   if (const MaterialOverride* o = find(overrides, name)) {
     apply(*o, result.material);
     if (o->diffuse) result.texture = {};
+    if (o->diffuse || o->mirror || o->glass) result.opacity = {};
     result.defined = true;
     result.place = o->place;
   }
@@ -102,6 +104,8 @@ bool needs(const ImportedMaterial& material, const MaterialOverride& o, Material
       return kind == SurfaceKind::diffuse && !o.diffuse;
     case MaterialValue::texture:
       return kind == SurfaceKind::diffuse && !o.diffuse && material.texture.present();
+    case MaterialValue::opacity:
+      return kind != SurfaceKind::glass && material.opacity.present();
     case MaterialValue::specular:
       return !kind_given && !o.glossy && material.material.specular != Vec3d{0, 0, 0};
     case MaterialValue::exponent:

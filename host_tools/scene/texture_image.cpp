@@ -5,6 +5,7 @@
 #include <png.h>
 #include <turbojpeg.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -30,7 +31,7 @@ struct Decoder {
                         " pixels; at most 16,777,216, on edges of at most 16,384, are read: make it smaller");
   }
 
-  SceneTexture png(std::string_view bytes) const {
+  DecodedImage png(std::string_view bytes) const {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) damaged(image.message);
@@ -44,21 +45,22 @@ struct Decoder {
     return colours(pixels, image.width, image.height);
   }
 
-  /// Takes the alpha away.
-  SceneTexture colours(std::span<const std::array<std::uint8_t, 4>> pixels, std::uint32_t width,
+  /// Colours and alpha apart. Alpha that is zero everywhere is none: programs leave it unset.
+  DecodedImage colours(std::span<const std::array<std::uint8_t, 4>> pixels, std::uint32_t width,
                        std::uint32_t height) const {
-    SceneTexture texture{file, width, height, {}};
-    texture.texels.reserve(pixels.size());
-    bool opaque = true;
-    for (const auto& pixel : pixels) {
-      texture.texels.push_back({pixel[0], pixel[1], pixel[2]});
-      opaque = opaque && pixel[3] == 255;
-    }
-    if (!opaque) notices.note("the transparency of a texture is not used", place);
-    return texture;
+    DecodedImage image{{file, width, height, {}}, {}};
+    image.colours.texels.reserve(pixels.size());
+    for (const auto& pixel : pixels) image.colours.texels.push_back({pixel[0], pixel[1], pixel[2]});
+    const bool opaque = std::ranges::all_of(pixels, [](const auto& pixel) { return pixel[3] == 255; });
+    const bool unset = std::ranges::all_of(pixels, [](const auto& pixel) { return pixel[3] == 0; });
+    if (unset) notices.note("the alpha of a texture is zero everywhere and not used", place);
+    if (opaque || unset) return image;
+    image.alpha.reserve(pixels.size());
+    for (const auto& pixel : pixels) image.alpha.push_back(pixel[3]);
+    return image;
   }
 
-  SceneTexture tga_or_bmp(std::string_view bytes) const {
+  DecodedImage tga_or_bmp(std::string_view bytes) const {
     const auto* from = reinterpret_cast<const stbi_uc*>(bytes.data());
     const auto size = static_cast<int>(bytes.size());  // at most kMostImageBytes
     int width = 0;
@@ -77,7 +79,7 @@ struct Decoder {
     return colours(pixels, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
   }
 
-  SceneTexture jpeg(std::string_view bytes) const {
+  DecodedImage jpeg(std::string_view bytes) const {
     const std::unique_ptr<void, decltype(&tjDestroy)> reader(tjInitDecompress(), tjDestroy);
     if (!reader) damaged("no JPEG decoder");
     const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -98,7 +100,7 @@ struct Decoder {
       if (tjGetErrorCode(reader.get()) != TJERR_WARNING || why.find("Premature end") != std::string::npos) damaged(why);
       notices.note("a JPEG is not quite as it should be, and read all the same", place, why);
     }
-    return texture;
+    return {std::move(texture), {}};
   }
 };
 
@@ -118,29 +120,29 @@ ImageKind kind_of(std::string_view bytes) {
 }
 
 /// Files begin with the highest row, texture points with the lowest.
-void turn_upwards(SceneTexture& texture) {
-  std::vector<std::array<std::uint8_t, 3>> upwards;
-  upwards.reserve(texture.texels.size());
-  for (std::size_t row = texture.height; row-- > 0;) {
-    const auto from = texture.texels.begin() + static_cast<std::ptrdiff_t>(row * texture.width);
-    upwards.insert(upwards.end(), from, from + texture.width);
-  }
-  texture.texels = std::move(upwards);
+template <class Texel>
+void turn_upwards(std::vector<Texel>& texels, std::size_t width) {
+  std::vector<Texel> upwards;
+  upwards.reserve(texels.size());
+  for (auto end = texels.end(); end != texels.begin(); end -= static_cast<std::ptrdiff_t>(width))
+    upwards.insert(upwards.end(), end - static_cast<std::ptrdiff_t>(width), end);
+  texels = std::move(upwards);
 }
 
 }  // namespace
 
-SceneTexture decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices) {
+DecodedImage decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices) {
   const Decoder decoder{file, place, notices};
   const ImageKind kind = kind_of(bytes);
   if (kind == ImageKind::unknown)
     refuse(place,
            "the texture '" + file + "' is neither PNG, JPEG, TGA nor BMP; convert it, or take the map_Kd line out");
-  SceneTexture texture = kind == ImageKind::png    ? decoder.png(bytes)
-                         : kind == ImageKind::jpeg ? decoder.jpeg(bytes)
-                                                   : decoder.tga_or_bmp(bytes);
-  turn_upwards(texture);
-  return texture;
+  DecodedImage image = kind == ImageKind::png    ? decoder.png(bytes)
+                       : kind == ImageKind::jpeg ? decoder.jpeg(bytes)
+                                                 : decoder.tga_or_bmp(bytes);
+  turn_upwards(image.colours.texels, image.colours.width);
+  turn_upwards(image.alpha, image.colours.width);
+  return image;
 }
 
 }  // namespace torolux

@@ -13,8 +13,13 @@ namespace torolux {
 inline constexpr std::uint64_t kMostImagePixels = std::uint64_t{1} << 24U;
 inline constexpr std::uint32_t kMostImageEdge = 16384;
 
+struct DecodedImage {
+  SceneTexture colours;
+  std::vector<std::uint8_t> alpha;  ///< of each texel, 0..255; empty: all are opaque
+};
+
 /// `file` is for the texture's name and messages; place: where it is named. Throws InputError: none of these kinds,
 /// damaged, too large.
-SceneTexture decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices);
+DecodedImage decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices);
 
 }  // namespace torolux

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the arguments of map_Kd: options, and what the file's name may be.
+// Reads the arguments of map_Kd and map_d: options, and what the file's name may be.
 #include <algorithm>
 #include <array>
 
@@ -12,7 +12,11 @@ namespace {
 class TextureArguments {
  public:
   TextureArguments(const Statement& statement, const Place& place, Notices& notices)
-      : words_(statement.arguments()), rest_(statement.rest()), place_(place), notices_(notices) {}
+      : keyword_(statement.keyword()),
+        words_(statement.arguments()),
+        rest_(statement.rest()),
+        place_(place),
+        notices_(notices) {}
 
   /// Returns what is not provided for.
   std::string read(TextureUse& use) {
@@ -20,7 +24,7 @@ class TextureArguments {
     while (next_ < words_.size() && looks_like_option(words_[next_])) option(words_[next_++], use);
     name_files(use);
     if (use.present()) return fault_;
-    notices_.note("map_Kd without a file name: no texture", place_);
+    notices_.note(keyword_ + " without a file name: no texture", place_);
     return {};
   }
 
@@ -72,11 +76,11 @@ class TextureArguments {
     constexpr std::array<std::string_view, 6> without_words{"-blendu", "-blendv", "-bm",
                                                             "-boost",  "-texres", "-imfchan"};
     word_may_follow_ = next_ == before && std::ranges::find(without_words, name) == without_words.end();
-    notices_.note("option " + std::string(name.substr(0, 60)) + " of map_Kd is not used", place_);
+    notices_.note("option " + std::string(name.substr(0, 60)) + " of " + keyword_ + " is not used", place_);
   }
 
   void refuse_option(std::string_view name, const std::string& what) {
-    fault_ = "option " + std::string(name) + " of map_Kd is not provided for (" + what + "); take it out";
+    fault_ = "option " + std::string(name) + " of " + keyword_ + " is not provided for (" + what + "); take it out";
   }
 
   bool switched() {
@@ -93,10 +97,12 @@ class TextureArguments {
     std::size_t read = 0;
     while (read < values.size() && next_ + 1 < words_.size() && is_number(words_[next_]))
       values[read++] = parse_number(words_[next_++]).value;
-    if (read == 0) notices_.note("option " + std::string(name) + " of map_Kd without a value is not used", place_);
+    if (read == 0)
+      notices_.note("option " + std::string(name) + " of " + keyword_ + " without a value is not used", place_);
     return values;
   }
 
+  std::string keyword_;
   std::vector<std::string_view> words_;
   std::string_view rest_;
   const Place& place_;

@@ -9,36 +9,75 @@
 
 namespace torolux {
 
+namespace {
+
+/// Colours of texels that are not there would shine through at the edges: they get the mean of the others.
+void fill_hidden(DecodedImage& image) {
+  std::array<std::uint64_t, 3> sum{};
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    if (image.alpha[i] < 128) continue;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += image.colours.texels[i][c];
+    ++count;
+  }
+  for (std::size_t i = 0; count > 0 && i < image.alpha.size(); ++i) {
+    if (image.alpha[i] >= 128) continue;
+    for (std::size_t c = 0; c < 3; ++c) image.colours.texels[i][c] = static_cast<std::uint8_t>(sum[c] / count);
+  }
+}
+
+}  // namespace
+
 double linear_of_srgb(std::uint8_t value) {
   const double v = value / 255.0;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-std::optional<FoundFile> TextureLibrary::find(const TextureUse& use) const {
-  for (const std::string& name : use.names)
-    if (const auto found = find_file(name, use.folders, files_, use.place))
-      return FoundFile{found->path, found->as_written && name == use.names[0]};
+std::optional<std::string> TextureLibrary::find(const TextureUse& use) const {
+  for (const std::string& name : use.names) {
+    const auto found = find_file(name, use.folders, files_, use.place);
+    if (!found) continue;
+    const std::string file = found->path.string();
+    if (!found->as_written || name != use.names[0])
+      notices_.note("a texture is found under another name", use.place,
+                    in_quotes(use.names[0]) + " is " + in_quotes(file));
+    return file;
+  }
+  if (missing_ == MissingMaterials::refuse)
+    refuse(use.place, "there is no texture '" + (use.folders.at(0) / use.names[0]).lexically_normal().string() +
+                          "'; put it there (names are relative to the material library), take the line out, give the "
+                          "material in scene.toml, or use --missing-materials white");
+  notices_.note("there is no texture, white stands for it", use.place, in_quotes(use.names[0]));
   return std::nullopt;
 }
 
 std::uint32_t TextureLibrary::load(const TextureUse& use) {
-  const auto found = find(use);
-  if (!found) {
-    if (missing_ == MissingMaterials::refuse)
-      refuse(use.place, "there is no texture '" + (use.folders.at(0) / use.names[0]).lexically_normal().string() +
-                            "'; put it there (names are relative to the material library), take the map_Kd line out, "
-                            "give the material in scene.toml, or use --missing-materials white");
-    notices_.note("there is no texture, white stands for it", use.place, in_quotes(use.names[0]));
-    return kNoImage;
-  }
-  const std::string file = found->path.string();
-  if (!found->as_written)
-    notices_.note("a texture is found under another name", use.place,
-                  in_quotes(use.names[0]) + " is " + in_quotes(file));
-  const auto [entry, fresh] = number_.emplace(file, static_cast<std::uint32_t>(textures_.size()));
+  const auto file = find(use);
+  if (!file) return kNoImage;
+  const auto [entry, fresh] = number_.emplace(*file, static_cast<std::uint32_t>(textures_.size()));
   if (!fresh) return entry->second;
-  textures_.push_back(decode_texture(files_.read(file, use.place, kMostImageBytes), file, use.place, notices_));
+  DecodedImage image = decode_texture(files_.read(*file, use.place, kMostImageBytes), *file, use.place, notices_);
+  masks_.emplace_back();
+  if (!image.alpha.empty()) {
+    notices_.note("the alpha of a texture cuts its faces out: less than one half is not there", use.place,
+                  in_quotes(*file));
+    masks_.back() = cut_out_mask(image.alpha, image.colours.width, image.colours.height);
+    fill_hidden(image);
+  }
+  textures_.push_back(std::move(image.colours));
   return entry->second;
+}
+
+std::optional<CutOutMask> TextureLibrary::load_mask(const TextureUse& use) {
+  const auto file = find(use);
+  if (!file) return std::nullopt;
+  DecodedImage image = decode_texture(files_.read(*file, use.place, kMostImageBytes), *file, use.place, notices_);
+  notices_.note("map_d cuts faces out: less than one half is not there", use.place, in_quotes(*file));
+  if (image.alpha.empty()) {
+    for (const auto& [r, g, b] : image.colours.texels)
+      image.alpha.push_back(static_cast<std::uint8_t>((r + g + b + 1) / 3));
+  }
+  return cut_out_mask(image.alpha, image.colours.width, image.colours.height);
 }
 
 Vec3d TextureLibrary::brightest(std::uint32_t texture) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/scene/cut_out.hpp"
 #include "host_tools/scene/find_file.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/missing_materials.hpp"
@@ -31,18 +32,25 @@ class TextureLibrary {
 
   /// The number of the image; kNoImage: nowhere, and white stands for it. Throws InputError: nowhere, not an image.
   std::uint32_t load(const TextureUse& use);
+  /// What an image's alpha leaves of its faces; absent: all.
+  const std::optional<CutOutMask>& mask(std::uint32_t texture) const { return masks_.at(texture); }
+  /// The mask that an image of opacity (map_d) is: its alpha, or where it has none, its brightness. Absent: nowhere,
+  /// and white stands for it. Throws InputError as load does.
+  std::optional<CutOutMask> load_mask(const TextureUse& use);
   /// The greatest of each channel, linear.
   Vec3d brightest(std::uint32_t texture) const;
   std::vector<SceneTexture> take() { return std::move(textures_); }
 
  private:
-  std::optional<FoundFile> find(const TextureUse& use) const;
+  /// Absent: nowhere, which has been told.
+  std::optional<std::string> find(const TextureUse& use) const;
 
   SceneFiles& files_;
   MissingMaterials missing_;
   Notices& notices_;
   std::map<std::string, std::uint32_t> number_;  // by file
   std::vector<SceneTexture> textures_;
+  std::vector<std::optional<CutOutMask>> masks_;  // of textures_
 };
 
 }  // namespace torolux

@@ -119,10 +119,10 @@ TEST(Texture, GreyDeepAndTransparentPngsAreRead) {
   const std::array<std::uint8_t, 1> grey{77};
   const Scene scene = load_texts(texts("map_Kd my tiles.png\n", png(1, 1, grey.data(), PNG_FORMAT_GRAY)), "a.obj");
   EXPECT_EQ(scene.textures[0].texels[0], (std::array<std::uint8_t, 3>{77, 77, 77}));
-  const std::array<std::uint8_t, 4> glassy{10, 20, 30, 40};
+  const std::array<std::uint8_t, 4> glassy{10, 20, 30, 140};
   const Scene seen = load_texts(texts("map_Kd my tiles.png\n", png(1, 1, glassy.data(), PNG_FORMAT_RGBA)), "a.obj");
   EXPECT_EQ(seen.textures[0].texels[0], (std::array<std::uint8_t, 3>{10, 20, 30}));
-  EXPECT_THAT(seen.warnings, Contains(HasSubstr("transparency of a texture")));
+  EXPECT_THAT(seen.warnings, Contains(HasSubstr("alpha of a texture")));
   const std::array<std::uint16_t, 3> deep{65535, 32768, 0};  // linear: 0.5 is 188 in sRGB
   const Scene fine = load_texts(texts("map_Kd my tiles.png\n", png(1, 1, deep.data(), PNG_FORMAT_LINEAR_RGB)), "a.obj");
   EXPECT_EQ(fine.textures[0].texels[0][0], 255);
@@ -203,10 +203,10 @@ TEST(Texture, TgaIsReadWhateverItsName) {
   for (std::size_t i = 0; i < 12; i += 3) packed += '\x80' + kLowestFirst.substr(i, 3);
   EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", packed), "a.obj").textures[0].texels, upwards);
   std::string glassy = header(2, 32, 8);
-  for (std::size_t i = 0; i < 12; i += 3) glassy += kLowestFirst.substr(i, 3) + "\x7F";
+  for (std::size_t i = 0; i < 12; i += 3) glassy += kLowestFirst.substr(i, 3) + "\x80";
   const Scene seen = load_texts(texts("map_Kd my tiles.png\n", glassy), "a.obj");
   EXPECT_EQ(seen.textures[0].texels, upwards);
-  EXPECT_THAT(seen.warnings, Contains(HasSubstr("transparency of a texture")));
+  EXPECT_THAT(seen.warnings, Contains(HasSubstr("alpha of a texture")));
   for (const std::string& image : {plain, packed, glassy})
     EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", image.substr(0, image.size() - 1)), "a.obj"),
                 StartsWith("lib/a.mtl:2: the texture 'lib/my tiles.png' cannot be read: it is cut short"));
