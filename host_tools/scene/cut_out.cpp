@@ -118,7 +118,10 @@ std::optional<std::vector<CutOutPart>> cut_out(const CutOutMask& mask, const std
     const auto [least, most] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
     return most - least + 1;
   };
-  if (!(extent(0) * extent(1) <= kMostMaskCells)) throw std::length_error("too many cells");
+  constexpr double farthest = 1e12;  // cells are counted in integers
+  const bool near = std::ranges::all_of(
+      corners, [](const Point& p) { return std::abs(p[0]) <= farthest && std::abs(p[1]) <= farthest; });
+  if (!near || !(extent(0) * extent(1) <= kMostMaskCells)) throw std::length_error("too many cells");
   const Cells cells(mask, corners);
   if (cells.all()) return std::nullopt;
   const double area = turn(corners[0], corners[1], corners[2]);

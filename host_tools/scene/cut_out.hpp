@@ -30,7 +30,7 @@ using CutOutPart = std::array<CutOutCorner, 3>;
 
 /// points: texture points (u, v) of the corners; the mask repeats with period 1. Absent: all of the triangle is there.
 /// Cells that are there are joined to rectangles, and these cut to the triangle; parts keep its winding.
-/// Throws std::length_error where the triangle lies over more than kMostMaskCells.
+/// Throws std::length_error where the triangle lies over more than kMostMaskCells, or too far away.
 std::optional<std::vector<CutOutPart>> cut_out(const CutOutMask& mask,
                                                const std::array<std::array<double, 2>, 3>& points);
 

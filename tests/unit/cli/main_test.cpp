@@ -310,6 +310,32 @@ TEST(Main, OutputsAreCheckedBeforeTheWork) {
   EXPECT_EQ(folder.files(), 2U) << "only the scene";
 }
 
+TEST(Main, StrictRefusesWhatIsTold) {
+  const TemporaryFolder folder;
+  const std::string scene = write_small_scene(folder.path()).string();
+  const std::string picture = folder.path() / "a.png";
+  const Outcome camera = torolux({"render", scene, "--output", picture, "--strict"});
+  EXPECT_EQ(camera.code, 2);
+  EXPECT_THAT(camera.err, AllOf(HasSubstr("refused by --strict:"), HasSubstr("names no camera")));
+  std::ofstream(folder.path() / "room.obj", std::ios::app) << "vw 1 2\n";
+  const std::vector<std::string> seen{"--eye", "0,0,9", "--look-at", "0,0,0", "--strict", "--output", picture};
+  std::vector<std::string> words{"render", scene};
+  words.insert(words.end(), seen.begin(), seen.end());
+  const Outcome statement = torolux(words);
+  EXPECT_EQ(statement.code, 2);
+  EXPECT_THAT(statement.err, AllOf(HasSubstr("room.obj:12: statement 'vw'"), testing::Not(HasSubstr("camera"))));
+}
+
+TEST(Main, MissingMaterialsAreRefusedOrWhite) {
+  const TemporaryFolder folder;
+  const std::string scene = write_small_scene(folder.path()).string();
+  std::filesystem::remove(folder.path() / "room.mtl");
+  EXPECT_EQ(torolux({"info", scene}).code, 2);
+  const Outcome white = torolux({"info", scene, "--missing-materials", "white"});
+  EXPECT_EQ(white.code, 0);
+  EXPECT_THAT(white.out, HasSubstr("diffuse, reflectance 0.99 0.99 0.99"));
+}
+
 TEST(Main, ResultsInOneFileAreRefused) {
   const TemporaryFolder folder;
   const std::string scene = write_small_scene(folder.path()).string();

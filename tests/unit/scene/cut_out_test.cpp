@@ -56,6 +56,7 @@ TEST(CutOut, PointsWithoutAreaShowOneCell) {
 
 TEST(CutOut, TooManyRepeatsAreRefused) {
   EXPECT_THROW(cut_out(mask(2, {true, false}), {{{0, 0}, {1e4, 0}, {0, 1e4}}}), std::length_error);
+  EXPECT_THROW(cut_out(mask(2, {true, false}), {{{1e300, 0}, {1e300, 0}, {1e300, 1}}}), std::length_error);
 }
 
 /// Weights of a point in a part, all >= 0 where it is inside.
