@@ -63,12 +63,12 @@ std::optional<FoundFile> find_file(const std::string& written, std::span<const p
   readings.insert(readings.begin(), name);
   const auto exact = [&](const std::string& reading) -> path {
     for (const path& folder : folders)
-      if (const path found = (folder / reading).lexically_normal(); files.exists(found)) return found;
+      if (path found = (folder / reading).lexically_normal(); files.exists(found)) return found;
     return {};
   };
   const auto alike = [&](const std::string& reading) -> path {
     for (const path& folder : folders)
-      if (const path found = in_other_case(folder, reading, files, place); !found.empty())
+      if (path found = in_other_case(folder, reading, files, place); !found.empty())
         return found.lexically_normal();
     return {};
   };

@@ -111,17 +111,27 @@ std::vector<Difference> differences(const RadiosityOrigin& saved, const Radiosit
   const auto differ = [&found](const char* option, auto was, auto is, auto text) {
     if (was != is) found.push_back({option, text(was), text(is)});
   };
-  const auto number = [](auto value) { return shortest(static_cast<double>(value)); };
+  const auto number = [](auto value) {
+    if constexpr (std::is_integral_v<decltype(value)>)
+      return std::to_string(value);
+    else
+      return shortest(value);
+  };
   const auto length = [](double value) { return value == 0 ? std::string("auto") : shortest(value); };
+  // A preset brings these with it; they are named where the preset is the same.
   differ("--quality", saved.patch_factor, run.patch_factor, quality_name);
-  differ("--patches", saved.patch_length, run.patch_length, length);
-  differ("--elements", saved.element_length, run.element_length, length);
-  differ("--refine", saved.refine, run.refine, number);
-  differ("--unshot", saved.unshot, run.unshot, number);
+  const bool same_preset = found.empty();
+  const auto differ_by_preset = [&](const char* option, auto was, auto is, auto text) {
+    if (same_preset) differ(option, was, is, text);
+  };
+  differ_by_preset("--patches", saved.patch_length, run.patch_length, length);
+  differ_by_preset("--elements", saved.element_length, run.element_length, length);
+  differ_by_preset("--refine", saved.refine, run.refine, number);
+  differ_by_preset("--unshot", saved.unshot, run.unshot, number);
   differ("--seed", saved.seed, run.seed, [](std::uint64_t value) { return std::to_string(value); });
-  differ("--hemicube", saved.hemicube, run.hemicube, number);
-  differ("--shot-points", saved.shot_points, run.shot_points, number);
-  differ("--emission-records", saved.emission_records, run.emission_records, number);
+  differ_by_preset("--hemicube", saved.hemicube, run.hemicube, number);
+  differ_by_preset("--shot-points", saved.shot_points, run.shot_points, number);
+  differ_by_preset("--emission-records", saved.emission_records, run.emission_records, number);
   differ("--max-shots", saved.max_shots, run.max_shots, number);
   differ("--bounces", saved.bounces, run.bounces, number);
   differ("--texels", saved.texels, run.texels, number);
