@@ -77,7 +77,7 @@ ImportedMaterial resolved(const ImportedMesh& mesh, std::size_t number, const Me
   const std::string which = "material " + in_quotes(material.material.name);
   if (!mesh.missing_libraries.empty()) {
     const auto& [name, place] = mesh.missing_libraries.front();
-    const std::string path = (std::filesystem::path(mesh.file).parent_path() / name).string();
+    const std::string path = (std::filesystem::path(mesh.file).parent_path() / name).lexically_normal().string();
     refuse(place, "there is no material library '" + path + "', and " + which + " is not defined elsewhere; put it " +
                       "there, give the material in scene.toml, or use --missing-materials white");
   }

@@ -64,6 +64,8 @@ class TextureArguments {
     } else if (name == "-imfchan" && next_ + 1 < words_.size() && words_[next_].size() == 1) {
       ++next_;
       refuse_option(name, "one channel of an image; save it as a grey image");
+    } else if (name == "-colorspace" && next_ + 1 < words_.size()) {
+      if (equal_but_for_case(words_[next_++], "linear")) refuse_option(name, "linear values; save it as sRGB");
     } else {
       pass_over(name);
     }
@@ -75,6 +77,10 @@ class TextureArguments {
       while (next_ + 1 < words_.size() && is_number(words_[next_])) ++next_;
     constexpr std::array<std::string_view, 6> without_words{"-blendu", "-blendv", "-bm",
                                                             "-boost",  "-texres", "-imfchan"};
+    // A word of its own, where another option follows: not the file's name.
+    if (next_ == before && next_ + 1 < words_.size() && !looks_like_option(words_[next_]) &&
+        looks_like_option(words_[next_ + 1]))
+      ++next_;
     word_may_follow_ = next_ == before && std::ranges::find(without_words, name) == without_words.end();
     notices_.note("option " + std::string(name.substr(0, 60)) + " of " + keyword_ + " is not used", place_);
   }

@@ -277,6 +277,10 @@ TEST(Texture, UnknownOptionsMayHaveAWord) {
   const Scene scene = load_texts(texts("map_Kd -projection planar my tiles.png\n"), "a.obj");
   EXPECT_EQ(scene.textures[0].file, "lib/my tiles.png");
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("option -projection of map_Kd is not used")));
+  for (const char* options : {"-projection planar -o 0.5", "-colorspace sRGB", "-type sphere -blendu on"})
+    EXPECT_EQ(load_texts(texts("map_Kd " + std::string(options) + " my tiles.png\n"), "a.obj").textures[0].file,
+              "lib/my tiles.png");
+  EXPECT_THAT(refusal(texts("map_Kd -colorspace linear my tiles.png\n"), "a.obj"), HasSubstr("option -colorspace"));
   const Scene behind = load_texts(texts("map_Kd my tiles.png -s 2 2 2\n"), "a.obj");
   EXPECT_EQ(behind.textures[0].file, "lib/my tiles.png");
   EXPECT_THAT(behind.warnings, Contains(HasSubstr("a texture is found under another name")));
