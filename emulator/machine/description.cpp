@@ -139,7 +139,10 @@ class Reader {
       if (!is_table || key.name.starts_with(table)) known += (known.empty() ? "" : ", ") + key.name;
     }
     std::vector<std::string> names;
-    for (const Key& key : keys_) names.push_back(key.name);
+    for (const Key& key : keys_) {
+      names.push_back(key.name);
+      names.push_back(key.name.substr(0, key.name.find('.')));
+    }
     const std::string near = did_you_mean(name, names);
     fail(file_, at,
          "unknown key '" + name + "'" + near + (near.empty() ? "; a" : " A") + " machine file may set " + known);

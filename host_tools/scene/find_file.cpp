@@ -68,8 +68,7 @@ std::optional<FoundFile> find_file(const std::string& written, std::span<const p
   };
   const auto alike = [&](const std::string& reading) -> path {
     for (const path& folder : folders)
-      if (path found = in_other_case(folder, reading, files, place); !found.empty())
-        return found.lexically_normal();
+      if (path found = in_other_case(folder, reading, files, place); !found.empty()) return found.lexically_normal();
     return {};
   };
   for (const std::string& reading : readings)

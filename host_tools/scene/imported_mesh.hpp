@@ -18,7 +18,8 @@ namespace torolux {
 struct TextureUse {
   std::vector<std::string> names;  ///< of the file as written, the likeliest reading first; none: no texture
   std::array<double, 2> scale{1, 1}, offset{0, 0};
-  bool clamp = false;  ///< nothing lies beyond its edges
+  bool clamp = false;     ///< nothing lies beyond its edges
+  bool optional = false;  ///< the name may be the last number of an option: no texture where it is no file
   Place place;
   std::vector<std::filesystem::path> folders;  ///< where it may lie: the library's, then the mesh's
 

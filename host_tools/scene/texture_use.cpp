@@ -23,6 +23,7 @@ class TextureArguments {
     use.place = place_;
     while (next_ < words_.size() && looks_like_option(words_[next_])) option(words_[next_++], use);
     name_files(use);
+    use.optional = last_may_be_number_ && next_ + 1 == words_.size();
     if (use.present()) return fault_;
     notices_.note(keyword_ + " without a file name: no texture", place_);
     return {};
@@ -103,6 +104,7 @@ class TextureArguments {
     std::size_t read = 0;
     while (read < values.size() && next_ + 1 < words_.size() && is_number(words_[next_]))
       values[read++] = parse_number(words_[next_++]).value;
+    last_may_be_number_ = read < values.size() && next_ + 1 == words_.size() && is_number(words_[next_]);
     if (read == 0)
       notices_.note("option " + std::string(name) + " of " + keyword_ + " without a value is not used", place_);
     return values;
@@ -114,7 +116,7 @@ class TextureArguments {
   const Place& place_;
   Notices& notices_;
   std::size_t next_ = 0;
-  bool word_may_follow_ = false;
+  bool word_may_follow_ = false, last_may_be_number_ = false;
   std::string fault_;
 };
 

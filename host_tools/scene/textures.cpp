@@ -43,6 +43,10 @@ std::optional<std::string> TextureLibrary::find(const TextureUse& use) const {
                     in_quotes(use.names[0]) + " is " + in_quotes(file));
     return file;
   }
+  if (use.optional) {
+    notices_.note("a texture without a file name: no texture", use.place);
+    return std::nullopt;
+  }
   if (missing_ == MissingMaterials::refuse)
     refuse(use.place, "there is no texture '" + (use.folders.at(0) / use.names[0]).lexically_normal().string() +
                           "'; put it there (names are relative to the material library), take the line out, give the "

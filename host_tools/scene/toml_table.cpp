@@ -53,6 +53,14 @@ const toml::node* TomlTable::find(std::string_view key) {
   return table_.get(key);
 }
 
+std::string TomlTable::mistyped(std::string_view key) const {
+  std::vector<std::string> others;
+  for (const auto& [name, node] : table_)
+    if (std::find(known_.begin(), known_.end(), name.str()) == known_.end()) others.emplace_back(name.str());
+  const std::string near = nearest_name(key, others);
+  return near.empty() ? "" : "; did you mean it by " + in_quotes(near) + "?";
+}
+
 void TomlTable::refuse_kind(std::string_view key, const std::string& expected) const {
   refuse(place(key), title_ + " '" + std::string(key) + "' must be " + expected);
 }

@@ -277,6 +277,11 @@ TEST(Texture, UnknownOptionsMayHaveAWord) {
   const Scene scene = load_texts(texts("map_Kd -projection planar my tiles.png\n"), "a.obj");
   EXPECT_EQ(scene.textures[0].file, "lib/my tiles.png");
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("option -projection of map_Kd is not used")));
+  for (const char* options : {"-s 1 1 1", "-s 2", "-mm 0 1", "-blendu on -o 0 0 0"}) {
+    const Scene none = load_texts(texts("Kd 0.5\nmap_Kd " + std::string(options) + "\n"), "a.obj");
+    EXPECT_EQ(none.materials[0].texture, kNoImage) << options;
+    EXPECT_THAT(none.warnings, Contains(HasSubstr("without a file name: no texture"))) << options;
+  }
   for (const char* options : {"-projection planar -o 0.5", "-colorspace sRGB", "-type sphere -blendu on"})
     EXPECT_EQ(load_texts(texts("map_Kd " + std::string(options) + " my tiles.png\n"), "a.obj").textures[0].file,
               "lib/my tiles.png");
