@@ -9,6 +9,7 @@
 #include "emulator/engines/qemu/qemu_engine.hpp"
 #include "emulator/engines/translated/translated_engine.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 
 namespace torolux {
 namespace {
@@ -47,11 +48,8 @@ bool engine_runs_here(std::string_view name) {
 const EngineFactory& engine_named(std::string_view name) {
   const auto found = registry().find(name);
   if (found == registry().end()) {
-    std::string message = "no engine '" + std::string(name) + "'; there is";
-    for (const std::string_view known : engine_names()) {
-      message.append(" ").append(known);
-    }
-    throw UsageError(message);
+    const std::vector<std::string_view> names = engine_names();
+    throw UsageError(no_such_name(name, "no engine", {names.begin(), names.end()}));
   }
   return found->second;
 }

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "emulator/toml.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -137,7 +138,14 @@ class Reader {
     for (const Key& key : keys_) {
       if (!is_table || key.name.starts_with(table)) known += (known.empty() ? "" : ", ") + key.name;
     }
-    fail(file_, at, "unknown key '" + name + "'; a machine file may set " + known);
+    std::vector<std::string> names;
+    for (const Key& key : keys_) {
+      names.push_back(key.name);
+      names.push_back(key.name.substr(0, key.name.find('.')));
+    }
+    const std::string near = did_you_mean(name, names);
+    fail(file_, at,
+         "unknown key '" + name + "'" + near + (near.empty() ? "; a" : " A") + " machine file may set " + known);
   }
 
   [[noreturn]] void refuse(const Key& key, const toml::node& node, const std::string& kind) const {

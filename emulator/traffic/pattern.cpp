@@ -6,6 +6,7 @@
 #include <array>
 
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 
 namespace torolux {
 
@@ -102,9 +103,8 @@ std::unique_ptr<TrafficPattern> make_traffic_pattern(std::string_view name, Toru
   if (name == "transpose") return std::make_unique<Transpose>(shape);
   if (name == "bit-complement") return std::make_unique<BitComplement>(shape);
   if (name == "hotspot") return std::make_unique<Hotspot>(shape);
-  std::string known;
-  for (const std::string_view one : traffic_pattern_names()) known += (known.empty() ? "" : ", ") + std::string(one);
-  throw UsageError("\"" + std::string(name) + "\" is not a pattern of traffic; there are: " + known);
+  const auto names = traffic_pattern_names();
+  throw UsageError(no_such_name(name, "no pattern of traffic", {names.begin(), names.end()}));
 }
 
 }  // namespace torolux

@@ -114,6 +114,7 @@ int run_bench_engine(const BenchOptions& options) {
   }
   for (const std::string& name : scenes) {
     const Scene scene = load_scene(name, {});
+    for (const std::string& warning : scene.warnings) std::cerr << "torolux: note: " << warning << "\n";
     const RenderBenchResult result = bench_scene(scene, options, tell(scene.name));
     if (interrupted()) {
       return kInterrupted;

@@ -8,10 +8,10 @@
 #include "emulator/errors.hpp"
 #include "emulator/machine/network_memory.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/settle.hpp"
 #include "host_tools/report/text.hpp"
-#include "host_tools/scene/inspect.hpp"
 
 namespace torolux {
 namespace {
@@ -126,7 +126,9 @@ int run_info(const RenderOptions& options) {
     refusals.emplace_back(error.what());
   }
   for (const std::string& warning : scene.warnings) line("note", warning);
-  for (const std::string& finding : inspect(scene)) line("note", finding);
+  const std::vector<std::string> findings = findings_before(scene, settled);
+  for (const std::string& finding : findings) line("note", finding);
+  if (options.strict && !findings.empty()) refusals.emplace_back("by --strict: what the notes say of the scene");
   for (const std::string& refusal : refusals) line("would be refused", refusal);
   if (refusals.empty()) line("would be refused", "no");
   std::cout << std::flush;

@@ -59,6 +59,8 @@ void run_image_in_lock_step(const RenderOptions& options) {
 void render_in_lock_step(const RenderOptions& options) {
   const Scene scene = load_scene(options.scene, scene_options(options));
   check_renderable(scene);
+  if (!options.quiet)
+    for (const std::string& warning : scene.warnings) std::cerr << "torolux: note: " << warning << "\n";
   Settled settled = settle(options, scene);
   settled.machine.engine = kLockstep;
   ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A command line enters, an exit code leaves; on the way the subcommand's work, or a message of what was wrong.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -8,11 +9,13 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/help_format.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/cli/parse_error.hpp"
 #include "host_tools/version.hpp"
 
 namespace torolux {
@@ -47,10 +50,19 @@ int guarded(Work work) {
 }
 
 int run(CLI::App& app, const CommandAction& action, int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  // `help`, `help render`: as `--help`, `render --help`.
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    if (const std::string wrong = unknown_command(app, words); !wrong.empty()) throw UsageError(wrong);
+    words.emplace_back("--help");
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? code(ExitCode::done) : code(ExitCode::usage);
+    throw UsageError(parse_error_text(app, words, error));
   }
   return action();
 }

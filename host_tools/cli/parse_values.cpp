@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "host_tools/report/text.hpp"
 
@@ -27,11 +28,13 @@ std::string in_quotes(std::string_view text) {
 
 /// The value whose name `text` is.
 template <class Value>
-Value one_of(std::string_view text, std::initializer_list<Value> values, const std::string& expected) {
+Value one_of(std::string_view text, std::initializer_list<Value> values, const std::string& kind) {
+  std::vector<std::string> names;
   for (const Value value : values) {
-    if (text == name_of(value)) return value;
+    names.emplace_back(name_of(value));
+    if (text == names.back()) return value;
   }
-  wrong_form(text, expected);
+  throw UsageError(no_such_name(text, kind, names));
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -214,12 +217,12 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
 
 PixelFilter parse_filter(const std::string& text) {
   if (const auto filter = filter_named(text)) return *filter;
-  throw UsageError(in_quotes(text) + " is no filter; there are: box, tent, gaussian");
+  throw UsageError(no_such_name(text, "no filter", {"box", "tent", "gaussian"}));
 }
 
 Preset parse_preset(const std::string& text) {
   if (const auto preset = preset_named(text)) return *preset;
-  throw UsageError(in_quotes(text) + " is no quality preset; there are: draft, normal, fine");
+  throw UsageError(no_such_name(text, "no quality preset", {"draft", "normal", "fine"}));
 }
 
 LayerSet parse_layers(const std::string& text) {
@@ -230,8 +233,9 @@ LayerSet parse_layers(const std::string& text) {
   for (const auto& part : split(text, ',')) {
     const auto* layer = std::ranges::find(kLayerNames, part, &LayerName::name);
     if (layer == kLayerNames.end()) {
-      throw UsageError(in_quotes(part) +
-                       " is no layer; there are: elements, irradiance, depth, normals, owner, cost; or all");
+      std::vector<std::string> names{"all"};
+      for (const LayerName& one : kLayerNames) names.emplace_back(one.name);
+      throw UsageError(no_such_name(part, "no layer", names));
     }
     set |= protocol::plane_bit(layer->plane);
   }
@@ -241,23 +245,29 @@ LayerSet parse_layers(const std::string& text) {
 ToneCurve parse_tone_curve(const std::string& text) {
   if (text == "filmic") return ToneCurve::filmic;
   if (text == "linear") return ToneCurve::linear;
-  throw UsageError(in_quotes(text) + " is no tone curve; there are: filmic, linear");
+  throw UsageError(no_such_name(text, "no tone curve", {"filmic", "linear"}));
+}
+
+MissingMaterials parse_missing_materials(const std::string& text) {
+  if (text == "refuse") return MissingMaterials::refuse;
+  if (text == "white") return MissingMaterials::white;
+  throw UsageError(no_such_name(text, "nothing that is done with missing materials", {"refuse", "white"}));
 }
 
 Scheme parse_scheme(const std::string& text) {
-  return one_of(text, {Scheme::spread, Scheme::paper}, "a scheme; there are: spread, paper");
+  return one_of(text, {Scheme::spread, Scheme::paper}, "no scheme");
 }
 
 Points parse_points(const std::string& text) {
-  return one_of(text, {Points::travel, Points::stay}, "a way of points; there are: travel, stay");
+  return one_of(text, {Points::travel, Points::stay}, "no way of points");
 }
 
 Empty parse_empty(const std::string& text) {
-  return one_of(text, {Empty::over, Empty::enter}, "a way with empty subspaces; there are: over, enter");
+  return one_of(text, {Empty::over, Empty::enter}, "no way with empty subspaces");
 }
 
 RayMaker parse_ray_maker(const std::string& text) {
-  return one_of(text, {RayMaker::pes, RayMaker::host}, "a maker of camera rays; there are: pes, host");
+  return one_of(text, {RayMaker::pes, RayMaker::host}, "no maker of camera rays");
 }
 
 std::optional<double> parse_fraction(const std::string& text) {
@@ -267,7 +277,7 @@ std::optional<double> parse_fraction(const std::string& text) {
 
 bool parse_direct(const std::string& text) {
   if (text != "radiosity" && text != "shadow-rays") {
-    throw UsageError("\"" + text + "\" is no way; there are: radiosity, shadow-rays");
+    throw UsageError(no_such_name(text, "no way of direct light", {"radiosity", "shadow-rays"}));
   }
   return text == "shadow-rays";
 }

@@ -14,6 +14,7 @@
 #include "host_tools/layout/scheme.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/render/presets.hpp"
+#include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace torolux {
@@ -58,6 +59,9 @@ std::vector<double> parse_rates(const std::string& text);
 
 /// "radiosity" or "shadow-rays". True: shadow rays.
 bool parse_direct(const std::string& text);
+
+/// "refuse" or "white".
+MissingMaterials parse_missing_materials(const std::string& text);
 
 /// "spread" or "paper".
 Scheme parse_scheme(const std::string& text);

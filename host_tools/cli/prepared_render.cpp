@@ -7,6 +7,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/debugging_options.hpp"
+#include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/parse_words.hpp"
 #include "host_tools/scene/recorded_files.hpp"
@@ -37,6 +38,8 @@ PreparedRender prepare_render(const RenderOptions& options) {
   prepared.scene = load_scene_from(recorded, options.scene, scene_options(options));
   check_renderable(prepared.scene);
   prepared.settled = settle(options, prepared.scene);
+  prepared.findings = findings_before(prepared.scene, prepared.settled);
+  if (options.strict) refuse_what_is_told(prepared.findings);
   std::vector<InputFile> files = recorded.files();
   if (options.radiosity)
     files.push_back({"radiosity", options.radiosity->string(), sha256_of_file(*options.radiosity)});

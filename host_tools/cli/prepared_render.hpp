@@ -11,6 +11,7 @@ namespace torolux {
 
 struct PreparedRender {
   Scene scene;
+  std::vector<std::string> findings;  ///< what in it looks as if it was not meant so
   Settled settled;
   RunDescription run;
 };

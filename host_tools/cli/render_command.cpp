@@ -9,8 +9,10 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
+#include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/csv.hpp"
 #include "host_tools/report/figures.hpp"
@@ -18,6 +20,27 @@
 
 namespace torolux {
 namespace {
+
+/// Throws InputError where one result would be written over another, or over what is read.
+void check_results_distinct(const PreparedRender& prepared, const RenderOptions& options) {
+  std::vector<NamedFile> written;
+  for (const auto& file : prepared.settled.outputs) {
+    written.push_back({"--output", file});
+    if (holds_radiance(file)) continue;
+    for (const LayerName& layer : layers_in(prepared.settled.quality.layers))
+      written.push_back({"a layer of --output", layer_file(file, layer.name)});
+  }
+  const auto add = [&written](const char* option, const std::optional<std::filesystem::path>& file) {
+    if (file) written.push_back({option, *file});
+  };
+  add("--stats", options.stats);
+  add("--save-radiosity", options.save_radiosity);
+  add("--save-mesh", options.save_mesh);
+  std::vector<NamedFile> read;
+  for (const InputFile& input : prepared.run.inputs.files) read.push_back({"a file that is read", input.path});
+  if (options.machine) read.push_back({"--machine", *options.machine});
+  check_distinct(written, read);
+}
 
 /// What cannot be written is better known before the work than after it.
 void check_results_writable(const Settled& settled, const RenderOptions& options) {
@@ -49,12 +72,15 @@ RenderResult run_machine(const Scene& scene, const Settled& settled, bool quiet)
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   Settled& settled = prepared.settled;
   settled.machine.debugging.listens = announce_debugger(firmware_image());
+  check_results_distinct(prepared, options);
   check_results_writable(settled, options);
   print_notes(prepared.scene.warnings, options.quiet);
+  print_notes(prepared.findings, options.quiet);
   if (interrupted()) return {kInterrupted, ""};
   const RenderResult result = run_machine(prepared.scene, settled, options.quiet);
   if (interrupted()) return {kInterrupted, ""};
   print_notes(result.notes, options.quiet);
+  print_notes(findings_after(prepared.scene, result), options.quiet);
 
   for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
   std::string statistics = stats_json(prepared.run, result.figures);

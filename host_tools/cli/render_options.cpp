@@ -8,6 +8,7 @@
 
 #include "emulator/engines/engine.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "firmware/protocol/stores.hpp"
 #include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
@@ -57,13 +58,26 @@ void take_path(std::optional<std::filesystem::path>& to, const std::string& text
 }  // namespace
 
 void check_allocation(const std::string& name) {
-  if (!is_allocation(name))
-    throw UsageError("\"" + name + "\" is not an allocation; there are: " + std::string(kAllocations));
+  if (is_allocation(name)) return;
+  const std::string near = did_you_mean(name, {"skewed", "skewed-both", "modulo", "block", "balanced"});
+  throw UsageError("\"" + name + "\" is no allocation" + near + (near.empty() ? "; there are: " : " There are: ") +
+                   std::string(kAllocations));
 }
 
 void add_scene_options(CLI::App& command, RenderOptions& options, const std::string& name, const std::string& help) {
   command.add_option(name, options.scene, help)->required()->type_name("")->group("Scene");
   command.add_flag("--studio", options.studio, "Put the mesh into a room with a lamp, both fitted to it")
+      ->group("Scene");
+  add_value(command, "--missing-materials", "refuse|white",
+            "Materials, libraries and textures that are nowhere: refused, or white in their place",
+            [&options](const std::string& text) { options.missing_materials = parse_missing_materials(text); })
+      ->default_str("refuse")
+      ->group("Scene");
+  command
+      .add_flag(
+          "--strict", options.strict,
+          "Refuse what else is told: what in the scene's files is passed over or read as something near, and what "
+          "looks as if it was not meant so")
       ->group("Scene");
 }
 

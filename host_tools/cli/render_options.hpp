@@ -15,6 +15,7 @@
 #include "host_tools/layout/scheme.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/render/presets.hpp"
+#include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
 
 namespace CLI {
@@ -43,6 +44,8 @@ struct ToneOptions {
 struct RenderOptions {
   std::filesystem::path scene;
   bool studio = false;
+  MissingMaterials missing_materials = MissingMaterials::refuse;
+  bool strict = false;
 
   // What comes out.
   std::vector<std::filesystem::path> outputs;
@@ -87,7 +90,7 @@ struct RenderOptions {
   std::optional<std::uint32_t> threads;
 };
 
-/// SCENE and --studio. name, help: of the first.
+/// SCENE, --studio, --missing-materials, --strict. name, help: of the first.
 void add_scene_options(CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
                        const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
 /// --exposure, --tone-curve.

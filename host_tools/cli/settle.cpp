@@ -164,6 +164,8 @@ MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
 SceneOptions scene_options(const RenderOptions& options) {
   SceneOptions result;
   result.studio = options.studio;
+  result.missing_materials = options.missing_materials;
+  result.strict = options.strict;
   if (!options.eye || !options.look_at) return result;
   Camera camera;
   camera.eye = *options.eye;
@@ -199,7 +201,11 @@ RunDescription describe(const RenderOptions& options, const Settled& settled, co
   run.preset = settled.preset;
   run.camera = settled.camera;
   run.tone = settled.tone;
-  run.inputs = {options.scene.string(), options.studio, {}, std::move(files)};
+  run.inputs = {options.scene.string(),
+                options.studio,
+                options.missing_materials == MissingMaterials::white,
+                {},
+                std::move(files)};
   const auto given = [&](const auto& value, const char* name) {
     if (value) run.inputs.camera_given.emplace_back(name);
   };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/picture/formats.hpp"
 
@@ -24,7 +25,8 @@ std::string extension_of(const std::filesystem::path& file) {
 void check_extension(const std::filesystem::path& file) {
   const std::string extension = extension_of(file);
   if (extension != ".png" && extension != ".exr" && extension != ".pfm")
-    throw UsageError(file.string() + ": pictures end in .png, .exr or .pfm");
+    throw UsageError(file.string() + ": pictures end in .png, .exr or .pfm" +
+                     did_you_mean(extension, {".png", ".exr", ".pfm"}));
 }
 
 }  // namespace

@@ -128,6 +128,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   std::vector<Split> splits;
   if (files.radiosity) {
     saved = read_radiosity(*files.radiosity);
+    check_radiosity(*saved, scene, quality);
     splits = saved->splits;
   } else if (quality.refine > 0) {
     auto chosen = draft_splits(scene, camera, quality, machine, image, progress, result.figures);

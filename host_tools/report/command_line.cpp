@@ -102,6 +102,7 @@ void add_engine(Words& words, const Json& settings) {
 Words render_words(const Json& settings) {
   Words words = {"render", text(settings.at("scene_path"))};
   if (settings.at("studio").get<bool>()) words.emplace_back("--studio");
+  if (settings.contains("missing_materials")) add(words, "--missing-materials", text(settings.at("missing_materials")));
   for (const Json& input : settings.at("inputs")) {
     if (input.at("role") == "radiosity") add(words, "--radiosity", text(input.at("path")));
   }

@@ -15,6 +15,7 @@ namespace torolux {
 struct RunInputs {
   std::string scene_path;  ///< as the user named it
   bool studio = false;
+  bool missing_are_white = false;  ///< --missing-materials white
   /// Of eye, look_at, up and field_of_view: those that the user gave, which matters to a studio.
   std::vector<std::string> camera_given;
   std::vector<InputFile> files;  ///< scene files in the order in which they are read, saved radiosity, firmware

@@ -119,6 +119,7 @@ Json settings_json(const RunDescription& run, const RenderFigures* figures) {
   json["scene"] = run.scene;
   json["scene_path"] = run.inputs.scene_path;
   json["studio"] = run.inputs.studio;
+  if (run.inputs.missing_are_white) json["missing_materials"] = "white";
   json["inputs"] = inputs_json(run.inputs.files);
   add_view(json, run);
   add_quality(json, run);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
+#include "host_tools/scene/resolve_material.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {
@@ -60,77 +62,6 @@ struct Transform {
   bool mirrors() const { return scale[0] * scale[1] * scale[2] < 0; }
 };
 
-const MaterialOverride* find(const std::vector<MaterialOverride>& overrides, const std::string& name) {
-  for (const MaterialOverride& o : overrides)
-    if (o.name == name) return &o;
-  return nullptr;
-}
-
-void apply(const MaterialOverride& o, SceneMaterial& material) {
-  if (o.diffuse) {
-    material.kind = SurfaceKind::diffuse;
-    material.diffuse = *o.diffuse;
-    material.specular = {0, 0, 0};
-  }
-  if (o.mirror) {
-    material.kind = SurfaceKind::mirror;
-    material.specular = *o.mirror;
-  }
-  if (o.glass) {
-    material.kind = SurfaceKind::glass;
-    material.refractive_index = *o.glass;
-  }
-  if (o.glossy) {
-    if (material.kind != SurfaceKind::diffuse) material.diffuse = {0, 0, 0};
-    material.kind = SurfaceKind::diffuse;
-    material.specular = *o.glossy;
-    material.exponent = o.exponent.value_or(1);
-  }
-  if (o.transmittance) material.transmittance = *o.transmittance;
-  if (o.emission) material.emission = *o.emission;
-  if (material.kind != SurfaceKind::diffuse) material.diffuse = {0, 0, 0};
-  if (material.kind == SurfaceKind::glass) material.specular = {0, 0, 0};
-}
-
-/// The mesh's material of this number as the scene has it: renamed and overridden.
-ImportedMaterial resolved(const ImportedMesh& mesh, std::size_t number, const MeshEntry& entry,
-                          const std::vector<MaterialOverride>& overrides) {
-  ImportedMaterial result = mesh.materials[number];
-  std::string name = result.material.name;
-  for (const auto& [from, to] : entry.materials)
-    if (from == name) result.material.name = to;
-  if (entry.material) result.material.name = *entry.material;
-  if (result.material.name != name) {
-    name = result.material.name;
-    const auto own = std::find_if(mesh.materials.begin(), mesh.materials.end(),
-                                  [&name](const ImportedMaterial& m) { return m.defined && m.material.name == name; });
-    result.defined = own != mesh.materials.end();
-    result.material = result.defined ? own->material : SceneMaterial{};
-    result.material.name = name;
-    result.texture = result.defined ? own->texture : TextureUse{};
-    result.place = entry.place;
-  }
-  if (const MaterialOverride* o = find(overrides, name)) {
-    apply(*o, result.material);
-    if (o->diffuse) result.texture = {};
-    result.defined = true;
-    result.place = o->place;
-  }
-  return result;
-}
-
-[[noreturn]] void refuse_unknown(const ImportedMaterial& material, const ImportedMesh& mesh,
-                                 const std::vector<MaterialOverride>& overrides) {
-  std::vector<std::string> known;
-  for (const ImportedMaterial& m : mesh.materials)
-    if (m.defined) known.push_back(m.material.name);
-  for (const MaterialOverride& o : overrides) known.push_back(o.name);
-  const std::string near = nearest_name(material.material.name, known);
-  refuse(material.place, "material " + in_quotes(material.material.name) + " is not defined in any material library" +
-                             (near.empty() ? "; " : "; did you mean " + in_quotes(near) + "? Otherwise ") +
-                             "name the library with mtllib, or define it in scene.toml");
-}
-
 }  // namespace
 
 void SceneBuilder::check_material(SceneMaterial& material, const Place& place) {
@@ -160,7 +91,7 @@ void SceneBuilder::check_material(SceneMaterial& material, const Place& place) {
 }
 
 std::uint32_t SceneBuilder::add_material(SceneMaterial material, const TextureUse& texture, const Place& place) {
-  if (material.kind == SurfaceKind::diffuse && !texture.file.empty()) material.texture = textures_.load(texture);
+  if (material.kind == SurfaceKind::diffuse && texture.present()) material.texture = textures_.load(texture);
   check_material(material, place);
   materials_.push_back(std::move(material));
   return static_cast<std::uint32_t>(materials_.size() - 1);
@@ -172,6 +103,25 @@ void SceneBuilder::add_triangle(const SceneTriangle& triangle, const Place& plac
   triangles_.push_back(triangle);
   if (files_.empty() || files_.back() != place.file) files_.push_back(place.file);
   origins_.push_back({static_cast<std::uint32_t>(files_.size() - 1), static_cast<std::uint32_t>(place.line)});
+}
+
+/// What a corner names but cannot have is told where nothing needs it, and refused where something does.
+void SceneBuilder::check_corners(ImportedTriangle& triangle, const SceneMaterial& material, bool cut,
+                                 const Place& place) {
+  if (triangle.normal[0] == kUnusable) {
+    if (material.kind != SurfaceKind::diffuse || is_glossy(material))
+      refuse(place, "a corner's normal (vn) is not there or not finite, and material " + in_quotes(material.name) +
+                        " (mirror, glass or glossy) needs it; mend it, or take it out of the face to have it flat");
+    notices_.note("a face's normals (vn) are not there or not finite; nothing needs them", place);
+    triangle.normal.fill(kNoNormal);
+  }
+  if (triangle.texture_point[0] == kUnusable) {
+    if (material.texture != kNoImage || cut)
+      refuse(place, "a corner's texture point (vt) is not there or not finite, and material " +
+                        in_quotes(material.name) + " has a texture; mend it, or take it out of the face");
+    notices_.note("a face's texture points (vt) are not there or not finite; nothing needs them", place);
+    triangle.texture_point.fill(kNoNormal);
+  }
 }
 
 /// As the texture is looked up: scaled and moved, by whole periods as well, so that they are small.
@@ -189,6 +139,11 @@ std::uint32_t SceneBuilder::add_texture_points(const ImportedMesh& mesh, const I
       x[i] = mesh.texture_points[triangle.texture_point[i]][axis] * use.scale[axis] + use.offset[axis];
     const double least = std::floor(*std::min_element(x.begin(), x.end()));
     for (std::size_t i = 0; i < 3; ++i) {
+      constexpr double off_the_edge = 1e-4;
+      if (use.clamp && !(x[i] >= -off_the_edge && x[i] <= 1 + off_the_edge))
+        refuse(place,
+               "a texture point (vt) lies beyond the edge of a texture with -clamp on; textures repeat here: take "
+               "the option out");
       if (!(std::abs(x[i]) <= kMostCoordinate) || !(x[i] - least <= kMostRepeats))
         refuse(place,
                "a texture repeats more than 1,000,000 times over a face; its texture points (vt) are too far apart");
@@ -215,30 +170,101 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
   }
   for (const Vec3d& n : mesh.normals) normals_.push_back(vec::scale(transform.normal(n), entry.flip ? -1.0 : 1.0));
   const bool turn = transform.mirrors() != entry.flip;
-  for (const ImportedTriangle& read : mesh.triangles) {
+  std::vector<CutOut> cuts(mesh.materials.size());
+  for (ImportedTriangle read : mesh.triangles) {
+    const Place place{mesh.file, read.line};
+    CutOut& cut = cuts[read.material];
     if (number[read.material] == not_yet) {
-      const ImportedMaterial material = resolved(mesh, read.material, entry, overrides);
-      if (!material.defined) refuse_unknown(material, mesh, overrides);
+      const ImportedMaterial material = resolve_material(mesh, read.material, entry, overrides, missing_, notices_);
       number[read.material] = add_material(material.material, material.texture, material.place);
       textures[read.material] = material.texture;
+      cut = cut_out_of(material, materials_.back());
     }
+    check_corners(read, materials_[number[read.material]], cut.mask.has_value(), place);
     SceneTriangle triangle{read.position, read.normal, number[read.material]};
     for (std::size_t i = 0; i < 3; ++i) {
       triangle.position[i] += first_position;
       if (triangle.normal[i] != kNoNormal) triangle.normal[i] += first_normal;
     }
-    if (materials_[triangle.material].texture != kNoImage) {
-      const Place place{mesh.file, read.line};
+    if (materials_[triangle.material].texture != kNoImage)
       triangle.texture_points = add_texture_points(mesh, read, textures[read.material], place);
-    }
-    if (turn) {
-      std::swap(triangle.position[1], triangle.position[2]);
-      std::swap(triangle.normal[1], triangle.normal[2]);
-      if (triangle.texture_points != kNoImage)
-        std::swap(texture_points_[triangle.texture_points + 1], texture_points_[triangle.texture_points + 2]);
-    }
-    add_triangle(triangle, {mesh.file, read.line});
+    const auto parts = cut.mask ? parts_of(cut, mesh, read, place) : std::nullopt;
+    if (!parts) add_turned(triangle, turn, place);
+    for (std::size_t i = 0; parts && i < parts->size(); ++i) add_turned(part_of(triangle, (*parts)[i]), turn, place);
   }
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] == not_yet) tell_faults(mesh.materials[i].faults, notices_);
+}
+
+SceneBuilder::CutOut SceneBuilder::cut_out_of(const ImportedMaterial& material, const SceneMaterial& placed) {
+  if (placed.kind == SurfaceKind::glass) return {};
+  if (material.opacity.present()) return {textures_.load_mask(material.opacity), material.opacity};
+  if (placed.texture != kNoImage) return {textures_.mask(placed.texture), material.texture};
+  return {};
+}
+
+std::optional<std::vector<CutOutPart>> SceneBuilder::parts_of(const CutOut& cut, const ImportedMesh& mesh,
+                                                              const ImportedTriangle& read, const Place& place) {
+  if (read.texture_point[0] == kNoNormal) {
+    notices_.note("a face without texture points (vt) is not cut out", place);
+    return std::nullopt;
+  }
+  std::array<std::array<double, 2>, 3> points{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      points[i][axis] = mesh.texture_points[read.texture_point[i]][axis] * cut.use.scale[axis] + cut.use.offset[axis];
+  try {
+    return cut_out(*cut.mask, points);
+  } catch (const std::length_error&) {
+    refuse(place, "a cut-out repeats too often over a face; its texture points (vt) are too far apart");
+  }
+}
+
+SceneTriangle SceneBuilder::part_of(const SceneTriangle& whole, const CutOutPart& part) {
+  SceneTriangle result{whole.position, whole.normal, whole.material};
+  const auto mixed = [&](const std::vector<Vec3d>& values, const std::array<std::uint32_t, 3>& of,
+                         const CutOutCorner& w) {
+    return vec::add(vec::scale(values[of[0]], w[0]),
+                    vec::add(vec::scale(values[of[1]], w[1]), vec::scale(values[of[2]], w[2])));
+  };
+  const auto added = [](std::vector<Vec3d>& to, const Vec3d& value) {
+    to.push_back(value);
+    return static_cast<std::uint32_t>(to.size() - 1);
+  };
+  if (whole.texture_points != kNoImage) result.texture_points = static_cast<std::uint32_t>(texture_points_.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const CutOutCorner& weights = part[i];
+    if (whole.texture_points != kNoImage) {
+      std::array<double, 2> point{0, 0};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t axis = 0; axis < 2; ++axis)
+          point[axis] += weights[k] * texture_points_[whole.texture_points + k][axis];
+      texture_points_.push_back(point);
+    }
+    // A corner of the whole stays that very corner; in between, neighbours must come to the same bits.
+    const auto corner = std::ranges::find_if(weights, [](double w) { return w > 1 - 1e-9; });
+    if (corner != weights.end()) {
+      const auto k = static_cast<std::size_t>(corner - weights.begin());
+      result.position[i] = whole.position[k];
+      result.normal[i] = whole.normal[k];
+      continue;
+    }
+    Vec3d position = mixed(positions_, whole.position, weights);
+    for (double& x : position) x = static_cast<double>(static_cast<float>(x)) + 0.0;
+    result.position[i] = added(positions_, position);
+    if (whole.normal[0] != kNoNormal) result.normal[i] = added(normals_, mixed(normals_, whole.normal, weights));
+  }
+  return result;
+}
+
+void SceneBuilder::add_turned(SceneTriangle triangle, bool turn, const Place& place) {
+  if (turn) {
+    std::swap(triangle.position[1], triangle.position[2]);
+    std::swap(triangle.normal[1], triangle.normal[2]);
+    if (triangle.texture_points != kNoImage)
+      std::swap(texture_points_[triangle.texture_points + 1], texture_points_[triangle.texture_points + 2]);
+  }
+  add_triangle(triangle, place);
 }
 
 void SceneBuilder::add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material,

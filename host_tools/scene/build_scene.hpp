@@ -14,7 +14,8 @@ namespace torolux {
 class SceneBuilder {
  public:
   /// files: where textures come from.
-  SceneBuilder(SceneFiles& files, Notices& notices) : notices_(notices), textures_(files, notices) {}
+  SceneBuilder(SceneFiles& files, MissingMaterials missing, Notices& notices)
+      : notices_(notices), missing_(missing), textures_(files, missing, notices) {}
 
   /// Overrides by name apply to all meshes. Throws InputError: a material that neither the mesh nor an override
   /// defines.
@@ -35,10 +36,24 @@ class SceneBuilder {
   std::uint32_t add_material(SceneMaterial material, const TextureUse& texture, const Place& place);
   std::uint32_t add_texture_points(const ImportedMesh& mesh, const ImportedTriangle& triangle, const TextureUse& use,
                                    const Place& place);
+  /// A mask, and how it lies on faces.
+  struct CutOut {
+    std::optional<CutOutMask> mask;
+    TextureUse use;
+  };
+  /// placed: the material as the scene has it.
+  CutOut cut_out_of(const ImportedMaterial& material, const SceneMaterial& placed);
+  /// Absent: all of the triangle is there.
+  std::optional<std::vector<CutOutPart>> parts_of(const CutOut& cut, const ImportedMesh& mesh,
+                                                  const ImportedTriangle& read, const Place& place);
+  SceneTriangle part_of(const SceneTriangle& whole, const CutOutPart& part);
+  void add_turned(SceneTriangle triangle, bool turn, const Place& place);
+  void check_corners(ImportedTriangle& triangle, const SceneMaterial& material, bool cut, const Place& place);
   void check_material(SceneMaterial& material, const Place& place);
   void add_triangle(const SceneTriangle& triangle, const Place& place);
 
   Notices& notices_;
+  MissingMaterials missing_;
   TextureLibrary textures_;
   std::vector<Vec3d> positions_;
   std::vector<Vec3d> normals_;

@@ -1,37 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Reads scene files from disk; words the messages about places in them.
+// Reads scene files and folders from disk.
 #include "host_tools/scene/files.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <system_error>
 
-#include "emulator/errors.hpp"
-
 namespace torolux {
-
-void refuse(const Place& place, const std::string& message) {
-  throw InputError(place.file.empty() ? message : place.text() + ": " + message);
-}
-
-void Notices::note(const std::string& message, const Place& place) {
-  for (Notice& notice : notices_) {
-    if (notice.message == message) {
-      ++notice.count;
-      return;
-    }
-  }
-  notices_.push_back({message, place, 1});
-}
-
-std::vector<std::string> Notices::lines() const {
-  std::vector<std::string> lines;
-  for (const Notice& notice : notices_) {
-    std::string line = notice.first.text() + ": " + notice.message;
-    if (notice.count > 1) line += " (and " + std::to_string(notice.count - 1) + " more)";
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
 
 std::string DiskFiles::read(const std::filesystem::path& path, const Place& asked_at, std::uintmax_t most_bytes) {
   std::error_code error;
@@ -54,6 +29,16 @@ std::string DiskFiles::read(const std::filesystem::path& path, const Place& aske
 bool DiskFiles::exists(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::exists(path, error);
+}
+
+std::vector<std::string> DiskFiles::names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder.empty() ? std::filesystem::path(".") : folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::ranges::sort(names);
+  return names;
 }
 
 }  // namespace torolux

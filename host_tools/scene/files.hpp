@@ -1,40 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Where scene files come from, and how messages name a place in them.
+// Paths enter; the bytes of scene files, and the names of what lies in a folder, leave.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "host_tools/scene/notices.hpp"
+
 namespace torolux {
-
-/// A line of a file; 0: the file as a whole.
-struct Place {
-  std::string file;
-  std::size_t line = 0;
-
-  std::string text() const { return line == 0 ? file : file + ":" + std::to_string(line); }
-};
-
-/// Throws InputError "FILE:LINE: message".
-[[noreturn]] void refuse(const Place& place, const std::string& message);
-
-/// Warnings of one kind are told once, with the first place and how many more there were.
-class Notices {
- public:
-  void note(const std::string& message, const Place& place);
-  std::vector<std::string> lines() const;  ///< in the order of their first places
-
- private:
-  struct Notice {
-    std::string message;
-    Place first;
-    std::size_t count;
-  };
-  std::vector<Notice> notices_;
-};
 
 /// Reads whole files. Tests and fuzzers hand in their own.
 class SceneFiles {
@@ -47,12 +22,15 @@ class SceneFiles {
   /// Throws InputError: absent, not a regular file, unreadable, longer than most_bytes. asked_at: where it is named.
   virtual std::string read(const std::filesystem::path& path, const Place& asked_at, std::uintmax_t most_bytes) = 0;
   virtual bool exists(const std::filesystem::path& path) = 0;
+  /// Of files and folders directly in `folder`, ascending; none where that is no folder.
+  virtual std::vector<std::string> names_in(const std::filesystem::path& folder) = 0;
 };
 
 class DiskFiles final : public SceneFiles {
  public:
   std::string read(const std::filesystem::path& path, const Place& asked_at, std::uintmax_t most_bytes) override;
   bool exists(const std::filesystem::path& path) override;
+  std::vector<std::string> names_in(const std::filesystem::path& folder) override;
 };
 
 inline constexpr std::uintmax_t kMostMeshBytes = std::uintmax_t{1} << 30U;

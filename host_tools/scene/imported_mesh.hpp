@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host_tools/scene/files.hpp"
@@ -14,9 +16,34 @@ namespace torolux {
 
 /// map_Kd: an image, and what is done with texture points before it is looked up.
 struct TextureUse {
-  std::string file;  ///< as found from the material library; empty: none
+  std::vector<std::string> names;  ///< of the file as written, the likeliest reading first; none: no texture
   std::array<double, 2> scale{1, 1}, offset{0, 0};
+  bool clamp = false;     ///< nothing lies beyond its edges
+  bool optional = false;  ///< the name may be the last number of an option: no texture where it is no file
   Place place;
+  std::vector<std::filesystem::path> folders;  ///< where it may lie: the library's, then the mesh's
+
+  bool present() const { return !names.empty(); }
+};
+
+/// What a material library says of a material, as far as it can be wrong.
+enum class MaterialValue : std::uint8_t {
+  diffuse,
+  specular,
+  exponent,
+  emission,
+  index,
+  filter,
+  model,
+  texture,
+  opacity
+};
+
+/// Refused where the material needs the value, else told.
+struct MaterialFault {
+  MaterialValue value;
+  Place place;
+  std::string message;
 };
 
 /// A material as read; checks of its values come after scene.toml's overrides.
@@ -25,14 +52,19 @@ struct ImportedMaterial {
   bool defined = true;  ///< false: used by faces, but in no library (scene.toml may still define it)
   Place place;          ///< its newmtl, or its first use
   TextureUse texture{};
+  TextureUse opacity{};  ///< map_d
+  std::vector<MaterialFault> faults{};
 };
+
+/// Of a corner whose normal or texture point is named, but not there or not finite.
+inline constexpr std::uint32_t kUnusable = 0xFFFF'FFFEU;
 
 struct ImportedTriangle {
   std::array<std::uint32_t, 3> position;
-  std::array<std::uint32_t, 3> normal;  ///< all kNoNormal where a corner has none
+  std::array<std::uint32_t, 3> normal;  ///< all kNoNormal where a corner has none, or all kUnusable
   std::uint32_t material;               ///< into ImportedMesh::materials
   std::uint32_t line;                   ///< of its face
-  std::array<std::uint32_t, 3> texture_point{kNoNormal, kNoNormal, kNoNormal};  ///< all kNoNormal where one has none
+  std::array<std::uint32_t, 3> texture_point{kNoNormal, kNoNormal, kNoNormal};  ///< likewise
 };
 
 struct ImportedMesh {
@@ -42,6 +74,7 @@ struct ImportedMesh {
   std::vector<std::array<double, 2>> texture_points;
   std::vector<ImportedTriangle> triangles;
   std::vector<ImportedMaterial> materials;
+  std::vector<std::pair<std::string, Place>> missing_libraries;
 };
 
 /// More are refused, with the number: what a PE's polygon numbers and this computer's memory bear with ease.

@@ -9,6 +9,7 @@
 
 #include "host_tools/scene/components.hpp"
 #include "host_tools/scene/coplanar.hpp"
+#include "host_tools/scene/ray_cast.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -27,26 +28,10 @@ bool holds(const vec::Box& outer, const vec::Box& inner) {
   return true;
 }
 
-/// Distance along a ray to the nearest triangle but one, or HUGE_VAL (Moeller and Trumbore 1997).
+/// Distance to the nearest triangle but one, or HUGE_VAL.
 double nearest_hit(const Scene& scene, const Vec3d& origin, const Vec3d& direction, std::uint32_t without) {
-  double nearest = HUGE_VAL;
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    if (t == without) continue;
-    const auto& p = scene.triangles[t].position;
-    const Vec3d& a = scene.positions[p[0]];
-    const Vec3d e1 = vec::subtract(scene.positions[p[1]], a);
-    const Vec3d e2 = vec::subtract(scene.positions[p[2]], a);
-    const Vec3d cross = vec::cross(direction, e2);
-    const double determinant = vec::dot(e1, cross);
-    if (determinant == 0) continue;
-    const Vec3d from = vec::subtract(origin, a);
-    const double u = vec::dot(from, cross) / determinant;
-    const Vec3d across = vec::cross(from, e1);
-    const double v = vec::dot(direction, across) / determinant;
-    const double distance = vec::dot(e2, across) / determinant;
-    if (u >= 0 && v >= 0 && u + v <= 1 && distance > 0) nearest = std::min(nearest, distance);
-  }
-  return nearest;
+  const auto hit = cast_ray(scene, origin, direction, without);
+  return hit ? hit->distance : HUGE_VAL;
 }
 
 struct Emitter {
@@ -62,8 +47,7 @@ std::vector<Emitter> emitters(const Scene& scene, std::size_t most) {
     const Vec3d& a = scene.positions[triangle.position[0]];
     const Vec3d& b = scene.positions[triangle.position[1]];
     const Vec3d& c = scene.positions[triangle.position[2]];
-    const Vec3d normal = vec::unit(vec::cross(vec::subtract(b, a), vec::subtract(c, a)));
-    found.push_back({t, vec::scale(vec::add(vec::add(a, b), c), 1.0 / 3), normal});
+    found.push_back({t, vec::scale(vec::add(vec::add(a, b), c), 1.0 / 3), front_normal(scene, t)});
   }
   return found;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For `torolux info`: what in a scene looks as if it was not meant so. Nothing is changed.
+// For `torolux info` and `render`: what in a scene looks as if it was not meant so. Nothing is changed.
 #pragma once
 
 #include <string>

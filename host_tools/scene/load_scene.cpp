@@ -5,10 +5,13 @@
 #include <algorithm>
 
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/build_scene.hpp"
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/obj.hpp"
+#include "host_tools/scene/plain_text.hpp"
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/studio.hpp"
 
 namespace torolux {
@@ -78,17 +81,23 @@ Scene load_scene(const std::filesystem::path& path, const SceneOptions& options)
 
 Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, const SceneOptions& options) {
   const std::filesystem::path path = scene_path(named, files);
-  if (!files.exists(path)) refuse({}, "there is no scene '" + path.string() + "'; " + kAllowed);
+  if (!files.exists(path)) {
+    const std::string near = nearest_name(path.filename().string(), files.names_in(path.parent_path()));
+    refuse({}, "there is no scene '" + path.string() + "'" +
+                   (near.empty() ? "" : "; did you mean " + in_quotes((path.parent_path() / near).string()) + "?") +
+                   "; " + kAllowed);
+  }
   const std::string extension = lower_extension(path);
   if (extension != ".toml" && extension != ".obj")
     refuse({path.string()}, "'" + extension + "' is not a kind of scene that is read; " + kAllowed);
   const Place whole{path.string(), 0};
-  const SceneFile file = extension == ".obj" ? scene_file_for_mesh(path)
-                                             : read_scene_file(files.read(path, whole, kMostTextBytes), path.string());
+  Notices notices;
+  const std::string text =
+      extension == ".obj" ? "" : plain_text(files.read(path, whole, kMostTextBytes), path.string(), notices);
+  const SceneFile file = extension == ".obj" ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
   if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
 
-  Notices notices;
-  SceneBuilder builder(files, notices);
+  SceneBuilder builder(files, options.missing_materials, notices);
   for (const MeshEntry& entry : file.meshes) {
     const std::filesystem::path mesh = path.parent_path() / entry.file;
     const Place asked_at = entry.place.file.empty() ? whole : entry.place;
@@ -112,11 +121,20 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   for (const SceneMaterial& material : scene.materials) used.push_back(material.name);
   note_unused_overrides(file, used, notices);
   scene.warnings = notices.lines();
+  if (!scene.camera && options.camera) scene.camera = options.camera;
   if (!scene.camera) {
     scene.camera = front_camera(bounds);
     scene.warnings.push_back(path.string() + ": names no camera: one looks from the front, along -z");
   }
+  if (options.strict) refuse_what_is_told(scene.warnings);
   return scene;
+}
+
+void refuse_what_is_told(const std::vector<std::string>& told) {
+  if (told.empty()) return;
+  std::string text = "refused by --strict:";
+  for (const std::string& line : told) text += "\n  " + line;
+  throw InputError(text);
 }
 
 void check_renderable(const Scene& scene) {

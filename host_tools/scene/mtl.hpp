@@ -9,9 +9,9 @@
 
 namespace torolux {
 
-/// Appends the library's materials. Throws InputError with file and line: a value missing, not a number or negative,
-/// a statement before newmtl, a name given twice.
-void import_mtl(std::string_view text, const std::string& file, std::vector<ImportedMaterial>& materials,
-                Notices& notices);
+/// Appends the library's materials; one whose name is there already takes its place. Values that cannot be used are
+/// kept as faults of their material. folder: of the mesh, where textures may lie as well.
+void import_mtl(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                std::vector<ImportedMaterial>& materials, Notices& notices);
 
 }  // namespace torolux

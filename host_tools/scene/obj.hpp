@@ -9,8 +9,8 @@
 
 namespace torolux {
 
-/// Material libraries are read from beside the OBJ. Throws InputError with file and line: not a number, an index that
-/// is zero or names nothing, a face of fewer than three corners, an unknown statement, a library that is not there.
+/// Material libraries are looked for beside the OBJ (find_file.hpp). Throws InputError with file and line: a face with
+/// a corner that is not there or not a position.
 ImportedMesh import_obj(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at, Notices& notices);
 
 }  // namespace torolux

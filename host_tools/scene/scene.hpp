@@ -33,7 +33,17 @@ struct SceneMaterial {
   Vec3d transmittance{1, 1, 1};      ///< Tf of glass, at each crossing, 0..1
   double refractive_index = 1.5;     ///< Ni of glass
   Vec3d emission{0, 0, 0};           ///< Ke, radiance [W/(m^2 sr)] from the front
+
+  bool operator==(const SceneMaterial&) const = default;
 };
+
+/// What stands for a material that a file does not give.
+inline SceneMaterial white_material(const std::string& name) {
+  SceneMaterial white;
+  white.name = name;
+  white.diffuse = {0.99, 0.99, 0.99};  // as near to 1 as light comes to an end at
+  return white;
+}
 
 inline bool emits(const SceneMaterial& material) {
   return material.kind == SurfaceKind::diffuse &&

@@ -3,9 +3,10 @@
 #include "host_tools/scene/statements.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
+#include <cstdlib>
 
 namespace torolux {
 namespace {
@@ -18,32 +19,34 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// A comment begins with a # at the beginning of a word: names such as `steel#2` stay whole.
-std::string_view without_comment(std::string_view text) {
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (text[i] == '#' && (i == 0 || kBlank.find(text[i - 1]) != std::string_view::npos)) return text.substr(0, i);
-  return text;
+constexpr std::array<std::string_view, 18> kNamed{"usemtl", "newmtl", "mtllib",    "g",          "o",    "usemap",
+                                                  "maplib", "call",   "csh",       "shadow_obj", "bump", "norm",
+                                                  "disp",   "decal",  "trace_obj", "refl",       "map",  "mg"};
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
+/// Does a name follow this keyword?
+bool is_named(std::string_view keyword) {
+  return equal_but_for_case(keyword.substr(0, 4), "map_") || !keyword_among(keyword, kNamed).empty();
+}
+
+std::string_view first_word(std::string_view text) {
+  return text.substr(0, text.find_first_of(kBlank));
+}
+
+std::string_view without_comment(std::string_view text, bool named) {
+  if (!text.empty() && text[0] == '#') return {};
+  for (std::size_t i = 1; !named && i < text.size(); ++i)
+    if (text[i] == '#' && kBlank.find(text[i - 1]) != std::string_view::npos) return text.substr(0, i);
+  return text;
 }
 
 }  // namespace
 
 std::string_view Statement::keyword() const {
-  return std::string_view(text).substr(0, text.find_first_of(kBlank));
+  return first_word(text);
 }
 
 std::string_view Statement::rest() const {
@@ -63,23 +66,26 @@ std::vector<std::string_view> Statement::arguments() const {
 
 std::string_view StatementReader::next_line() {
   const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
-  const std::string_view line = text_.substr(0, end);
+  std::string_view line = text_.substr(0, end);
   std::size_t skip = end;
   if (skip < text_.size()) skip += text_.substr(end, 2) == "\r\n" ? 2U : 1U;
   text_.remove_prefix(skip);
   ++line_;
+  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   if (line.find('\0') != std::string_view::npos) refuse({file_, line_}, "a zero byte: this is not a text file");
   return line;
 }
 
 bool StatementReader::next(Statement& statement) {
   while (!text_.empty()) {
-    std::string_view line = trimmed(without_comment(next_line()));
+    std::string_view line = trimmed(next_line());
+    const bool named = is_named(first_word(line));
+    line = trimmed(without_comment(line, named));
     statement.line = line_;
     statement.text.clear();
     while (!line.empty() && line.back() == '\\' && !text_.empty()) {
       statement.text.append(line.substr(0, line.size() - 1)).push_back(' ');
-      line = trimmed(without_comment(next_line()));
+      line = trimmed(without_comment(trimmed(next_line()), named));
     }
     statement.text.append(line);
     if (!trimmed(statement.text).empty()) {
@@ -99,32 +105,39 @@ std::string in_quotes(std::string_view word) {
   return text + "'";
 }
 
-double read_number(std::string_view word, const Place& place) {
+ReadNumber parse_number(std::string_view word) {
   std::string_view digits = word;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::result_out_of_range)
-    refuse(place, in_quotes(word) + " is beyond what a number can hold; use one between 1e-300 and 1e300");
-  if (error != std::errc() || end != digits.data() + digits.size())
-    refuse(place, in_quotes(word) + " is not a number; expected a decimal number such as -1.5 or 2e-3");
-  if (!std::isfinite(value)) refuse(place, in_quotes(word) + " is not a finite number");
-  return value;
+  ReadNumber read;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), read.value);
+  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
+    read.fault = in_quotes(word) + " is not a number; expected a decimal number such as -1.5 or 2e-3";
+  } else if (error == std::errc::result_out_of_range) {
+    // Too small is zero, or nearly; too large is infinite.
+    read.value = std::strtod(std::string(digits).c_str(), nullptr);
+    if (!std::isfinite(read.value))
+      read.fault = in_quotes(word) + " is beyond what a number can hold; use one between 1e-300 and 1e300";
+  } else if (!std::isfinite(read.value)) {
+    read.fault = in_quotes(word) + " is not a finite number";
+  }
+  return read;
 }
 
-std::string nearest_name(std::string_view word, const std::vector<std::string>& known) {
-  if (word.size() > 100) return {};
-  std::string best;
-  std::size_t best_distance = 1 + std::max<std::size_t>(2, word.size() / 3);
-  for (const std::string& name : known) {
-    if (name.size() > 100) continue;
-    const std::size_t distance = edit_distance(word, name);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = name;
-    }
-  }
-  return best;
+double read_number(std::string_view word, const Place& place) {
+  const ReadNumber read = parse_number(word);
+  if (!read.fault.empty()) refuse(place, read.fault);
+  return read.value;
+}
+
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string_view keyword_among(std::string_view word, std::span<const std::string_view> known) {
+  if (const auto found = std::ranges::find(known, word); found != known.end()) return *found;
+  const auto alike =
+      std::ranges::find_if(known, [word](std::string_view other) { return equal_but_for_case(word, other); });
+  return alike == known.end() ? std::string_view() : *alike;
 }
 
 }  // namespace torolux

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
-// See texture_image.hpp.
+// Tells kinds of picture apart and decodes them.
 #include "host_tools/scene/texture_image.hpp"
 
 #include <png.h>
 #include <turbojpeg.h>
 
+#include <algorithm>
+#include <cstring>
 #include <memory>
+#include <span>
+
+#include "host_tools/scene/image_length.hpp"
+#include "host_tools/scene/stb_image.hpp"
 
 namespace torolux {
 namespace {
@@ -25,27 +31,55 @@ struct Decoder {
                         " pixels; at most 16,777,216, on edges of at most 16,384, are read: make it smaller");
   }
 
-  SceneTexture png(std::string_view bytes) const {
+  DecodedImage png(std::string_view bytes) const {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) damaged(image.message);
     const std::unique_ptr<png_image, decltype(&png_image_free)> keeper(&image, png_image_free);
     check_size(image.width, image.height);
+    // libpng takes 16 bits without a tag for linear; the format's own word is that colours are sRGB unless they say so.
+    image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     image.format = PNG_FORMAT_RGBA;
     std::vector<std::array<std::uint8_t, 4>> pixels(std::size_t{image.width} * image.height);
     if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) damaged(image.message);
-    SceneTexture texture{file, image.width, image.height, {}};
-    texture.texels.reserve(pixels.size());
-    bool opaque = true;
-    for (const auto& pixel : pixels) {
-      texture.texels.push_back({pixel[0], pixel[1], pixel[2]});
-      opaque = opaque && pixel[3] == 255;
-    }
-    if (!opaque) notices.note("the transparency of a texture is not used", place);
-    return texture;
+    return colours(pixels, image.width, image.height);
   }
 
-  SceneTexture jpeg(std::string_view bytes) const {
+  /// Colours and alpha apart. Alpha that is zero everywhere is none: programs leave it unset.
+  DecodedImage colours(std::span<const std::array<std::uint8_t, 4>> pixels, std::uint32_t width,
+                       std::uint32_t height) const {
+    DecodedImage image{{file, width, height, {}}, {}};
+    image.colours.texels.reserve(pixels.size());
+    for (const auto& pixel : pixels) image.colours.texels.push_back({pixel[0], pixel[1], pixel[2]});
+    const bool opaque = std::ranges::all_of(pixels, [](const auto& pixel) { return pixel[3] == 255; });
+    const bool unset = std::ranges::all_of(pixels, [](const auto& pixel) { return pixel[3] == 0; });
+    if (unset) notices.note("the alpha of a texture is zero everywhere and not used", place);
+    if (opaque || unset) return image;
+    image.alpha.reserve(pixels.size());
+    for (const auto& pixel : pixels) image.alpha.push_back(pixel[3]);
+    return image;
+  }
+
+  DecodedImage tga_or_bmp(std::string_view bytes) const {
+    const auto* from = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const auto size = static_cast<int>(bytes.size());  // at most kMostImageBytes
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (stbi_info_from_memory(from, size, &width, &height, &channels) == 0) damaged(stbi_failure_reason());
+    check_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+    const bool whole = (bytes.starts_with("BM") ? bmp_is_whole : tga_is_whole)(bytes, static_cast<std::uint64_t>(width),
+                                                                               static_cast<std::uint64_t>(height));
+    if (!whole) damaged("it is cut short");
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> read(
+        stbi_load_from_memory(from, size, &width, &height, &channels, 4), stbi_image_free);
+    if (!read) damaged(stbi_failure_reason());
+    std::vector<std::array<std::uint8_t, 4>> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    std::memcpy(pixels.data(), read.get(), pixels.size() * 4);
+    return colours(pixels, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+  }
+
+  DecodedImage jpeg(std::string_view bytes) const {
     const std::unique_ptr<void, decltype(&tjDestroy)> reader(tjInitDecompress(), tjDestroy);
     if (!reader) damaged("no JPEG decoder");
     const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -61,33 +95,54 @@ struct Decoder {
     SceneTexture texture{file, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
     texture.texels.resize(std::size_t{texture.width} * texture.height);
     if (tjDecompress2(reader.get(), from, size, texture.texels.data()->data(), width, 0, height, TJPF_RGB,
-                      TJFLAG_ACCURATEDCT) != 0)
-      damaged(tjGetErrorStr2(reader.get()));
-    return texture;
+                      TJFLAG_ACCURATEDCT) != 0) {
+      const std::string why = tjGetErrorStr2(reader.get());
+      if (tjGetErrorCode(reader.get()) != TJERR_WARNING || why.find("Premature end") != std::string::npos) damaged(why);
+      notices.note("a JPEG is not quite as it should be, and read all the same", place, why);
+    }
+    return {std::move(texture), {}};
   }
 };
 
+/// By their first bytes, which TGA lacks: it is recognised by its header being one.
+enum class ImageKind : std::uint8_t { png, jpeg, bmp, tga, unknown };
+
+ImageKind kind_of(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return ImageKind::png;
+  if (bytes.starts_with("\xFF\xD8")) return ImageKind::jpeg;
+  if (bytes.starts_with("BM")) return ImageKind::bmp;
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  const bool tga = stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()),
+                                         &width, &height, &channels) == 1;
+  return tga ? ImageKind::tga : ImageKind::unknown;
+}
+
 /// Files begin with the highest row, texture points with the lowest.
-void turn_upwards(SceneTexture& texture) {
-  std::vector<std::array<std::uint8_t, 3>> upwards;
-  upwards.reserve(texture.texels.size());
-  for (std::size_t row = texture.height; row-- > 0;) {
-    const auto from = texture.texels.begin() + static_cast<std::ptrdiff_t>(row * texture.width);
-    upwards.insert(upwards.end(), from, from + texture.width);
-  }
-  texture.texels = std::move(upwards);
+template <class Texel>
+void turn_upwards(std::vector<Texel>& texels, std::size_t width) {
+  std::vector<Texel> upwards;
+  upwards.reserve(texels.size());
+  for (auto end = texels.end(); end != texels.begin(); end -= static_cast<std::ptrdiff_t>(width))
+    upwards.insert(upwards.end(), end - static_cast<std::ptrdiff_t>(width), end);
+  texels = std::move(upwards);
 }
 
 }  // namespace
 
-SceneTexture decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices) {
+DecodedImage decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices) {
   const Decoder decoder{file, place, notices};
-  const bool png = bytes.starts_with("\x89PNG");
-  if (!png && !bytes.starts_with("\xFF\xD8"))
-    refuse(place, "the texture '" + file + "' is neither PNG nor JPEG; convert it, or take the map_Kd line out");
-  SceneTexture texture = png ? decoder.png(bytes) : decoder.jpeg(bytes);
-  turn_upwards(texture);
-  return texture;
+  const ImageKind kind = kind_of(bytes);
+  if (kind == ImageKind::unknown)
+    refuse(place,
+           "the texture '" + file + "' is neither PNG, JPEG, TGA nor BMP; convert it, or take the map_Kd line out");
+  DecodedImage image = kind == ImageKind::png    ? decoder.png(bytes)
+                       : kind == ImageKind::jpeg ? decoder.jpeg(bytes)
+                                                 : decoder.tga_or_bmp(bytes);
+  turn_upwards(image.colours.texels, image.colours.width);
+  turn_upwards(image.alpha, image.colours.width);
+  return image;
 }
 
 }  // namespace torolux

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bytes of an image file in, 8-bit sRGB colours out: PNG (libpng) and JPEG (libjpeg-turbo).
+// The bytes of an image file in, 8-bit sRGB colours out: PNG (libpng), JPEG (libjpeg-turbo), TGA and BMP (stb_image).
 #pragma once
 
 #include <string_view>
@@ -13,8 +13,13 @@ namespace torolux {
 inline constexpr std::uint64_t kMostImagePixels = std::uint64_t{1} << 24U;
 inline constexpr std::uint32_t kMostImageEdge = 16384;
 
-/// `file` is for the texture's name and messages; place: where it is named. Throws InputError: neither PNG nor JPEG,
+struct DecodedImage {
+  SceneTexture colours;
+  std::vector<std::uint8_t> alpha;  ///< of each texel, 0..255; empty: all are opaque
+};
+
+/// `file` is for the texture's name and messages; place: where it is named. Throws InputError: none of these kinds,
 /// damaged, too large.
-SceneTexture decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices);
+DecodedImage decode_texture(std::string_view bytes, const std::string& file, const Place& place, Notices& notices);
 
 }  // namespace torolux

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {
@@ -50,6 +51,14 @@ Place TomlTable::place(std::string_view key) const {
 const toml::node* TomlTable::find(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return table_.get(key);
+}
+
+std::string TomlTable::mistyped(std::string_view key) const {
+  std::vector<std::string> others;
+  for (const auto& [name, node] : table_)
+    if (std::find(known_.begin(), known_.end(), name.str()) == known_.end()) others.emplace_back(name.str());
+  const std::string near = nearest_name(key, others);
+  return near.empty() ? "" : "; did you mean it by " + in_quotes(near) + "?";
 }
 
 void TomlTable::refuse_kind(std::string_view key, const std::string& expected) const {

@@ -46,7 +46,7 @@ class TomlTable {
   /// Refuses with what is missing.
   template <typename T>
   T required(std::optional<T> value, std::string_view key) const {
-    if (!value) refuse(place(), title_ + " lacks '" + std::string(key) + "'");
+    if (!value) refuse(place(), title_ + " lacks '" + std::string(key) + "'" + mistyped(key));
     return *value;
   }
   /// Refuses keys that nobody asked for.
@@ -54,6 +54,8 @@ class TomlTable {
 
  private:
   const toml::node* find(std::string_view key);
+  /// "; did you mean it by 'KEY'?" where the table has a key that is nearly this one; else "".
+  std::string mistyped(std::string_view key) const;
   [[noreturn]] void refuse_kind(std::string_view key, const std::string& expected) const;
   double checked(const toml::node& node, std::string_view key, double least, double most) const;
   Vec3d vector(const toml::node& node, std::string_view key, double least, double most) const;

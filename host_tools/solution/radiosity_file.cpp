@@ -4,12 +4,14 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <type_traits>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "host_tools/files/write_file.hpp"
+#include "host_tools/render/presets.hpp"
 
 namespace torolux {
 namespace {
@@ -25,7 +27,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 6;
+constexpr std::uint16_t kVersion = 7;
 
 struct SavedSums {
   protocol::Tally tally;
@@ -86,33 +88,86 @@ T take(std::span<const std::byte>& bytes) {
   return value;
 }
 
-void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& expected, const std::string& name) {
+/// A setting that the saved radiosities were made with, and this run's, where they differ.
+struct Difference {
+  std::string option;  ///< without a value: it has none
+  std::string was, is;
+};
+
+std::string quality_name(double patch_factor) {
+  for (const Preset& preset : kPresets)
+    if (preset.patch_factor == patch_factor) return std::string(preset.name);
+  return std::to_string(patch_factor) + " times as long patches";
+}
+
+/// As short as it can be read back.
+std::string shortest(double value) {
+  std::array<char, 40> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::vector<Difference> differences(const RadiosityOrigin& saved, const RadiosityOrigin& run) {
+  std::vector<Difference> found;
+  const auto differ = [&found](const char* option, auto was, auto is, auto text) {
+    if (was != is) found.push_back({option, text(was), text(is)});
+  };
+  const auto number = [](auto value) {
+    if constexpr (std::is_integral_v<decltype(value)>)
+      return std::to_string(value);
+    else
+      return shortest(value);
+  };
+  const auto length = [](double value) { return value == 0 ? std::string("auto") : shortest(value); };
+  // A preset brings these with it; they are named where the preset is the same.
+  differ("--quality", saved.patch_factor, run.patch_factor, quality_name);
+  const bool same_preset = found.empty();
+  const auto differ_by_preset = [&](const char* option, auto was, auto is, auto text) {
+    if (same_preset) differ(option, was, is, text);
+  };
+  differ_by_preset("--patches", saved.patch_length, run.patch_length, length);
+  differ_by_preset("--elements", saved.element_length, run.element_length, length);
+  differ_by_preset("--refine", saved.refine, run.refine, number);
+  differ_by_preset("--unshot", saved.unshot, run.unshot, number);
+  differ("--seed", saved.seed, run.seed, [](std::uint64_t value) { return std::to_string(value); });
+  differ_by_preset("--hemicube", saved.hemicube, run.hemicube, number);
+  differ_by_preset("--shot-points", saved.shot_points, run.shot_points, number);
+  differ_by_preset("--emission-records", saved.emission_records, run.emission_records, number);
+  differ("--max-shots", saved.max_shots, run.max_shots, number);
+  differ("--bounces", saved.bounces, run.bounces, number);
+  differ("--texels", saved.texels, run.texels, number);
+  // Without a draft nothing was split for the sake of either way: the file serves both.
+  if (saved.refine > 0)
+    differ("--direct", saved.shadow_rays, run.shadow_rays,
+           [](std::uint32_t value) { return std::string(value != 0 ? "shadow-rays" : "radiosity"); });
+  return found;
+}
+
+/// Throws InputError with what differs, and the options that mend it.
+void check_settings(const RadiosityOrigin& saved, const RadiosityOrigin& run, const std::string& name) {
   const auto refuse = [&name](const std::string& what) {
     throw InputError(name + ": these radiosities were made with " + what);
   };
-  if (saved.geometry != expected.geometry) refuse("other geometry");
-  if (saved.materials != expected.materials) refuse("other materials or lights");
-  const auto differ = [&refuse](const char* option, auto was, auto is) {
-    if (was == is) return;
-    refuse(std::string(option) + " " + std::to_string(was) + ", this run has " + std::to_string(is));
-  };
-  differ("--patches (0: auto)", saved.patch_length, expected.patch_length);
-  differ("--elements (0: auto)", saved.element_length, expected.element_length);
-  differ("patches of --quality", saved.patch_factor, expected.patch_factor);
-  differ("elements of --quality", saved.element_factor, expected.element_factor);
-  differ("clusters of --quality", saved.cluster_factor, expected.cluster_factor);
-  differ("--refine", saved.refine, expected.refine);
-  differ("--unshot", saved.unshot, expected.unshot);
-  differ("--seed", saved.seed, expected.seed);
-  differ("--hemicube", saved.hemicube, expected.hemicube);
-  differ("--shot-points", saved.shot_points, expected.shot_points);
-  differ("--emission-records", saved.emission_records, expected.emission_records);
-  differ("--max-shots", saved.max_shots, expected.max_shots);
-  differ("--bounces", saved.bounces, expected.bounces);
-  differ("--texels", saved.texels, expected.texels);
-  differ("--two-sided-lights", saved.two_sided_lights, expected.two_sided_lights);
-  differ("patch sides", saved.patch_sides, expected.patch_sides);
-  differ("elements", saved.elements, expected.elements);
+  if (saved.geometry != run.geometry) refuse("other geometry; make them anew, with --save-radiosity");
+  if (saved.materials != run.materials) refuse("other materials or lights; make them anew, with --save-radiosity");
+  if (saved.two_sided_lights != run.two_sided_lights)
+    refuse(saved.two_sided_lights != 0 ? "--two-sided-lights; give it"
+                                       : "lights of one side; leave --two-sided-lights out");
+  const std::vector<Difference> found = differences(saved, run);
+  std::string options;
+  for (const Difference& difference : found) options += " " + difference.option + " " + difference.was;
+  if (!found.empty())
+    refuse(found[0].option + " " + found[0].was + ", this run has " + found[0].is + "; give" + options +
+           ", or make them anew, with --save-radiosity");
+  if (saved.element_factor != run.element_factor || saved.cluster_factor != run.cluster_factor)
+    refuse("another --quality, or with --elements of another length");
+}
+
+void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& run, const std::string& name) {
+  check_settings(saved, run, name);
+  if (saved.patch_sides != run.patch_sides || saved.elements != run.elements)
+    throw InputError(name + ": these radiosities are of " + std::to_string(saved.patch_sides) + " patch sides and " +
+                     std::to_string(saved.elements) + " elements, the scene has " + std::to_string(run.patch_sides) +
+                     " and " + std::to_string(run.elements) + "; make them anew, with --save-radiosity");
 }
 
 /// Sums of all light stay far below this, so that nothing overflows where values are added up.
@@ -188,6 +243,7 @@ RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, con
   origin.bounces = quality.bounces;
   origin.texels = quality.texels;
   origin.two_sided_lights = quality.two_sided_lights ? 1 : 0;
+  origin.shadow_rays = quality.shadow_rays ? 1 : 0;
   origin.patch_sides = mesh.patch_sides;
   origin.elements = mesh.elements;
   return origin;
@@ -235,6 +291,10 @@ SavedRadiosity parse_radiosity(std::span<const std::byte> bytes, const std::stri
   }
   saved.rest.assign(bytes.begin(), bytes.end());
   return saved;
+}
+
+void check_radiosity(const SavedRadiosity& saved, const Scene& scene, const Quality& quality) {
+  check_settings(saved.origin, radiosity_origin(scene, quality, Mesh{}), saved.name);
 }
 
 Solution unpack_radiosity(const SavedRadiosity& saved, const RadiosityOrigin& expected, const Mesh& mesh) {

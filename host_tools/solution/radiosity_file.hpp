@@ -27,7 +27,7 @@ struct RadiosityOrigin {
   std::uint32_t patch_sides = 0, elements = 0;  ///< of the mesh
   std::uint32_t emission_records = 0;
   std::uint32_t texels = 0;
-  std::uint32_t unused = 0;
+  std::uint32_t shadow_rays = 0;  ///< what splits were chosen for
 };
 static_assert(sizeof(RadiosityOrigin) == 120);
 
@@ -48,7 +48,9 @@ struct SavedRadiosity {
 
 /// Throws InputError: not such a file, another version, damaged, cut short. name: for messages.
 SavedRadiosity parse_radiosity(std::span<const std::byte> bytes, const std::string& name);
-/// Throws InputError: made from another scene or settings (which), damaged.
+/// Throws InputError: made from another scene or settings (which, and what to give). Before there is a mesh.
+void check_radiosity(const SavedRadiosity& saved, const Scene& scene, const Quality& quality);
+/// Throws InputError: made from another scene or settings, damaged.
 Solution unpack_radiosity(const SavedRadiosity& saved, const RadiosityOrigin& expected, const Mesh& mesh);
 
 /// Throws InputError where the file cannot be written; leaves none behind then.

@@ -19,14 +19,14 @@ using Json = nlohmann::ordered_json;
 
 /// Options of render and run whose effect stands in the settings. Any other one comes into the key as it is written,
 /// so that an option that is forgotten here makes keys differ, never agree.
-constexpr std::array<std::string_view, 44> kSettled = {
+constexpr std::array<std::string_view, 45> kSettled = {
     "scene",     "image",     "studio",           "layers",  "exposure",   "tone-curve", "radiosity",
     "size",      "samples",   "filter",           "eye",     "look-at",    "up",         "fov",
     "quality",   "patches",   "elements",         "refine",  "hemicube",   "unshot",     "shot-points",
     "max-shots", "bounces",   "emission-records", "direct",  "texels",     "seed",       "two-sided-lights",
     "pes",       "pe-memory", "subspaces",        "scheme",  "allocation", "replicate",  "enter-empty",
     "points",    "empty",     "camera-rays",      "machine", "engine",     "qemu-pes",   "jitter",
-    "fault",     "ideal"};
+    "fault",     "ideal",     "missing-materials"};
 
 bool settled(const std::string& name) {
   return name.starts_with("machine.") || std::ranges::find(kSettled, name) != kSettled.end();

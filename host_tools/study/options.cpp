@@ -7,6 +7,7 @@
 #include <array>
 
 #include "emulator/machine/description.hpp"
+#include "emulator/nearest_name.hpp"
 #include "host_tools/cli/command.hpp"
 
 namespace torolux::study {
@@ -37,7 +38,7 @@ std::vector<std::string> options_of(const std::string& command, const Place& pla
   add_commands(app, unused);
   const auto found = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == command; });
   if (found.empty() || std::ranges::find(kCommands, command) == kCommands.end())
-    refuse(place, "'" + command + "' is no command that is studied; there are: render, run, network");
+    refuse(place, no_such_name(command, "no command that is studied", {kCommands.begin(), kCommands.end()}));
   std::vector<std::string> names;
   for (const CLI::Option* option : found.front()->get_options()) {
     if (option->get_positional()) names.push_back(lower(option->get_name()));

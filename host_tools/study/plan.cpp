@@ -6,6 +6,7 @@
 #include <set>
 
 #include "emulator/machine/description.hpp"
+#include "emulator/nearest_name.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/toml_table.hpp"

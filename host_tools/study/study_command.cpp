@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "emulator/errors.hpp"
+#include "emulator/nearest_name.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"

@@ -14,7 +14,7 @@
 
 namespace torolux {
 
-enum class SceneText { obj, mtl, scene_toml };
+enum class SceneText { obj, mtl, scene_toml, texture };
 
 inline std::map<std::string, std::string> scene_with(SceneText kind, const std::string& text) {
   const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n";
@@ -25,6 +25,10 @@ inline std::map<std::string, std::string> scene_with(SceneText kind, const std::
     case SceneText::mtl:
       return {{"fuzz.obj", "mtllib fuzz.mtl\n" + quad + "usemtl m\nf 1//1 2//1 3//1\nusemtl n\nf 1 3 4\n"},
               {"fuzz.mtl", text}};
+    case SceneText::texture:
+      return {{"fuzz.obj", "mtllib a.mtl\n" + quad + "vt 0 0\nvt 2 0\nvt 2 2\nusemtl m\nf 1/1 2/2 3/3\n"},
+              {"a.mtl", "newmtl m\nKd .5 .5 .5\nmap_Kd fuzz.png\n"},
+              {"fuzz.png", text}};
     case SceneText::scene_toml:
       break;
   }

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "host_tools/scene/files.hpp"
 
@@ -21,6 +23,15 @@ class MemoryFiles final : public SceneFiles {
     return found->second;
   }
   bool exists(const std::filesystem::path& path) override { return files_.count(path.string()) > 0; }
+  std::vector<std::string> names_in(const std::filesystem::path& folder) override {
+    std::set<std::string> names;
+    for (const auto& [name, bytes] : files_) {
+      std::filesystem::path path = name;
+      while (path.has_parent_path() && path.parent_path() != folder) path = path.parent_path();
+      if (path.parent_path() == folder) names.insert(path.filename().string());
+    }
+    return {names.begin(), names.end()};
+  }
 
  private:
   std::map<std::string, std::string> files_;

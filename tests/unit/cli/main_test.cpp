@@ -14,27 +14,13 @@
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/picture/picture.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/unit/cli/run_main.hpp"
 
 namespace torolux {
 namespace {
 
 using testing::HasSubstr;
 using testing_support::TemporaryFolder;
-
-struct Outcome {
-  int code;
-  std::string out, err;
-};
-
-Outcome torolux(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "torolux");
-  std::vector<const char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = torolux_main(static_cast<int>(argv.size()), argv.data());
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
 
 TEST(Main, HelpAndVersionAreNoErrors) {
   EXPECT_EQ(torolux({"--help"}).code, 0);
@@ -46,17 +32,54 @@ TEST(Main, HelpAndVersionAreNoErrors) {
 
 TEST(Main, HelpOfRenderIsComplete) {
   const std::string help = torolux({"render", "--help"}).out;
-  for (const char* option :
-       {"SCENE",       "--output",      "--size",        "--samples",          "--eye",
-        "--look-at",   "--up",          "--fov",         "--exposure",         "--pes",
-        "--pe-memory", "--subspaces",   "--scheme",      "--allocation",       "--replicate",
-        "--points",    "--empty",       "--camera-rays", "--machine",          "--engine",
-        "--patches",   "--elements",    "--hemicube",    "--shot-points",      "--emission-records",
-        "--unshot",    "--max-shots",   "--bounces",     "--two-sided-lights", "--save-radiosity",
-        "--radiosity", "--stats",       "--seed",        "--threads",          "--quiet",
-        "--studio",    "--enter-empty", "--direct",      "--filter",           "--tone-curve",
-        "--layers",    "--no-picture",  "--set",         "--jitter",           "--fault",
-        "--stats-csv"})
+  for (const char* option : {"SCENE",
+                             "--output",
+                             "--size",
+                             "--samples",
+                             "--eye",
+                             "--look-at",
+                             "--up",
+                             "--fov",
+                             "--exposure",
+                             "--pes",
+                             "--pe-memory",
+                             "--subspaces",
+                             "--scheme",
+                             "--allocation",
+                             "--replicate",
+                             "--points",
+                             "--empty",
+                             "--camera-rays",
+                             "--machine",
+                             "--engine",
+                             "--patches",
+                             "--elements",
+                             "--hemicube",
+                             "--shot-points",
+                             "--emission-records",
+                             "--unshot",
+                             "--max-shots",
+                             "--bounces",
+                             "--two-sided-lights",
+                             "--save-radiosity",
+                             "--radiosity",
+                             "--stats",
+                             "--seed",
+                             "--threads",
+                             "--quiet",
+                             "--studio",
+                             "--enter-empty",
+                             "--direct",
+                             "--filter",
+                             "--tone-curve",
+                             "--layers",
+                             "--no-picture",
+                             "--set",
+                             "--jitter",
+                             "--fault",
+                             "--stats-csv",
+                             "--strict",
+                             "--missing-materials"})
     EXPECT_THAT(help, HasSubstr(option));
   for (const char* text :
        {"[512x512]", "[4x4]", "[balanced; --scheme paper: skewed]", "[8]", "[0.002]", "[32]", "degrees", "scene units"})
@@ -87,6 +110,7 @@ TEST(Main, UsageErrors) {
                                              {"render", "scene", "--filter", "triangle"},
                                              {"render", "scene", "--tone-curve", "aces"},
                                              {"render", "scene", "--layers", "colour"},
+                                             {"render", "scene", "--missing-materials", "black"},
                                              {"render", "scene", "--set", "torus.flit_bytes"},
                                              {"run", "a.elf", "--set", "=16"},
                                              {"tonemap", "a.exr"},
@@ -207,14 +231,6 @@ TEST(Main, MissingSceneIsBadInput) {
     EXPECT_EQ(outcome.code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("/nowhere/scene"));
   }
-}
-
-/// A room with a lamp: enough to get past the scene.
-std::filesystem::path write_small_scene(const std::filesystem::path& folder) {
-  std::ofstream(folder / "room.mtl") << "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n";
-  std::ofstream(folder / "room.obj") << "mtllib room.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
-                                        "usemtl wall\nf 1 2 3\nusemtl lamp\nf 6 5 4\n";
-  return folder / "room.obj";
 }
 
 TEST(Main, OutputsAreCheckedBeforeTheWork) {

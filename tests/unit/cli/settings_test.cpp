@@ -166,6 +166,7 @@ RC_GTEST_PROP(Settings, OfARenderLeadToThemselves, ()) {
   RenderOptions options;
   options.scene = *rc::gen::element<std::string>("scenes/room", "a scene's room");
   options.studio = *rc::gen::arbitrary<bool>();
+  options.missing_materials = *rc::gen::element(MissingMaterials::refuse, MissingMaterials::white);
   any_light(options);
   any_view(options);
   any_machine(options);

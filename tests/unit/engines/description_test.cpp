@@ -80,10 +80,11 @@ TEST(MachineFile, SetsWhatItNamesAndNothingElse) {
 }
 
 TEST(MachineFile, ErrorsNameFileAndLine) {
-  EXPECT_THAT(refusal("\n\n[torus]\nlink_cycels = 1\n"), StartsWith("m.toml:4: unknown key 'torus.link_cycels'"));
+  EXPECT_THAT(refusal("\n\n[torus]\nlink_cycels = 1\n"),
+              StartsWith("m.toml:4: unknown key 'torus.link_cycels'; did you mean 'torus.link_cycles'?"));
   EXPECT_THAT(refusal("[torus]\nlink_cycels = 1\n"), HasSubstr("may set torus.flit_bytes, torus.router_cycles"));
   EXPECT_THAT(refusal("[touros]\n"), HasSubstr("may set processor.clock_hertz, "));
-  EXPECT_THAT(refusal("[touros]\n"), StartsWith("m.toml:1: unknown key 'touros'"));
+  EXPECT_THAT(refusal("[touros]\n"), StartsWith("m.toml:1: unknown key 'touros'; did you mean 'torus'?"));
   EXPECT_THAT(refusal("[torus]\nlink_cycles = 0\n"),
               StartsWith("m.toml:2: 'torus.link_cycles' must be a whole number"));
   EXPECT_THAT(refusal("[torus]\nlink_cycles = 0\n"), HasSubstr("from 1 to 1000000"));

@@ -84,7 +84,9 @@ TEST_F(RadiosityFileTest, SaysWhatDiffers) {
   const auto bytes = pack_radiosity(origin_, splits_, solution_);
   Quality quality = quality_;
   quality.hemicube = 32;
-  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("--hemicube 8, this run has 32"),
+  quality.seed = 77;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_))
+                .find("--seed 1, this run has 77; give --seed 1 --hemicube 8, or make them anew"),
             std::string::npos);
   Scene scene = scene_;
   scene.positions[3][1] += 1e-9;
@@ -93,9 +95,28 @@ TEST_F(RadiosityFileTest, SaysWhatDiffers) {
   scene.materials[1].emission[2] = 5;
   EXPECT_NE(refusal(bytes, radiosity_origin(scene, quality_, mesh_)).find("materials"), std::string::npos);
   quality = quality_;
+  quality.two_sided_lights = true;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("leave --two-sided-lights out"),
+            std::string::npos);
+  quality = quality_;
+  quality.shadow_rays = !quality.shadow_rays;  // nothing was split for either way
+  EXPECT_EQ(refusal(bytes, radiosity_origin(scene_, quality, mesh_)), "");
+  quality = quality_;
   quality.width = 999;  // the view is free
   quality.samples = 9;
   EXPECT_EQ(refusal(bytes, radiosity_origin(scene_, quality, mesh_)), "");
+}
+
+TEST_F(RadiosityFileTest, SplitsForAnotherDirectLightAreRefused) {
+  quality_.refine = 4;
+  const auto bytes = pack_radiosity(radiosity_origin(scene_, quality_, mesh_), splits_, solution_);
+  const SavedRadiosity saved = parse_radiosity(bytes, "file");
+  EXPECT_NO_THROW(check_radiosity(saved, scene_, quality_));
+  quality_.shadow_rays = false;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality_, mesh_))
+                .find("--direct shadow-rays, this run has radiosity; give --direct shadow-rays"),
+            std::string::npos);
+  EXPECT_THROW(check_radiosity(saved, scene_, quality_), InputError) << "known before there is a mesh";
 }
 
 TEST_F(RadiosityFileTest, ImpossibleFluxIsRefused) {

@@ -2,6 +2,7 @@
 // Proves that what is wound or placed wrongly is reported, and that sound scenes are left in peace.
 #include "host_tools/scene/inspect.hpp"
 
+#include "host_tools/scene/dark_view.hpp"
 #include "tests/unit/scene/scene_text.hpp"
 
 namespace torolux {
@@ -73,6 +74,41 @@ TEST(Inspect, SurfacesInOnePlane) {
   const std::string beside = "v 4 0 0\nv 6 0 0\nv 6 0 4\nv 4 0 4\nusemtl other\nf -1 -2 -3 -4\n";
   EXPECT_THAT(inspected(floor + rug), Contains(HasSubstr("'wall' and 'other' overlap in one plane")));
   EXPECT_THAT(inspected(floor + beside), IsEmpty()) << "a common edge is no overlap";
+}
+
+/// What is said of a view into a room of 10 x 10 x 10, fronts inwards, with `more` in it.
+std::vector<std::string> viewed(const std::string& more, const Vec3d& eye, const Vec3d& look_at,
+                                bool two_sided = false) {
+  const Scene scene = load_texts({{"a.obj", "mtllib a.mtl\n" + box(0, 10, true, "wall") + more},
+                                  {"a.mtl",
+                                   "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl black\nKd 0 0 0\nnewmtl glass\nillum 7\nNi "
+                                   "1.5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n"}},
+                                 "a.obj");
+  return inspect_view(scene, {eye, look_at, {0, 1, 0}, 40}, 1.5, two_sided);
+}
+
+const Vec3d kInside{5, 5, 9};
+const Vec3d kMiddle{5, 5, 5};
+
+TEST(InspectView, WhatIsLitIsLeftInPeace) {
+  EXPECT_THAT(viewed(lamp(9.9), kInside, kMiddle), IsEmpty());
+  EXPECT_THAT(viewed(lamp(9.9) + box(8.5, 9.5, false, "glass"), {9, 9, 9}, kMiddle), IsEmpty()) << "through glass";
+  EXPECT_THAT(viewed(lamp(5, true), {5, 1, 9}, {5, 0, 5}), IsEmpty()) << "by way of the ceiling";
+}
+
+TEST(InspectView, BlackPicturesSayWhy) {
+  EXPECT_THAT(viewed(lamp(9.9), {5, 5, 30}, {5, 5, 40}), testing::ElementsAre(HasSubstr("sees nothing of the scene")));
+  EXPECT_THAT(viewed(lamp(9.9), {5, 5, 30}, kMiddle),
+              testing::ElementsAre(AllOf(HasSubstr("no light reaches"), HasSubstr("back sides only ('wall' most)"))));
+  EXPECT_THAT(viewed(lamp(10.5), kInside, kMiddle), testing::ElementsAre(HasSubstr("'wall' stands between")));
+  EXPECT_THAT(viewed(lamp(9.9) + box(4, 6, false, "wall"), kMiddle, {5, 5, 4.5}),
+              testing::ElementsAre(HasSubstr("stands behind a wall or inside a solid")));
+  EXPECT_THAT(viewed(lamp(9.9) + box(4.5, 9.5, true, "black"), kMiddle, {7, 7, 7}),
+              testing::ElementsAre(HasSubstr("it reflects nothing ('black' most)")));
+  // A shaft around the camera, and a lamp on its lid that faces out.
+  const std::string away = box(4, 6, true, "wall") + lamp(5.9, true);
+  EXPECT_THAT(viewed(away, kMiddle, {5, 4.5, 5.5}), testing::ElementsAre(HasSubstr("'lamp' turns its back on it")));
+  EXPECT_THAT(viewed(away, kMiddle, {5, 4.5, 5.5}, true), IsEmpty());
 }
 
 }  // namespace

@@ -152,6 +152,9 @@ TEST(SceneToml, TheFolderNamesTheScene) {
 TEST(SceneToml, UnknownKeysAreRefusedWithTheNearest) {
   EXPECT_THAT(refused("[[mesh]]\nfile = 'a.obj'\ntranslat = [0, 0, 0]\n"),
               AllOf(StartsWith("s.toml:3: "), HasSubstr("did you mean 'translate'?")));
+  EXPECT_THAT(refused(kMesh + "[[light]]\nradience = 5\n"),
+              AllOf(StartsWith("s.toml:3: [[light]] lacks 'radiance'"), HasSubstr("did you mean it by 'radience'?")));
+  EXPECT_THAT(refused(kMesh + "[material.m]\nDifuse = 0.5\n"), HasSubstr("did you mean 'diffuse'?"));
   EXPECT_THAT(refused("[camra]\neye = [0, 0, 0]\n"), AllOf(StartsWith("s.toml:1: "), HasSubstr("'camera'")));
   EXPECT_THAT(refused(kMesh + "[defaults]\nwidht = 3\n"), AllOf(StartsWith("s.toml:4: "), HasSubstr("'width'")));
 }

@@ -119,14 +119,192 @@ TEST(Texture, GreyDeepAndTransparentPngsAreRead) {
   const std::array<std::uint8_t, 1> grey{77};
   const Scene scene = load_texts(texts("map_Kd my tiles.png\n", png(1, 1, grey.data(), PNG_FORMAT_GRAY)), "a.obj");
   EXPECT_EQ(scene.textures[0].texels[0], (std::array<std::uint8_t, 3>{77, 77, 77}));
-  const std::array<std::uint8_t, 4> glassy{10, 20, 30, 40};
+  const std::array<std::uint8_t, 4> glassy{10, 20, 30, 140};
   const Scene seen = load_texts(texts("map_Kd my tiles.png\n", png(1, 1, glassy.data(), PNG_FORMAT_RGBA)), "a.obj");
   EXPECT_EQ(seen.textures[0].texels[0], (std::array<std::uint8_t, 3>{10, 20, 30}));
-  EXPECT_THAT(seen.warnings, Contains(HasSubstr("transparency of a texture")));
+  EXPECT_THAT(seen.warnings, Contains(HasSubstr("alpha of a texture")));
   const std::array<std::uint16_t, 3> deep{65535, 32768, 0};  // linear: 0.5 is 188 in sRGB
   const Scene fine = load_texts(texts("map_Kd my tiles.png\n", png(1, 1, deep.data(), PNG_FORMAT_LINEAR_RGB)), "a.obj");
   EXPECT_EQ(fine.textures[0].texels[0][0], 255);
   EXPECT_NEAR(fine.textures[0].texels[0][1], 188, 2);  // libpng takes a power of 2.2 for sRGB
+}
+
+/// One row of pixels as they lie in a PNG of this depth and colour type, without any tag of their meaning.
+std::string bare_png(std::uint32_t width, std::uint8_t depth, int colour_type, std::string row,
+                     bool interlaced = false) {
+  std::string bytes;
+  png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(writer);
+  const auto append = [](png_structp to, png_bytep data, std::size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(to))->append(reinterpret_cast<const char*>(data), size);
+  };
+  png_set_write_fn(writer, &bytes, append, nullptr);
+  png_set_IHDR(writer, info, width, 1, depth, colour_type, interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  const std::array<png_color, 3> palette{{{136, 136, 136}, {255, 0, 0}, {0, 0, 0}}};
+  if (colour_type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(writer, info, palette.data(), 3);
+  png_write_info(writer, info);
+  auto* from = reinterpret_cast<png_bytep>(row.data());
+  png_write_image(writer, &from);
+  png_write_end(writer, info);
+  png_destroy_write_struct(&writer, &info);
+  return bytes;
+}
+
+TEST(Texture, PngsOfAllKindsWithoutTagsAreSrgb) {
+  const std::array<std::uint8_t, 3> grey{136, 136, 136};  // 0x88
+  struct Kind {
+    std::uint8_t depth;
+    int colour_type;
+    std::string pixel;
+  };
+  for (const Kind& kind :
+       {Kind{8, PNG_COLOR_TYPE_GRAY, "\x88"}, Kind{16, PNG_COLOR_TYPE_GRAY, "\x88\x88"},
+        Kind{4, PNG_COLOR_TYPE_GRAY, "\x80"}, Kind{8, PNG_COLOR_TYPE_RGB, "\x88\x88\x88"},
+        Kind{16, PNG_COLOR_TYPE_RGB, "\x88\x88\x88\x88\x88\x88"}, Kind{8, PNG_COLOR_TYPE_PALETTE, std::string(1, '\0')},
+        Kind{2, PNG_COLOR_TYPE_PALETTE, std::string(1, '\0')}, Kind{8, PNG_COLOR_TYPE_GRAY_ALPHA, "\x88\xFF"},
+        Kind{16, PNG_COLOR_TYPE_GRAY_ALPHA, "\x88\x88\xFF\xFF"}, Kind{8, PNG_COLOR_TYPE_RGB_ALPHA, "\x88\x88\x88\xFF"},
+        Kind{16, PNG_COLOR_TYPE_RGB_ALPHA, "\x88\x88\x88\x88\x88\x88\xFF\xFF"}}) {
+    for (const bool interlaced : {false, true}) {
+      const std::string image = bare_png(1, kind.depth, kind.colour_type, kind.pixel, interlaced);
+      const Scene scene = load_texts(texts("map_Kd my tiles.png\n", image), "a.obj");
+      EXPECT_EQ(scene.textures[0].texels[0][0], kind.depth == 4 ? 136 : grey[0]);
+      EXPECT_EQ(scene.textures[0].texels, Pixels(1, grey)) << int{kind.depth} << " bits, type " << kind.colour_type;
+    }
+  }
+  const Scene bits = load_texts(texts("map_Kd my tiles.png\n", bare_png(2, 1, PNG_COLOR_TYPE_GRAY, "\x40")), "a.obj");
+  EXPECT_EQ(bits.textures[0].texels, (Pixels{{0, 0, 0}, {255, 255, 255}}));
+}
+
+std::string little(std::uint32_t value, std::size_t bytes) {
+  std::string text;
+  for (std::size_t i = 0; i < bytes; ++i) text.push_back(static_cast<char>(value >> (8 * i)));
+  return text;
+}
+
+/// 2 x 2, kFour, as blue, green, red from the lowest row up.
+const std::string kLowestFirst(
+    "\xFF\x00\x00"
+    "\xFF\xFF\xFF"
+    "\x00\x00\xFF"
+    "\x00\xFF\x00",
+    12);
+
+TEST(Texture, TgaIsReadWhateverItsName) {
+  const Pixels upwards{{0, 0, 255}, {255, 255, 255}, {255, 0, 0}, {0, 255, 0}};
+  const auto header = [](char type, char bits, char descriptor) {
+    return std::string(2, '\0') + type + std::string(9, '\0') + little(2, 2) + little(2, 2) + bits + descriptor;
+  };
+  const std::string plain = header(2, 24, 0) + kLowestFirst;
+  EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", plain), "a.obj").textures[0].texels, upwards);
+  const std::string highest_first = header(2, 24, 0x20) + kLowestFirst.substr(6) + kLowestFirst.substr(0, 6);
+  EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", highest_first), "a.obj").textures[0].texels, upwards);
+  std::string packed = header(10, 24, 0);  // run lengths: each pixel a run of one
+  for (std::size_t i = 0; i < 12; i += 3) packed += '\x80' + kLowestFirst.substr(i, 3);
+  EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", packed), "a.obj").textures[0].texels, upwards);
+  std::string glassy = header(2, 32, 8);
+  for (std::size_t i = 0; i < 12; i += 3) glassy += kLowestFirst.substr(i, 3) + "\x80";
+  const Scene seen = load_texts(texts("map_Kd my tiles.png\n", glassy), "a.obj");
+  EXPECT_EQ(seen.textures[0].texels, upwards);
+  EXPECT_THAT(seen.warnings, Contains(HasSubstr("alpha of a texture")));
+  for (const std::string& image : {plain, packed, glassy})
+    EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", image.substr(0, image.size() - 1)), "a.obj"),
+                StartsWith("lib/a.mtl:2: the texture 'lib/my tiles.png' cannot be read: it is cut short"));
+}
+
+TEST(Texture, BmpIsRead) {
+  const std::string rows =
+      kLowestFirst.substr(0, 6) + std::string(2, '\0') + kLowestFirst.substr(6) + std::string(2, '\0');
+  const std::string bmp = "BM" + little(54 + 16, 4) + little(0, 4) + little(54, 4) + little(40, 4) + little(2, 4) +
+                          little(2, 4) + little(1, 2) + little(24, 2) + std::string(24, '\0') + rows;
+  EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", bmp), "a.obj").textures[0].texels,
+            (Pixels{{0, 0, 255}, {255, 255, 255}, {255, 0, 0}, {0, 255, 0}}));
+  EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", bmp.substr(0, 20)), "a.obj"),
+              StartsWith("lib/a.mtl:2: the texture 'lib/my tiles.png' cannot be read"));
+  EXPECT_EQ(refusal(texts("map_Kd my tiles.png\n", bmp.substr(0, bmp.size() - 2)), "a.obj"), "(accepted)") << "filling";
+  EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", bmp.substr(0, bmp.size() - 3)), "a.obj"), HasSubstr("cut short"));
+  std::string huge = bmp;
+  huge.replace(18, 8, little(100000, 4) + little(100000, 4));
+  EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", huge), "a.obj"), StartsWith("lib/a.mtl:2: "));
+}
+
+struct Written {
+  const char* name;
+  std::string arguments;
+  std::string file;
+  std::string told;  ///< of the one note; "": none
+};
+
+class FoundTexture : public testing::TestWithParam<Written> {};
+
+TEST_P(FoundTexture, UnderWhatIsWritten) {
+  Texts all = texts("map_Kd " + GetParam().arguments + "\n");
+  all[GetParam().file] = all["lib/my tiles.png"];
+  if (GetParam().file != "lib/my tiles.png") all.erase("lib/my tiles.png");
+  const Scene scene = load_texts(all, "a.obj");
+  ASSERT_EQ(scene.textures.size(), 1U);
+  EXPECT_EQ(scene.textures[0].file, GetParam().file);
+  std::vector<std::string> told = scene.warnings;
+  std::erase_if(told, [](const std::string& note) {
+    return note.find("map_Kd") == std::string::npos && note.find("texture is found") == std::string::npos;
+  });
+  if (GetParam().told.empty()) {
+    EXPECT_THAT(told, testing::IsEmpty());
+  } else {
+    EXPECT_THAT(told, testing::ElementsAre(AllOf(StartsWith("lib/a.mtl:2: "), HasSubstr(GetParam().told))));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Names, FoundTexture,
+    testing::Values(
+        Written{"as_written", "my tiles.png", "lib/my tiles.png", ""},
+        Written{"hash", "oak #2.png", "lib/oak #2.png", ""},
+        Written{"comment", "my tiles.png # the floor", "lib/my tiles.png", "is 'lib/my tiles.png'"},
+        Written{"beside_the_mesh", "my tiles.png", "my tiles.png", ""},
+        Written{"quoted", "\"my tiles.png\"", "lib/my tiles.png", "is 'lib/my tiles.png'"},
+        Written{"case", "My Tiles.PNG", "lib/my tiles.png", "is 'lib/my tiles.png'"},
+        Written{"windows", "C:\\textures\\my tiles.png", "lib/my tiles.png", "is 'lib/my tiles.png'"},
+        Written{"unix", "/Users/me/My Tiles.png", "my tiles.png", "is 'my tiles.png'"},
+        Written{"folder_gone", "textures/tiles.png", "tiles.png", "is 'tiles.png'"},
+        Written{"dash", "-tile.png", "lib/-tile.png", ""}, Written{"number", "-s 2 2 2 7", "lib/7", ""},
+        Written{"unknown_option", "-projection 1 2 my tiles.png", "lib/my tiles.png", "-projection"},
+        Written{"empty_scale", "-s my tiles.png", "lib/my tiles.png", "option -s of map_Kd without a value"},
+        Written{"empty_boost", "-boost my tiles.png", "lib/my tiles.png", "option -boost of map_Kd is not used"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Texture, UnknownOptionsMayHaveAWord) {
+  const Scene scene = load_texts(texts("map_Kd -projection planar my tiles.png\n"), "a.obj");
+  EXPECT_EQ(scene.textures[0].file, "lib/my tiles.png");
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("option -projection of map_Kd is not used")));
+  for (const char* options : {"-s 1 1 1", "-s 2", "-mm 0 1", "-blendu on -o 0 0 0"}) {
+    const Scene none = load_texts(texts("Kd 0.5\nmap_Kd " + std::string(options) + "\n"), "a.obj");
+    EXPECT_EQ(none.materials[0].texture, kNoImage) << options;
+    EXPECT_THAT(none.warnings, Contains(HasSubstr("without a file name: no texture"))) << options;
+  }
+  for (const char* options : {"-projection planar -o 0.5", "-colorspace sRGB", "-type sphere -blendu on"})
+    EXPECT_EQ(load_texts(texts("map_Kd " + std::string(options) + " my tiles.png\n"), "a.obj").textures[0].file,
+              "lib/my tiles.png");
+  EXPECT_THAT(refusal(texts("map_Kd -colorspace linear my tiles.png\n"), "a.obj"), HasSubstr("option -colorspace"));
+  const Scene behind = load_texts(texts("map_Kd my tiles.png -s 2 2 2\n"), "a.obj");
+  EXPECT_EQ(behind.textures[0].file, "lib/my tiles.png");
+  EXPECT_THAT(behind.warnings, Contains(HasSubstr("a texture is found under another name")));
+}
+
+TEST(Texture, ThatIsNowhereCanBeWhite) {
+  MemoryFiles files(texts("Kd 0.25 0.25 0.25\nmap_Kd gone.png\n"));
+  SceneOptions white;
+  white.missing_materials = MissingMaterials::white;
+  const Scene scene = load_scene_from(files, "a.obj", white);
+  EXPECT_EQ(scene.materials[0].texture, kNoImage);
+  EXPECT_EQ(scene.materials[0].diffuse, (Vec3d{0.25, 0.25, 0.25}));
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("lib/a.mtl:3: there is no texture, white stands for it: 'gone.png'")));
+}
+
+TEST(Texture, PointsThatAreMissingAreRefusedWhereATextureNeedsThem) {
+  Texts all = texts("map_Kd my tiles.png\n");
+  all["a.obj"] += "f 1/9 2/9 3/9\n";
+  EXPECT_THAT(refusal(all, "a.obj"), StartsWith("a.obj:10: a corner's texture point (vt) is not there"));
 }
 
 TEST(Texture, OneImageIsReadOnceAndOnlyWhereItIsUsed) {
@@ -154,13 +332,12 @@ TEST(Texture, RefusalsNameFileLineAndWhatToDo) {
   EXPECT_THAT(refusal(texts("Kd 1 1 1\nmap_Kd gone.png\n"), "a.obj"),
               StartsWith("lib/a.mtl:3: there is no texture 'lib/gone.png'; put it there"));
   EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", "GIF89a"), "a.obj"),
-              HasSubstr("is neither PNG nor JPEG; convert it"));
+              HasSubstr("is neither PNG, JPEG, TGA nor BMP; convert it"));
   EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", png(2, 2, kFour.data()).substr(0, 50)), "a.obj"),
               StartsWith("lib/a.mtl:2: the texture 'lib/my tiles.png' cannot be read"));
-  EXPECT_THAT(refusal(texts("map_Kd\n"), "a.obj"), StartsWith("lib/a.mtl:2: map_Kd without a file name"));
-  EXPECT_THAT(refusal(texts("map_Kd -s\n"), "a.obj"), StartsWith("lib/a.mtl:2: option -s of map_Kd without a value"));
-  EXPECT_THAT(refusal(texts("map_Kd -clamp on x.png\n"), "a.obj"),
-              HasSubstr("option -clamp of map_Kd is not provided for"));
+  EXPECT_THAT(refusal(texts("map_Kd -s 2 2 -clamp on my tiles.png\n"), "a.obj"),
+              HasSubstr("lies beyond the edge of a texture with -clamp on"));
+  EXPECT_EQ(refusal(texts("map_Kd -clamp on my tiles.png\n"), "a.obj"), "(accepted)");
   EXPECT_THAT(refusal(texts("map_Kd -mm 0.1 2 x.png\n"), "a.obj"), HasSubstr("option -mm of map_Kd"));
   EXPECT_THAT(refusal(texts("map_Kd -imfchan r x.png\n"), "a.obj"), HasSubstr("option -imfchan of map_Kd"));
   EXPECT_EQ(refusal(texts("map_Kd -clamp off -mm 0 1 -t 0 0 0 my tiles.png\n"), "a.obj"), "(accepted)");

@@ -56,7 +56,7 @@ TEST(Plan, WrongOnesAreRefusedWithFileAndLine) {
   EXPECT_THAT(refusal(""), StartsWith("plan.toml:1: a plan has a table [base]"));
   EXPECT_THAT(refusal("[base\n"), StartsWith("plan.toml:1: not valid TOML"));
   EXPECT_THAT(refusal("[base]\nscene = 'a'\n"), HasSubstr("[base] lacks 'command'"));
-  EXPECT_THAT(refusal("[base]\ncommand = 'paint'\n"), StartsWith("plan.toml:2: 'paint' is no command"));
+  EXPECT_THAT(refusal("[base]\ncommand = 'paint'\n"), StartsWith("plan.toml:2: \"paint\" is no command"));
   EXPECT_THAT(refusal("[base]\ncommand = 'bench'\n"), StartsWith("plan.toml:2:"));
   EXPECT_THAT(refusal(kBase + "max-shoots = 1\n"), HasSubstr("plan.toml:4:"));
   EXPECT_THAT(refusal(kBase + "max-shoots = 1\n"), HasSubstr("did you mean 'max-shots'?"));

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// A TGA or BMP enters; whether its pixels end before the file does leaves. stb_image takes what is missing for black.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace torolux {
+
+/// Truevision TGA 2.0: header of 18 bytes, name, palette, pixels or packets of them. width, height: as read of it.
+bool tga_is_whole(std::string_view bytes, std::uint64_t width, std::uint64_t height);
+
+/// A bitmap without compression: rows of whole words; the last one's filling may be left out.
+bool bmp_is_whole(std::string_view bytes, std::uint64_t width, std::uint64_t height);
+
+}  // namespace torolux
