@@ -23,6 +23,7 @@ enum class RecordField : std::uint32_t {
   flux,
   waiting,
   branch_place,
+  surface,
 };
 
 inline void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {

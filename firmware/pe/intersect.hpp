@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "firmware/pe/traverse.hpp"
 #include "firmware/pe/vectors.hpp"
 #include "firmware/pe/walk.hpp"
 #include "firmware/protocol/stores.hpp"
@@ -141,5 +142,11 @@ class Reach {
   Parts last_{};
   float last_t_ = -1.0F;  ///< where last_ is
 };
+
+/// polygon: index of the one that was crossed.
+inline Hit hit_of(const Crossing& crossing, std::uint32_t polygon) {
+  const float inverse = 1.0F / crossing.sum;
+  return {crossing.t, crossing.v * inverse, crossing.w * inverse, polygon, crossing.sum > 0.0F};
+}
 
 }  // namespace torolux::pe

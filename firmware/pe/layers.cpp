@@ -40,19 +40,17 @@ void note_normal(Pe& pe, Niu& niu, const RayRecord& record, const Polygon& polyg
 
 /// The element under a hit. The host makes a number of it (host_tools/render/frame_layers.cpp).
 void note_element(Pe& pe, Niu& niu, const RayRecord& record, const Polygon& polygon, const Hit& hit) {
-  const std::uint8_t side = hit.front ? protocol::kFrontPresent : protocol::kBackPresent;
-  std::int64_t code = 0;
-  if ((polygon.sides & side) != 0) {
-    protocol::Weights at{(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
-    code = protocol::leaf_code(pe.scene.nodes.data(), polygon.surface, at);
-  }
+  const std::int64_t code = element_code_at(pe.scene, polygon, hit);
   pe.homecoming.add(niu, Plane::elements, record.pixel, {std::int64_t{polygon.number} + 1, code, hit.front ? 0 : 1});
 }
 
-void note_first_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
+}  // namespace
+
+void note_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, const glm::vec3& irradiance_over_pi) {
+  if (pe.scene.layout.layers == 0 || record.bounce != 0) return;
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
   if (wanted(pe, Plane::irradiance)) {
-    add_irradiance(pe, niu, record, to_vector(record.weight) * interpolated_irradiance(pe.scene, polygon, hit));
+    add_irradiance(pe, niu, record, to_vector(record.weight) * irradiance_over_pi);
   }
   if (wanted(pe, Plane::depth)) note_depth(pe, niu, record, hit);
   if (wanted(pe, Plane::normals)) note_normal(pe, niu, record, polygon, hit);
@@ -63,14 +61,10 @@ void note_first_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hi
   }
 }
 
-}  // namespace
-
 void note_way(Pe& pe, Niu& niu, const RayRecord& record, const Way& way) {
   if (wanted(pe, Plane::cost)) pe.homecoming.add(niu, Plane::cost, record.pixel, {way.visited, 0, 0});
-  if (way.end != WayEnd::hit || record.bounce != 0) return;
-  if ((record.flags & protocol::kShadow) == 0) {
-    note_first_surface(pe, niu, record, way.hit);
-  } else if (wanted(pe, Plane::irradiance) && pe.scene.polygons[way.hit.polygon].number == record.target) {
+  if (way.end != WayEnd::hit || record.bounce != 0 || (record.flags & protocol::kShadow) == 0) return;
+  if (wanted(pe, Plane::irradiance) && pe.scene.polygons[way.hit.polygon].number == record.target) {
     add_irradiance(pe, niu, record, to_vector(carried_irradiance(record)));
   }
 }

@@ -10,6 +10,10 @@ namespace torolux::pe {
 /// A piece of a ray's way on this PE has ended. Call where layers are asked for.
 void note_way(Pe& pe, Niu& niu, const protocol::RayRecord& record, const Way& way);
 
+/// A ray has met a surface that is here.
+void note_surface(Pe& pe, Niu& niu, const protocol::RayRecord& record, const Hit& hit,
+                  const glm::vec3& irradiance_over_pi);
+
 /// The record is to become a shadow ray from the surface that it has met, and would bring this light (irradiance / pi).
 /// True: it must go, whatever its weight, as its irradiance is asked for.
 bool note_irradiance(const Pe& pe, protocol::RayRecord& record, const glm::vec3& irradiance_over_pi);

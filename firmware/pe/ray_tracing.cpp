@@ -4,6 +4,7 @@
 #include "firmware/pe/emitters.hpp"
 #include "firmware/pe/follow.hpp"
 #include "firmware/pe/glossy.hpp"
+#include "firmware/pe/intersect.hpp"
 #include "firmware/pe/layers.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
@@ -36,10 +37,10 @@ bool shows(const Pe& pe, const glm::vec3& light) {
 }
 
 /// What a diffuse surface sends towards the ray: what it emits and what it reflects.
-void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
+void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, const glm::vec3& irradiance_over_pi) {
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
   const Material& material = pe.scene.materials[polygon.material];
-  glm::vec3 radiance = diffuse_reflectance(pe.scene, polygon, hit) * interpolated_irradiance(pe.scene, polygon, hit);
+  glm::vec3 radiance = diffuse_reflectance(pe.scene, polygon, hit) * irradiance_over_pi;
   if (hit.front || material.emits_from_back != 0) radiance += to_vector(material.emission);
   pe.homecoming.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
 }
@@ -228,38 +229,75 @@ bool next_path(Pe& pe, Niu& niu, Slot slot) {
   return true;
 }
 
+/// The polygon that a record of kind `shade` has met at another PE, met again: the same floats, so the same hit.
+Way meet_again(Pe& pe, Niu& niu, RayRecord& record) {
+  const PhaseMark<Phase::traverse> mark(niu);
+  const glm::vec3 origin = to_vector(record.origin);
+  const glm::vec3 direction = to_vector(record.direction);
+  const Shear shear(origin, direction, Inverse(direction));
+  Crossing crossing;
+  const bool meets = cross_triangle(shear, pe.scene.polygons[record.target], crossing);
+  require(niu, meets, RecordField::surface, record.target);
+  record.kind = RecordKind::light;
+  Way way{};
+  way.end = WayEnd::hit;
+  way.hit = hit_of(crossing, record.target);
+  return way;
+}
+
+enum class Next : std::uint8_t { goes_on, ended, sent };
+
+/// At the surface that it has met. `sent`: to the keeper of what is seen there.
+Next meet_surface(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
+  const PhaseMark<Phase::shade> mark(niu);
+  auto& record = pe.slots.at<RayRecord>(slot);
+  const auto next = [](bool goes_on) { return goes_on ? Next::goes_on : Next::ended; };
+  if ((record.flags & protocol::kShadow) != 0) {
+    end_shadow(pe, niu, record, hit);
+    return Next::ended;
+  }
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const SurfaceLight light = light_at(pe.scene, niu.pe(), polygon, hit);
+  if (!light.here) {
+    record.kind = RecordKind::shade;
+    record.target = hit.polygon;
+    pe.outbox.put(niu, pe.slots, light.keeper, slot);
+    return Next::sent;
+  }
+  note_surface(pe, niu, record, hit, light.irradiance_over_pi);
+  if (is_specular(pe.scene.materials[polygon.material].kind)) return next(turn_ray(pe, record, hit));
+  see_surface(pe, niu, record, hit, light.irradiance_over_pi);
+  return next(scatter(pe, record, hit));
+}
+
 }  // namespace
 
 void follow_ray(Pe& pe, Niu& niu, Slot slot) {
   auto& record = pe.slots.at<RayRecord>(slot);
   for (;;) {
-    const Way way = traverse_record(pe, niu, record);
+    const Way way = record.kind == RecordKind::shade ? meet_again(pe, niu, record) : traverse_record(pe, niu, record);
     if (pe.scene.layout.layers != 0) note_way(pe, niu, record, way);
     if (way.end == WayEnd::handed_on) {
       pe.outbox.put(niu, pe.slots, way.next, slot);
       return;
     }
-    bool goes_on = false;
-    if (way.end == WayEnd::hit) {
-      const PhaseMark<Phase::shade> mark(niu);
-      const Polygon& polygon = pe.scene.polygons[way.hit.polygon];
-      if ((record.flags & protocol::kShadow) != 0) {
-        end_shadow(pe, niu, record, way.hit);
-      } else if (is_specular(pe.scene.materials[polygon.material].kind)) {
-        goes_on = turn_ray(pe, record, way.hit);
-      } else {
-        see_surface(pe, niu, record, way.hit);
-        goes_on = scatter(pe, record, way.hit);
-      }
-    }
-    if (!goes_on && !next_path(pe, niu, slot)) return;
+    const Next next = way.end == WayEnd::hit ? meet_surface(pe, niu, slot, way.hit) : Next::ended;
+    if (next == Next::sent || (next == Next::ended && !next_path(pe, niu, slot))) return;
   }
 }
 
 namespace {
 
+/// This PE keeps what is seen: so the record does not travel on for it.
+void check_surface(const Pe& pe, Niu& niu, const RayRecord& record) {
+  require(niu, record.target < pe.scene.polygons.size(), RecordField::surface, record.target);
+  require(niu, (record.flags & protocol::kShadow) == 0, RecordField::surface, record.flags);
+}
+
 void check_ray(const Pe& pe, Niu& niu, const RayRecord& record) {
-  require(niu, record.kind == RecordKind::light, RecordField::kind, static_cast<std::uint32_t>(record.kind));
+  const bool shade = record.kind == RecordKind::shade;
+  require(niu, record.kind == RecordKind::light || shade, RecordField::kind, static_cast<std::uint32_t>(record.kind));
+  if (shade) check_surface(pe, niu, record);
   require(niu, record.waiting <= protocol::kMostBranches, RecordField::waiting, record.waiting);
   for (std::uint32_t i = 0; i < record.waiting; ++i) {
     const Branch& branch = record.branches[i];

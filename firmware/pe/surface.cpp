@@ -26,14 +26,45 @@ glm::vec3 diffuse_reflectance(const Scene& scene, const protocol::Polygon& polyg
          to_vector(texture_colour(&scene.texels[texture.first_texel], texture.width, texture.height, at));
 }
 
-glm::vec3 interpolated_irradiance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit) {
-  const std::uint8_t side = hit.front ? protocol::kFrontPresent : protocol::kBackPresent;
-  if ((polygon.sides & side) == 0) return glm::vec3(0.0F);
-  protocol::Weights at{(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
+namespace {
+
+bool has_elements(const protocol::Polygon& polygon, const Hit& hit) {
+  return (polygon.sides & (hit.front ? protocol::kFrontPresent : protocol::kBackPresent)) != 0;
+}
+
+protocol::Weights weights_of(const Hit& hit) {
+  return {(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
+}
+
+}  // namespace
+
+SurfaceLight light_at(const Scene& scene, protocol::PeNumber pe, const protocol::Polygon& polygon, const Hit& hit) {
+  SurfaceLight light{true, pe, glm::vec3(0.0F)};
+  if (!has_elements(polygon, hit)) return light;
+  protocol::Weights at = weights_of(hit);
   std::uint32_t leaf = protocol::find_leaf(scene.nodes.data(), polygon.surface, at);
+  if ((leaf & protocol::kKept) != 0) {
+    light.keeper = protocol::keeper_of(leaf);
+    light.here = light.keeper == pe;
+    if (!light.here) return light;
+    leaf = protocol::find_leaf(scene.nodes.data(), scene.kept[protocol::kept_part(leaf)], at);
+  }
   if (!hit.front && (polygon.sides & protocol::kFrontPresent) != 0) ++leaf;
   const auto& corner = scene.lattice[leaf].irradiance_over_pi;
-  return (to_vector(corner[0]) * at.b0 + to_vector(corner[1]) * at.b1) + to_vector(corner[2]) * at.b2;
+  light.irradiance_over_pi =
+      (to_vector(corner[0]) * at.b0 + to_vector(corner[1]) * at.b1) + to_vector(corner[2]) * at.b2;
+  return light;
+}
+
+std::uint32_t element_code_at(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit) {
+  if (!has_elements(polygon, hit)) return 0;
+  protocol::Weights at = weights_of(hit);
+  std::uint32_t code = 1;
+  const std::uint32_t leaf = protocol::find_leaf(scene.nodes.data(), polygon.surface, at, code);
+  if ((leaf & protocol::kKept) != 0) {
+    protocol::find_leaf(scene.nodes.data(), scene.kept[protocol::kept_part(leaf)], at, code);
+  }
+  return code;
 }
 
 }  // namespace torolux::pe

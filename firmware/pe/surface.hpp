@@ -37,7 +37,16 @@ glm::vec3 shading_normal(const Scene& scene, const protocol::Polygon& polygon, c
 /// Diffuse reflectance at a hit: the material's, times its texture.
 glm::vec3 diffuse_reflectance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
 
-/// Irradiance / pi at a hit, interpolated over the element of the side that was hit; zero where it has none.
-glm::vec3 interpolated_irradiance(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
+/// What a PE has of the surface at a hit.
+struct SurfaceLight {
+  bool here;  ///< or `keeper` has it, another PE
+  protocol::PeNumber keeper;
+  glm::vec3 irradiance_over_pi;  ///< interpolated over the element of the side that was hit; zero where it has none
+};
+SurfaceLight light_at(const Scene& scene, protocol::PeNumber pe, const protocol::Polygon& polygon, const Hit& hit);
+
+/// The place of the element under a hit in the polygon's grid (triangle_grid.hpp), or 0: the side has none. The surface
+/// is here.
+std::uint32_t element_code_at(const Scene& scene, const protocol::Polygon& polygon, const Hit& hit);
 
 }  // namespace torolux::pe

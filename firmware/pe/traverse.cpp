@@ -69,12 +69,6 @@ void find_nearest(const Scene& scene, const Subspace& here, const Segment& segme
   }
 }
 
-Hit hit_of(const Nearest& nearest) {
-  const float inverse = 1.0F / nearest.crossing.sum;
-  return {nearest.t, nearest.crossing.v * inverse, nearest.crossing.w * inverse, nearest.polygon,
-          nearest.crossing.sum > 0.0F};
-}
-
 /// From a cell at which it stops: the subspace there, or the next one that holds anything. nullptr where the way ends
 /// before, and `way` says how.
 inline const Subspace* next_full(const Scene& scene, Walk& walk, Way& way) {
@@ -108,7 +102,7 @@ Way look_along(const Scene& scene, const Segment& segment, Walk& walk) {
     find_nearest(scene, *here, segment, walk, shear, reach, nearest);
     if (nearest.polygon != protocol::kNoPolygon) {
       way.end = WayEnd::hit;
-      way.hit = hit_of(nearest);
+      way.hit = hit_of(nearest.crossing, nearest.polygon);
       return way;
     }
     if (!walk.advance(scene.map)) {

@@ -32,6 +32,7 @@ enum class Index : std::uint32_t {
   tree_depth,
   node,
   leaf,
+  kept,
   reference_pe,
   reference_patch,
   reference_side,
@@ -173,9 +174,26 @@ class Verifier {
       range(Index::surface, p.surface, patches, scene_.patch_references.size());
       for (std::uint32_t i = 0; i < patches; ++i) check(p, scene_.patch_references[p.surface + i]);
     } else {
-      const std::size_t behind = p.sides == 3U ? 1 : 0;  // the back's lattice triangle lies behind the front's
-      const std::size_t count = scene_.lattice.size();
-      check_tree(p.surface, count > behind ? count - behind : 0, 0);
+      check_surface(p.surface, lattice_limit(p.sides == 3U ? 2 : 1), 0);
+    }
+  }
+  /// Of a leaf's number: lattice triangles of all lit sides, the back's behind the front's, follow it.
+  std::size_t lattice_limit(std::size_t sides) const {
+    return scene_.lattice.size() >= sides ? scene_.lattice.size() - sides + 1 : 0;
+  }
+  /// As check_tree; a leaf may stand for a part that is kept, here or elsewhere.
+  void check_surface(std::uint32_t node, std::size_t limit, std::uint32_t depth) {
+    if ((node & protocol::kLeaf) == 0) {
+      require(depth < protocol::kMostLevels, Index::tree_depth, node, protocol::kMostLevels);
+      range(Index::node, node, 4, scene_.nodes.size());
+      for (std::uint32_t child = 0; child < 4; ++child) check_surface(scene_.nodes[node + child], limit, depth + 1U);
+    } else if ((node & protocol::kKept) == 0) {
+      below(Index::leaf, node & ~protocol::kLeaf, limit);
+    } else {
+      below(Index::kept, protocol::keeper_of(node), niu_.pes());
+      if (protocol::keeper_of(node) != niu_.pe()) return;
+      below(Index::kept, protocol::kept_part(node), scene_.kept.size());
+      check_tree(scene_.kept[protocol::kept_part(node)], limit, depth);
     }
   }
   /// Every leaf below `limit`, and no deeper than a polygon is ever cut.

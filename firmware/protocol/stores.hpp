@@ -244,6 +244,7 @@ struct StageLayout {
   float points_per_quantum;       ///< of reflected light, by the greatest channel of what is shot
   // Ray tracing stage.
   Store lattice;         ///< LatticeTriangle[]
+  Store kept;            ///< uint32_t[]: nodes of the parts of polygons whose surfaces this PE alone has (kKept)
   Store textures;        ///< Texture[]
   Store texels;          ///< Texel[]
   Store texture_points;  ///< TexturePoint[]
@@ -255,6 +256,6 @@ struct StageLayout {
   float least_weight;    ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 328);
+static_assert(sizeof(StageLayout) == 336);
 
 }  // namespace torolux::protocol

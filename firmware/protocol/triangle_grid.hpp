@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "firmware/protocol/machine.hpp"
+
 namespace torolux::protocol {
 
 /// Four triangles at each level: child i < 3 keeps corner i; child 3 is the middle one, its corners opposite to those.
@@ -98,15 +100,31 @@ constexpr std::uint32_t find_leaf(const std::uint32_t* nodes, std::uint32_t node
   return node & ~kLeaf;
 }
 
-/// The same leaf by its place in the grid; the tree begins with the whole triangle.
-constexpr std::uint32_t leaf_code(const std::uint32_t* nodes, std::uint32_t node, Weights at) {
-  std::uint32_t code = 1;
+/// The same leaf; `code` is continued by its place in the grid, from that of the triangle with which the tree begins.
+constexpr std::uint32_t find_leaf(const std::uint32_t* nodes, std::uint32_t node, Weights& at, std::uint32_t& code) {
   while ((node & kLeaf) == 0) {
     const std::uint32_t child = enter_child(at);
     code = code << 2U | child;
     node = nodes[node + child];
   }
-  return code;
+  return node & ~kLeaf;
+}
+
+/// Of a leaf's number, ray tracing stage: it stands for a part of the polygon whose surface one PE alone has, its
+/// keeper: the lower 16 bits. There the tree goes on at the kept part of that place in the PE's list; `kKeptPart`s of
+/// one keeper are counted in the bits between.
+inline constexpr std::uint32_t kKept = 0x4000'0000U;
+inline constexpr std::uint32_t kKeptShift = 16;
+inline constexpr std::uint32_t kMostKept = (kKept >> kKeptShift);
+
+constexpr std::uint32_t kept_leaf(PeNumber keeper, std::uint32_t part) {
+  return kLeaf | kKept | part << kKeptShift | keeper;
+}
+constexpr PeNumber keeper_of(std::uint32_t leaf) {
+  return static_cast<PeNumber>(leaf & 0xFFFFU);
+}
+constexpr std::uint32_t kept_part(std::uint32_t leaf) {
+  return (leaf & (kKept - 1U)) >> kKeptShift;
 }
 
 }  // namespace torolux::protocol

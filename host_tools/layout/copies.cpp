@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/keepers.hpp"
 #include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
@@ -31,7 +32,7 @@ class Items {
     const auto first_texture = static_cast<std::uint32_t>(mesh.triangles.size());
     items_.resize(first_texture + (stage == Stage::ray_tracing ? mesh.textures.size() : 0));
     for (std::uint32_t t = 0; t < first_texture; ++t) {
-      items_[t].bytes = polygon_bytes(mesh.triangles[t], stage);
+      items_[t].bytes = shape_bytes(mesh, mesh.triangles[t], stage);
       if (!lacking.empty()) items_[t].lacking = lacking[t];
     }
     for (std::size_t i = first_texture; i < items_.size(); ++i) {
@@ -90,6 +91,27 @@ std::uint64_t polygon_bytes(const MeshTriangle& triangle, Stage stage) {
   return bytes + std::uint64_t{triangle.side_count()} * triangle.facets * sizeof(protocol::LatticeTriangle);
 }
 
+std::uint64_t shape_bytes(const Mesh& mesh, const MeshTriangle& triangle, Stage stage) {
+  std::uint64_t bytes = polygon_bytes(triangle, stage);
+  if (stage == Stage::radiosity || triangle.sides == 0) return bytes;
+  for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
+    bytes -= surface_size(mesh, triangle.first_part + path).bytes();
+  }
+  return bytes;
+}
+
+std::vector<double> worth_of_surfaces(const Mesh& mesh, std::span<const double> heat) {
+  std::vector<double> worth(mesh.parts.size());
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (triangle.sides == 0) continue;
+    for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
+      const std::uint32_t part = triangle.first_part + path;
+      worth[part] = heat[part] / static_cast<double>(surface_size(mesh, part).bytes());
+    }
+  }
+  return worth;
+}
+
 std::uint64_t cell_bytes(std::size_t polygons) {
   return sizeof(protocol::Subspace) + listed_entries(polygons) * sizeof(protocol::ListedPolygon);
 }
@@ -135,6 +157,7 @@ CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t
       cheaper.insert(cheaper.end(), item.cells.begin(), item.cells.end());
     }
     order.cells.push_back(best.cell);
+    order.worth.push_back(order.worth.empty() ? best.heat_per_byte : std::min(best.heat_per_byte, order.worth.back()));
     order.bytes.push_back(sum);
     std::sort(cheaper.begin(), cheaper.end());
     cheaper.erase(std::unique(cheaper.begin(), cheaper.end()), cheaper.end());

@@ -16,18 +16,25 @@ namespace torolux {
 /// Bytes of a polygon in a PE's stores: itself, normals, tree nodes, patch references or lattice, texture points. What
 /// several polygons share (materials, textures) is not in it.
 std::uint64_t polygon_bytes(const MeshTriangle& triangle, protocol::Stage stage);
+/// The same without the surfaces of its parts, which need not stand where it does (keepers.hpp): ray tracing stage.
+std::uint64_t shape_bytes(const Mesh& mesh, const MeshTriangle& triangle, protocol::Stage stage);
 /// Bytes of a subspace with so many polygons, without those.
 std::uint64_t cell_bytes(std::size_t polygons);
 
 struct CopyOrder {
   std::vector<CellIndex> cells;      ///< those with polygons
-  std::vector<std::uint64_t> bytes;  ///< [i]: of each PE's stores for cells[0..i], what they share counted once
+  std::vector<std::uint64_t> bytes;  ///< [i]: of each PE's stores for cells[0..i], what they share counted once,
+                                     ///< without surfaces
+  std::vector<double> worth;  ///< [i]: heat per byte of cells[i], or of one before it if that is less
 
   /// By cell: the first `count` are marked.
   std::vector<bool> first(std::size_t count, std::size_t of_cells) const;
   /// The most of them that take no more than `most` bytes.
   std::size_t within(std::uint64_t most) const;
 };
+
+/// By part of the mesh: heat per byte of its surface, ray tracing stage; 0 where there is none.
+std::vector<double> worth_of_surfaces(const Mesh& mesh, std::span<const double> heat);
 
 /// Takes the cell of the greatest heat per byte, again and again. What a cell shares with others that are not taken yet
 /// counts in equal parts; what is already there, nothing. heat: by cell, > 0 where there are polygons. lacking: by

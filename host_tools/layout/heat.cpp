@@ -32,6 +32,13 @@ std::vector<double> heat_of_cells(const Heat& heat) {
   return visits;
 }
 
+std::vector<double> heat_of_surfaces(const Heat& heat) {
+  std::vector<double> cycles;
+  cycles.reserve(heat.surfaces.size());
+  for (const double seen : heat.surfaces) cycles.push_back((seen > 0 ? seen : kUnseen) * kHeatPerSurface);
+  return cycles;
+}
+
 RemainingHeat remaining_heat(const Heat& heat, const std::vector<bool>& common) {
   RemainingHeat remaining;
   remaining.of_cell.resize(heat.cycles_of_visit.size());

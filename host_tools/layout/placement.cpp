@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/layout/keepers.hpp"
 #include "host_tools/layout/owners.hpp"
 
 namespace torolux {
@@ -86,6 +87,11 @@ std::optional<std::uint32_t> Placement::local_polygon(PeNumber pe, std::uint32_t
   return std::nullopt;
 }
 
+bool Placement::is_common_polygon(std::uint32_t triangle) const {
+  const auto& polygons = polygons_of_pe.front();
+  return std::binary_search(polygons.begin(), polygons.begin() + common_polygons, triangle);
+}
+
 Placement Placement::with_nobody() const {
   Placement more = *this;
   const auto first = [](const auto& list, std::uint32_t count) {
@@ -94,6 +100,7 @@ Placement Placement::with_nobody() const {
   more.cells_of_pe.push_back(first(cells_of_pe.front(), common_cells));
   more.polygons_of_pe.push_back(first(polygons_of_pe.front(), common_polygons));
   more.patches_of_pe.emplace_back();
+  more.kept_by_pe.emplace_back();
   return more;
 }
 
@@ -135,6 +142,8 @@ Placement make_placement(const Mesh& mesh, const CellLists& lists, const Placeme
   spread_cells(placement);
   spread_patches(mesh, patch_cell, owners.of_patch, placement);
   order_polygons(placement);
+  placement.kept_by_pe.resize(placement.torus.pes());
+  if (!load.common_surface.empty()) keep_surfaces(mesh, load, placement);
   return placement;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/protocol/machine.hpp"
+#include "firmware/protocol/stores.hpp"
 #include "host_tools/layout/heat.hpp"
 #include "host_tools/layout/polygon_groups.hpp"
 #include "host_tools/layout/scheme.hpp"
@@ -21,6 +22,15 @@ struct PatchHome {
   protocol::PeNumber pe = 0;
   std::uint32_t local = 0;  ///< local number at `pe`
   CellIndex cell = 0;       ///< that holds its centre; not always one of the PE's
+};
+
+/// Of a part of a polygon, ray tracing stage: entries in the stores for what is seen on it.
+struct SurfaceSize {
+  std::uint32_t nodes = 0, lattice = 0;
+
+  std::uint64_t bytes() const {
+    return std::uint64_t{nodes} * sizeof(std::uint32_t) + std::uint64_t{lattice} * sizeof(protocol::LatticeTriangle);
+  }
 };
 
 /// Of one stage, or (scheme `paper` without copies) of both.
@@ -44,12 +54,23 @@ struct Placement {
   /// Local number -> triangle: those of common cells, ascending, then what else the PE needs, ascending.
   std::vector<std::vector<std::uint32_t>> polygons_of_pe;
   std::uint32_t common_polygons = 0;
+  /// Ray tracing stage, by part of the mesh, of common polygons: who alone has its surface, or kNobody: every PE has
+  /// it. Empty: every PE, all of them.
+  std::vector<protocol::PeNumber> keeper_of_part;
+  std::vector<std::uint32_t> place_of_part;               ///< where one is kept, among those of its keeper
+  std::vector<std::vector<std::uint32_t>> kept_by_pe;     ///< parts, by place
+  SurfaceSize kept_surfaces;                              ///< of all those
   std::vector<std::vector<std::uint32_t>> patches_of_pe;  ///< ascending: local number -> global patch
   std::vector<PatchHome> patch_home;                      ///< by global patch
   std::uint64_t filled_cells = 0;
 
   /// Absent: the PE does not have it.
   std::optional<std::uint32_t> local_polygon(protocol::PeNumber pe, std::uint32_t triangle) const;
+  bool is_common_polygon(std::uint32_t triangle) const;
+  /// Of a common polygon: every PE has the part's surface.
+  bool is_everywhere(std::uint32_t part) const {
+    return keeper_of_part.empty() || keeper_of_part[part] == protocol::kNobody;
+  }
   /// The same with one PE more behind the others, which has what all have, and nothing of its own.
   Placement with_nobody() const;
   /// PEs without a cell with anything in it and without a patch.
@@ -77,6 +98,8 @@ struct StageLoad {
   protocol::Stage stage = protocol::Stage::radiosity;
   const Heat* heat = nullptr;          ///< for `balanced`; null: by memory alone
   std::vector<bool> common_cell = {};  ///< empty: none
+  /// Ray tracing stage, by part of the mesh: if its polygon is common, its surface is, too. Empty: all.
+  std::vector<bool> common_surface = {};
   /// `balanced` gives a PE at most so many times the mean of its own memory, but what is owned by one cell.
   double most_memory = kMostMemory;
 };

@@ -10,6 +10,7 @@
 #include "firmware/protocol/store_names.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
+#include "host_tools/layout/keepers.hpp"
 
 namespace torolux {
 namespace {
@@ -49,6 +50,7 @@ class ImageWriter {
     write_subspaces();
     write_textures();
     write_polygons(&lattice);
+    write_kept(lattice);
     if (common_.emitters.count == 0 && layout_.emitters.count > 0)
       put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
     if (common_.sample_places.count == 0 && layout_.sample_places.count > 0) {
@@ -165,7 +167,7 @@ class ImageWriter {
       polygon.material = static_cast<std::uint16_t>(triangle.material);
       polygon.sides = triangle.sides;
       polygon.patch_level = triangle.patch_level;
-      if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_lattice(*lattice, t) : references;
+      if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_surface(*lattice, t, local) : references;
       if (triangle.sides != 0) references += protocol::triangles_of_level(triangle.patch_level);
       put(layout_.polygons, local, polygon);
     }
@@ -183,32 +185,41 @@ class ImageWriter {
     }
   }
 
-  /// Returns the node of the polygon's tree.
-  std::uint32_t write_lattice(const Lattice& lattice, std::uint32_t t) {
-    const MeshTriangle& triangle = mesh_.triangles[t];
-    const std::uint32_t first_facet = mesh_.parts[triangle.first_part].facet;
-    const std::uint32_t sides = triangle.side_count();
-    const std::uint32_t first = next_lattice_;
-    for (std::uint32_t i = 0; i < triangle.facets * sides; ++i) {
-      put(layout_.lattice, next_lattice_++, lattice.triangles[lattice.first[first_facet] + i]);
-    }
-    std::uint32_t leaf = first;
-    return write_polygon_tree(triangle, 0, 0, [&](std::uint32_t) {
-      const std::uint32_t here = leaf;
-      leaf += sides;
-      return here;
+  /// Returns the node of the polygon's tree. local: of the polygon.
+  std::uint32_t write_surface(const Lattice& lattice, std::uint32_t t, std::size_t local) {
+    const bool common = local < placement_.common_polygons;
+    return write_polygon_tree(mesh_.triangles[t], 0, 0, [&](std::uint32_t part) {
+      if (!common || placement_.is_everywhere(part)) return write_lattice(lattice, part);
+      return protocol::kept_leaf(placement_.keeper_of_part[part], placement_.place_of_part[part]);
     });
   }
 
-  /// Nodes above the parts, then those of each part. number: of a leaf, in their order.
-  template <typename Number>
+  void write_kept(const Lattice& lattice) {
+    for (std::size_t place = 0; place < placement_.kept_by_pe[pe_].size(); ++place) {
+      put(layout_.kept, place, write_lattice(lattice, placement_.kept_by_pe[pe_][place]));
+    }
+  }
+
+  /// Returns the node of the part's tree.
+  std::uint32_t write_lattice(const Lattice& lattice, std::uint32_t part) {
+    const std::uint32_t facet = mesh_.parts[part].facet;
+    const std::uint32_t sides = mesh_.triangles[mesh_.facets[facet].triangle].side_count();
+    const std::uint32_t first = next_lattice_;
+    for (std::uint32_t i = 0; i < surface_size(mesh_, part).lattice; ++i) {
+      put(layout_.lattice, next_lattice_++, lattice.triangles[lattice.first[facet] + i]);
+    }
+    return write_tree(mesh_.parts[part].tree, [&](std::uint32_t leaf) { return first + leaf * sides; });
+  }
+
+  /// Nodes above the parts; part_node: makes the node of a part (Mesh::parts).
+  template <typename PartNode>
   std::uint32_t write_polygon_tree(const MeshTriangle& triangle, std::uint32_t path, std::uint32_t level,
-                                   const Number& number) {
-    if (level == triangle.patch_level) return write_tree(mesh_.parts[triangle.first_part + path].tree, number);
+                                   const PartNode& part_node) {
+    if (level == triangle.patch_level) return part_node(triangle.first_part + path);
     const std::uint32_t first = next_node_;
     next_node_ += 4;
     for (std::uint32_t child = 0; child < 4; ++child) {
-      put(layout_.nodes, first + child, write_polygon_tree(triangle, path << 2U | child, level + 1, number));
+      put(layout_.nodes, first + child, write_polygon_tree(triangle, path << 2U | child, level + 1, part_node));
     }
     return first;
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/keepers.hpp"
 #include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
@@ -20,9 +21,22 @@ struct Counts {
   std::uint64_t cell_words = 0, cell_entries = 0, subspaces = 0, polygon_list = 0, polygons = 0, materials = 0,
                 normals = 0;
   std::uint64_t nodes = 0, patch_references = 0, patches = 0, patch_sides = 0, elements = 0, facets = 0, hemicube = 0,
-                lattice = 0;
+                lattice = 0, kept = 0;
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
 };
+
+/// Takes away what of the common polygons' surfaces others keep.
+void leave_to_keepers(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Counts& counts) {
+  const SurfaceSize& all = placement.kept_surfaces;
+  counts.nodes -= all.nodes;
+  counts.lattice -= all.lattice;
+  for (const std::uint32_t part : placement.kept_by_pe[pe]) {
+    const SurfaceSize size = surface_size(mesh, part);
+    counts.nodes += size.nodes;
+    counts.lattice += size.lattice;
+  }
+  counts.kept = placement.kept_by_pe[pe].size();
+}
 
 Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Stage stage, std::uint32_t hemicube) {
   Counts counts;
@@ -47,6 +61,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
       counts.lattice += std::uint64_t{triangle.side_count()} * triangle.facets;
     }
   }
+  if (stage == Stage::ray_tracing && !placement.keeper_of_part.empty()) leave_to_keepers(mesh, placement, pe, counts);
   counts.materials = mesh.materials;
   if (stage == Stage::ray_tracing) {
     for (const std::uint32_t texture : textures_of_pe(mesh, placement, pe)) {
@@ -138,6 +153,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
   layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(protocol::HemicubeEntry));
   layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
+  layout.kept = allocator.place("kept surfaces", counts.kept, sizeof(std::uint32_t));
   layout.textures = allocator.place("textures", counts.textures, sizeof(protocol::Texture));
   layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));
   layout.texture_points = allocator.place("texture points", counts.texture_points, sizeof(protocol::TexturePoint));

@@ -72,7 +72,7 @@ class CameraFollower {
     const Vec3d normal = front ? flat : vec::scale(flat, -1);
     const SceneMaterial& material = scene_.materials[met.triangle->material];
     if (material.kind != SurfaceKind::diffuse) return turn(way, normal, front, material, chance);
-    walker_.work().deposits += 1;
+    walker_.see(met);
     return scatter(way, normal, material, chance);
   }
 

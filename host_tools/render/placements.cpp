@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/copies.hpp"
+#include "host_tools/layout/keepers.hpp"
 #include "host_tools/render/camera_sample.hpp"
 #include "host_tools/render/sample_heat.hpp"
 
@@ -50,7 +52,7 @@ class Chooser {
 
   Placements one_for_both() const {
     Placements result;
-    result.radiosity = place(Stage::radiosity, {}, kMostMemory);
+    result.radiosity = place(Stage::radiosity, {}, {}, kMostMemory);
     result.ray_tracing = result.radiosity;
     settle_memory(result);
     return result;
@@ -59,8 +61,8 @@ class Chooser {
   Placements one_for_each() const {
     Placements result;
     for (const double most_memory : {kMostMemory, kTightMemory}) {
-      result.radiosity = place(Stage::radiosity, {}, most_memory);
-      result.ray_tracing = place(Stage::ray_tracing, {}, most_memory);
+      result.radiosity = place(Stage::radiosity, {}, {}, most_memory);
+      result.ray_tracing = place(Stage::ray_tracing, {}, {}, most_memory);
       settle_memory(result);
       if (!result.memory) continue;
       copy(Stage::radiosity, *result.memory, most_memory, result.radiosity, result.radiosity_copies);
@@ -73,10 +75,11 @@ class Chooser {
 
   const Heat& heat(Stage stage) const { return stage == Stage::radiosity ? radiosity_heat_ : ray_heat_; }
 
-  Placement place(Stage stage, std::vector<bool> common, double most_memory) const {
+  Placement place(Stage stage, std::vector<bool> common, std::vector<bool> surfaces, double most_memory) const {
     const Heat& of_stage = heat(stage);
-    return make_placement(mesh_, lists_, choice_,
-                          {stage, of_stage.empty() ? nullptr : &of_stage, std::move(common), most_memory});
+    return make_placement(
+        mesh_, lists_, choice_,
+        {stage, of_stage.empty() ? nullptr : &of_stage, std::move(common), std::move(surfaces), most_memory});
   }
 
   /// Without copies it is chosen, if not given; with them there is one.
@@ -99,23 +102,47 @@ class Chooser {
   void copy(Stage stage, std::uint32_t memory, double most_memory, Placement& placement, StageCopies& copies) const {
     if (choice_.torus.pes() == 1 || heat(stage).empty()) return;
     const CopyOrder order = copy_order(mesh_, lists_.polygons, stage, heat_of_cells(heat(stage)), lacking(placement));
-    const auto try_with = [&](std::size_t count) {
-      Placement with = place(stage, order.first(count, lists_.grid.count()), most_memory);
+    std::vector<double> surfaces;
+    if (stage == Stage::ray_tracing) surfaces = worth_of_surfaces(mesh_, heat_of_surfaces(heat(stage)));
+    const double most = machine_.replicate.value_or(1) * memory;
+    const auto try_with = [&](double least_worth) {
+      const auto count = static_cast<std::size_t>(
+          std::partition_point(order.worth.begin(), order.worth.end(), [&](double w) { return w >= least_worth; }) -
+          order.worth.begin());
+      if (count == 0) return false;
+      StageCopies chosen{count, order.bytes[count - 1]};
+      std::vector<bool> everywhere(surfaces.size());
+      for (std::uint32_t part = 0; part < surfaces.size(); ++part) {
+        everywhere[part] = surfaces[part] >= least_worth && surfaces[part] > 0;
+        if (everywhere[part]) chosen.bytes += surface_size(mesh_, part).bytes();
+      }
+      if (static_cast<double>(chosen.bytes) > most) return false;
+      Placement with = place(stage, order.first(count, lists_.grid.count()), std::move(everywhere), most_memory);
       MemoryNeed need;
       need.add(mesh_, with, stage, parameters_, map_);
-      if (need.most() > memory) return false;
+      if (need.most() > memory || most_kept(with) > protocol::kMostKept) return false;
       placement = std::move(with);
-      copies = {count, order.bytes[count - 1]};
+      copies = chosen;
       return true;
     };
-    const double most = machine_.replicate.value_or(1) * memory;
-    std::size_t too_many = order.within(static_cast<std::uint64_t>(most));
-    if (too_many == 0 || try_with(too_many)) return;
+    if (try_with(0)) return;
+    std::vector<double> worths = order.worth;
+    for (const double worth : surfaces) {
+      if (worth > 0) worths.push_back(worth);
+    }
+    std::sort(worths.rbegin(), worths.rend());
     std::size_t enough = 0;
+    std::size_t too_many = worths.size();
     for (int step = 0; step < kSearchSteps && enough + 1 < too_many; ++step) {
       const std::size_t middle = enough + (too_many - enough) / 2;
-      (try_with(middle) ? enough : too_many) = middle;
+      (try_with(worths[middle]) ? enough : too_many) = middle;
     }
+  }
+
+  static std::size_t most_kept(const Placement& placement) {
+    std::size_t most = 0;
+    for (const auto& kept : placement.kept_by_pe) most = std::max(most, kept.size());
+    return most;
   }
 
   const MachineChoice& machine_;

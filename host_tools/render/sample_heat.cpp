@@ -22,6 +22,7 @@ Heat sample_radiosity_heat(const Scene& scene, const Mesh& mesh, const Placement
 Heat sample_ray_heat(const Scene& scene, const Mesh& mesh, const Placement& whole, const CameraRays& rays,
                      const CameraSampleChoice& choice) {
   Heat heat = heat_for(whole.polygons_of_cell);
+  heat.surfaces.resize(mesh.parts.size());
   sample_camera(scene, mesh, whole, rays, choice, kPaths, &heat);
   return heat;
 }

@@ -247,11 +247,31 @@ Meeting SampleWalker::walk(const SampleRay& ray, Cell& cell) {
   }
 }
 
-std::uint32_t SampleWalker::deposit(const Meeting& met) {
+namespace {
+
+/// Into Mesh::parts.
+std::uint32_t part_at(const Meeting& met) {
   protocol::Weights weights{static_cast<float>(1 - met.b1 - met.b2), static_cast<float>(met.b1),
                             static_cast<float>(met.b2)};
-  const std::uint32_t path = protocol::enter_level(weights, met.triangle->patch_level);
-  const std::uint32_t patch = mesh_.parts[met.triangle->first_part + path].patch;
+  return met.triangle->first_part + protocol::enter_level(weights, met.triangle->patch_level);
+}
+
+}  // namespace
+
+void SampleWalker::see(const Meeting& met) {
+  work().deposits += 1;
+  if (met.triangle->sides == 0) return;
+  const std::uint32_t part = part_at(met);
+  if (heat_ != nullptr) heat_->surfaces[part] += static_cast<double>(records_);
+  if (placement_.is_everywhere(part) || at_ == placement_.keeper_of_part[part]) return;
+  const auto triangle = static_cast<std::uint32_t>(met.triangle - mesh_.triangles.data());
+  if (!placement_.is_common_polygon(triangle)) return;
+  at_ = placement_.keeper_of_part[part];
+  work().hand_overs += 1;
+}
+
+std::uint32_t SampleWalker::deposit(const Meeting& met) {
+  const std::uint32_t patch = mesh_.parts[part_at(met)].patch;
   const protocol::PeNumber owner = placement_.patch_home[patch].pe;
   work().deposits += 1;
   if (at_ != owner) sample_.of_pe[owner].sent_light += elsewhere();

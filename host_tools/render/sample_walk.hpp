@@ -104,6 +104,8 @@ class SampleWalker {
   Meeting walk(const SampleRay& ray, Cell& cell);
   /// Light falls on a patch, which may be another PE's; its number.
   std::uint32_t deposit(const Meeting& met);
+  /// A ray sees the surface that it has met, at whoever has it.
+  void see(const Meeting& met);
   /// The record goes on from where a patch is at home.
   void go_to_patch(std::uint32_t patch) { at_ = placement_.patch_home[patch].pe; }
 

@@ -25,7 +25,10 @@ class Copies : public testing::Test {
   Placement placed(TorusSize torus, Stage stage, std::vector<bool> common, const Heat* heat = nullptr,
                    const std::string& allocation = "balanced") const {
     return make_placement(mesh_, cells_, {torus, std::nullopt, allocation, Scheme::spread},
-                          {stage, heat, std::move(common)});
+                          {stage, heat, std::move(common), no_surfaces(stage)});
+  }
+  std::vector<bool> no_surfaces(Stage stage) const {
+    return std::vector<bool>(stage == Stage::ray_tracing ? mesh_.parts.size() : 0);
   }
   CopyOrder order(Stage stage) const { return copy_order(mesh_, lists_, stage, heat_of_cells(heat_)); }
 
@@ -73,6 +76,7 @@ TEST_F(Copies, BytesAreThoseOfTheStores) {
       Placement alone = placement;
       alone.cells_of_pe[0].resize(placement.common_cells);
       alone.polygons_of_pe[0].resize(placement.common_polygons);
+      alone.kept_by_pe[0].clear();
       EXPECT_EQ(all.bytes[count - 1], bytes_of(lay_out(mesh_, alone, 0, stage, {}, kMap), stores)) << count;
     }
   }
