@@ -255,6 +255,7 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.facets, s.facets);
   place(l.hemicube, s.hemicube);
   place(l.lattice, s.lattice);
+  place(l.kept, s.kept);
   place(l.textures, s.textures);
   place(l.texels, s.texels);
   place(l.texture_points, s.texture_points);

@@ -174,6 +174,28 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
   }
 }
 
+TEST(Malformed, KeptSurfacesThatDoNotHoldAreRefused) {
+  const std::vector<std::function<void(PeStores&)>> changes = {
+      [](PeStores& s) { s.polygons[0].surface = protocol::kept_leaf(0, static_cast<std::uint32_t>(s.kept.size())); },
+      [](PeStores& s) { s.polygons[0].surface = protocol::kept_leaf(1, 0); },
+      [](PeStores& s) { s.kept[0] = protocol::kLeaf | static_cast<std::uint32_t>(s.lattice.size()); },
+      [](PeStores& s) { s.kept[0] = protocol::kept_leaf(0, 0); },  // once more the same
+      [](PeStores& s) { s.kept[0] = static_cast<std::uint32_t>(s.nodes.size()); },
+  };
+  TestScene scene = small_scene();
+  scene.keep_surfaces = true;
+  for (std::size_t i = 0; i <= changes.size(); ++i) {
+    FakeMachine machine(1);
+    machine.load(
+        scene, Stage::ray_tracing, 64, 1, i < changes.size() ? changes[i] : [](PeStores&) {});
+    const std::uint32_t fault = fault_of([&] {
+      machine.message(0, MessageKind::begin);
+      machine.run();
+    });
+    EXPECT_EQ(fault, i < changes.size() ? code(FaultCode::outside_store) : 0U) << "change " << i;
+  }
+}
+
 // Of 36 cells, 30 are not empty: two words. What the map promises, the PE has.
 TEST(Malformed, MapsOfCellsThatDoNotHoldAreRefused) {
   const auto fault = [](const std::function<void(PeStores&)>& change) {
@@ -475,6 +497,23 @@ TEST(Malformed, RaysThatNameWhatIsNotThereAreRefused) {
   EXPECT_EQ(ray([](RayRecord& r) { r.waiting = 3; }), bad);
   EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::point; }), bad);
   EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::deposit; }), bad);
+  const auto shade = [](RayRecord& r, std::uint32_t polygon) {
+    r.kind = protocol::RecordKind::shade;
+    r.target = polygon;
+  };
+  EXPECT_EQ(ray([&](RayRecord& r) { shade(r, 0xFFFF'FFFF); }), bad);
+  EXPECT_EQ(ray([&](RayRecord& r) {
+              shade(r, 0);
+              r.origin = {-1, -1, -1};
+              r.direction = {0, 0, -1};
+            }),
+            bad)
+      << "it does not meet the polygon";
+  EXPECT_EQ(ray([&](RayRecord& r) {
+              shade(r, 0);
+              r.flags = protocol::kShadow;
+            }),
+            bad);
   EXPECT_EQ(ray([](RayRecord& r) {
               r.waiting = 1;
               r.branches[0].place = protocol::cell_code(0, 0, 2);

@@ -105,6 +105,32 @@ TEST(RayTracing, MirrorWeighsWhatItReflects) {
   EXPECT_TRUE(other.pixels.empty());
 }
 
+// A ray that meets a surface which another PE keeps is shaded there and goes on from there: to the bit as where all
+// have all, layers included.
+TEST(RayTracing, KeptSurfacesShadeAlike) {
+  TestScene scene = furnace(3, {3, 3, 3});
+  scene.materials[0] = glossy_material(0.4F, 0.4F, 20);
+  scene.materials[0].emission = {0.25F, 0.25F, 0.25F};
+  for (std::size_t i = 54; i < 72; ++i) {
+    scene.polygons[i].material = 1;
+    scene.polygons[i].sides = 0;
+  }
+  scene.bounces = 4;
+  scene.copy_all = true;
+  scene.layers = protocol::plane_bit(protocol::Plane::irradiance) | protocol::plane_bit(protocol::Plane::elements) |
+                 protocol::plane_bit(protocol::Plane::depth);
+  FakeMachine all(3);
+  all.begin(scene, Stage::ray_tracing, 64, 1.5F);
+  EXPECT_EQ(trace(all, scene, rays_at_random(scene, 500)), 500U);
+  scene.keep_surfaces = true;
+  FakeMachine apart(3);
+  apart.begin(scene, Stage::ray_tracing, 64, 1.5F);
+  EXPECT_LT(apart.stores[0].lattice.size(), all.stores[0].lattice.size() / 2);
+  EXPECT_EQ(trace(apart, scene, rays_at_random(scene, 500)), 500U);
+  EXPECT_EQ(all.pixels, apart.pixels);
+  EXPECT_EQ(all.layers, apart.layers);
+}
+
 /// Two glass balls in the furnace. Clear glass in uniform light is invisible: each way's weights add up to one.
 TestScene furnace_with_glass(std::uint32_t pes, std::array<std::uint32_t, 3> cells) {
   TestScene s = furnace(pes, cells);

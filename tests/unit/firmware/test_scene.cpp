@@ -108,10 +108,18 @@ class Builder {
     polygon.patch_level = from.patch_level;
     if (stage_ == protocol::Stage::ray_tracing) {
       const std::uint32_t lattices = from.sides == 3 ? 2 : from.sides == 0 ? 0 : 1;
-      auto leaf = static_cast<std::uint32_t>(out.lattice.size());
-      polygon.surface = add_tree(out, from.element_level, lattices, leaf);
-      const protocol::Vec3f value{lattice_value_, lattice_value_, lattice_value_};
-      out.lattice.resize(leaf, {{value, value, value}});
+      const auto keeper = static_cast<std::uint16_t>(number % scene_.pes);
+      const bool kept = scene_.keep_surfaces && lattices > 0;
+      if (kept) polygon.surface = protocol::kept_leaf(keeper, number / scene_.pes);
+      if (!kept || keeper == pe) {
+        auto leaf = static_cast<std::uint32_t>(out.lattice.size());
+        const std::uint32_t tree = add_tree(out, from.element_level, lattices, leaf);
+        const protocol::Vec3f value{lattice_value_, lattice_value_, lattice_value_};
+        out.lattice.resize(leaf, {{value, value, value}});
+        if (!kept) polygon.surface = tree;
+        out.kept.resize(number / scene_.pes + 1, protocol::kLeaf);
+        out.kept.back() = tree;
+      }
     } else {
       polygon.surface = static_cast<std::uint32_t>(out.references.size());
       for (const PatchPlace& place : places_[number]) {
@@ -295,6 +303,7 @@ pe::Scene PeStores::scene() {
   s.facets = facets;
   s.hemicube = hemicube;
   s.lattice = lattice;
+  s.kept = kept;
   s.textures = textures;
   s.texels = texels;
   s.texture_points = texture_points;

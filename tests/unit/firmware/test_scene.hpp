@@ -39,6 +39,7 @@ struct TestScene {
   std::uint32_t layers = 0;
   bool stop_everywhere = false;  ///< rays stop in every cell, not only where a polygon stands
   bool copy_all = false;         ///< every PE holds all of these cells
+  bool keep_surfaces = false;    ///< ray tracing stage: each polygon's surface is at one PE alone, by its number
   std::uint32_t open_batches = protocol::kMostOpenBatches;
   std::uint32_t credits_kept = 16;
 
@@ -79,7 +80,8 @@ struct PeStores {
   std::vector<protocol::Facet> facets;
   std::vector<protocol::HemicubeEntry> hemicube;
   std::vector<protocol::LatticeTriangle> lattice;  ///< all `lattice_value`
-  std::vector<protocol::Texture> textures;         ///< none, as those that follow
+  std::vector<std::uint32_t> kept;
+  std::vector<protocol::Texture> textures;  ///< none, as those that follow
   std::vector<protocol::Texel> texels;
   std::vector<protocol::TexturePoint> texture_points;
   std::vector<protocol::SamplePlace> sample_places;
