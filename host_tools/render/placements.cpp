@@ -122,6 +122,7 @@ class Chooser {
       need.add(mesh_, with, stage, parameters_, map_);
       if (need.most() > memory || most_kept(with) > protocol::kMostKept) return false;
       placement = std::move(with);
+      for (const auto& kept : placement.kept_by_pe) chosen.kept += kept.size();
       copies = chosen;
       return true;
     };

@@ -92,7 +92,8 @@ struct RenderProgress {
 /// Subspaces that stand on every PE in a stage.
 struct StageCopies {
   std::uint64_t cells = 0;
-  std::uint64_t bytes = 0;  ///< that they take of each PE's memory
+  std::uint64_t bytes = 0;  ///< that they take of each PE's memory, surfaces that all have included
+  std::uint64_t kept = 0;   ///< surfaces of their polygons that one PE alone has (ray tracing stage)
 };
 
 /// [W], R G B.

@@ -26,7 +26,10 @@ Json energy_json(const EnergyBalance& energy) {
 
 /// Subspaces on every PE in a stage.
 Json copies_json(const StageCopies& copies, const RenderFigures& figures) {
-  return {{"subspaces", copies.cells}, {"bytes", copies.bytes}, {"fraction", copies_share(copies, figures)}};
+  return {{"subspaces", copies.cells},
+          {"bytes", copies.bytes},
+          {"fraction", copies_share(copies, figures)},
+          {"kept_surfaces", copies.kept}};
 }
 
 Json picture_json(const RunDescription& run, const RenderFigures& figures) {

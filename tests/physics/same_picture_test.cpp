@@ -89,6 +89,25 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Torus,
                            return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
                          });
 
+// In little memory all PEs have shapes, and one alone the surface of each that is seldom seen.
+TEST(Memory, SurfacesThatAreKeptDoNotShow) {
+  RenderCase fine = small_cornell("cornell_spheres");
+  fine.quality.element_length = 12;
+  const RenderResult whole = run_case(fine);
+  expect_all_home(whole);
+  fine.machine.scheme = Scheme::spread;
+  fine.machine.columns = 3;
+  fine.machine.points = points_of(Scheme::spread);
+  fine.machine.empty = empty_of(Scheme::spread);
+  fine.machine.camera_rays = camera_rays_of(Scheme::spread);
+  fine.machine.replicate = std::nullopt;
+  fine.machine.pe_memory = 448U << 10U;
+  const RenderResult kept = run_case(fine);
+  expect_all_home(kept);
+  EXPECT_GT(kept.figures.ray_tracing_copies.kept, 10U);
+  EXPECT_EQ(bytes_of(kept.picture), bytes_of(whole.picture));
+}
+
 /// Host, NIUs and signals that cost nothing, as much as they should, a hundred times that.
 TEST(Costs, NeverChangeThePicture) {
   RenderCase ideal = small_cornell("cornell_spheres");
