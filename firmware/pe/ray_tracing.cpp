@@ -241,7 +241,7 @@ Way meet_again(Pe& pe, Niu& niu, RayRecord& record) {
   record.kind = RecordKind::light;
   Way way{};
   way.end = WayEnd::hit;
-  way.hit = hit_of(crossing, record.target);
+  way.hit = hit_of(crossing, crossing.t, record.target);
   return way;
 }
 

@@ -102,7 +102,7 @@ Way look_along(const Scene& scene, const Segment& segment, Walk& walk) {
     find_nearest(scene, *here, segment, walk, shear, reach, nearest);
     if (nearest.polygon != protocol::kNoPolygon) {
       way.end = WayEnd::hit;
-      way.hit = hit_of(nearest.crossing, nearest.polygon);
+      way.hit = hit_of(nearest.crossing, nearest.t, nearest.polygon);
       return way;
     }
     if (!walk.advance(scene.map)) {

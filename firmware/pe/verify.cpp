@@ -186,7 +186,13 @@ class Verifier {
     if ((node & protocol::kLeaf) == 0) {
       require(depth < protocol::kMostLevels, Index::tree_depth, node, protocol::kMostLevels);
       range(Index::node, node, 4, scene_.nodes.size());
-      for (std::uint32_t child = 0; child < 4; ++child) check_surface(scene_.nodes[node + child], limit, depth + 1U);
+      for (const std::uint32_t child : scene_.nodes.subspan(node, 4)) {
+        if ((child & (protocol::kLeaf | protocol::kKept)) == protocol::kLeaf) {
+          below(Index::leaf, child & ~protocol::kLeaf, limit);
+        } else {
+          check_surface(child, limit, depth + 1U);
+        }
+      }
     } else if ((node & protocol::kKept) == 0) {
       below(Index::leaf, node & ~protocol::kLeaf, limit);
     } else {
