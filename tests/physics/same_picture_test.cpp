@@ -91,20 +91,20 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Torus,
 
 // In little memory all PEs have shapes, and one alone the surface of each that is seldom seen.
 TEST(Memory, SurfacesThatAreKeptDoNotShow) {
-  RenderCase fine = small_cornell("cornell_spheres");
-  fine.quality.element_length = 12;
-  const RenderResult whole = run_case(fine);
+  RenderCase interior = native_case(source_dir() / "scenes/interior");
+  interior.quality.max_shots = 4;
+  interior.quality.samples = 2;
+  interior.machine = {};
+  interior.machine.engine = "translated";
+  interior.machine.columns = interior.machine.rows = 4;
+  interior.machine.pe_memory = 16U << 20U;
+  const RenderResult whole = run_case(interior);
   expect_all_home(whole);
-  fine.machine.scheme = Scheme::spread;
-  fine.machine.columns = 3;
-  fine.machine.points = points_of(Scheme::spread);
-  fine.machine.empty = empty_of(Scheme::spread);
-  fine.machine.camera_rays = camera_rays_of(Scheme::spread);
-  fine.machine.replicate = std::nullopt;
-  fine.machine.pe_memory = 448U << 10U;
-  const RenderResult kept = run_case(fine);
+  EXPECT_EQ(whole.figures.ray_tracing_copies.kept, 0U);
+  interior.machine.pe_memory = 4U << 20U;
+  const RenderResult kept = run_case(interior);
   expect_all_home(kept);
-  EXPECT_GT(kept.figures.ray_tracing_copies.kept, 10U);
+  EXPECT_GT(kept.figures.ray_tracing_copies.kept, 100U);
   EXPECT_EQ(bytes_of(kept.picture), bytes_of(whole.picture));
 }
 
