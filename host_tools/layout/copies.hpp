@@ -25,7 +25,7 @@ struct CopyOrder {
   std::vector<CellIndex> cells;      ///< those with polygons
   std::vector<std::uint64_t> bytes;  ///< [i]: of each PE's stores for cells[0..i], what they share counted once,
                                      ///< without surfaces
-  std::vector<double> worth;  ///< [i]: heat per byte of cells[i], or of one before it if that is less
+  std::vector<double> worth;         ///< [i]: heat per byte of cells[i], or of one before it if that is less
 
   /// By cell: the first `count` are marked.
   std::vector<bool> first(std::size_t count, std::size_t of_cells) const;
