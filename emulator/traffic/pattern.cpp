@@ -103,7 +103,7 @@ std::unique_ptr<TrafficPattern> make_traffic_pattern(std::string_view name, Toru
   if (name == "transpose") return std::make_unique<Transpose>(shape);
   if (name == "bit-complement") return std::make_unique<BitComplement>(shape);
   if (name == "hotspot") return std::make_unique<Hotspot>(shape);
-  const auto names = traffic_pattern_names();
+  const auto& names = traffic_pattern_names();
   throw UsageError(no_such_name(name, "no pattern of traffic", {names.begin(), names.end()}));
 }
 
