@@ -288,7 +288,7 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
 
 namespace {
 
-/// This PE keeps what is seen: so the record does not travel on for it.
+/// Of kind shade. That this PE keeps what is seen follows from the stores: the leaf that names it is the same on all.
 void check_surface(const Pe& pe, Niu& niu, const RayRecord& record) {
   require(niu, record.target < pe.scene.polygons.size(), RecordField::surface, record.target);
   require(niu, (record.flags & protocol::kShadow) == 0, RecordField::surface, record.flags);

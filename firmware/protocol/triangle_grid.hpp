@@ -111,8 +111,8 @@ constexpr std::uint32_t find_leaf(const std::uint32_t* nodes, std::uint32_t node
 }
 
 /// Of a leaf's number, ray tracing stage: it stands for a part of the polygon whose surface one PE alone has, its
-/// keeper: the lower 16 bits. There the tree goes on at the kept part of that place in the PE's list; `kKeptPart`s of
-/// one keeper are counted in the bits between.
+/// keeper: the lower 16 bits. There the tree goes on at a node of its list `StageLayout::kept`, whose place the bits
+/// between name.
 inline constexpr std::uint32_t kKept = 0x4000'0000U;
 inline constexpr std::uint32_t kKeptShift = 16;
 inline constexpr std::uint32_t kMostKept = (kKept >> kKeptShift);
