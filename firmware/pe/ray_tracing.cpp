@@ -229,19 +229,19 @@ bool next_path(Pe& pe, Niu& niu, Slot slot) {
   return true;
 }
 
-/// The polygon that a record of kind `shade` has met at another PE, met again: the same floats, so the same hit.
+/// The surface that a record of kind `shade` has met at another PE, met again: the same floats, so the same hit.
 Way meet_again(Pe& pe, Niu& niu, RayRecord& record) {
   const PhaseMark<Phase::traverse> mark(niu);
   const glm::vec3 origin = to_vector(record.origin);
   const glm::vec3 direction = to_vector(record.direction);
   const Shear shear(origin, direction, Inverse(direction));
+  const std::uint32_t polygon = pe.scene.kept[record.target].polygon;
   Crossing crossing;
-  const bool meets = cross_triangle(shear, pe.scene.polygons[record.target], crossing);
+  const bool meets = cross_triangle(shear, pe.scene.polygons[polygon], crossing);
   require(niu, meets, RecordField::surface, record.target);
-  record.kind = RecordKind::light;
   Way way{};
   way.end = WayEnd::hit;
-  way.hit = hit_of(crossing, crossing.t, record.target);
+  way.hit = hit_of(crossing, crossing.t, polygon);
   return way;
 }
 
@@ -258,12 +258,15 @@ Next meet_surface(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   }
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
   const SurfaceLight light = light_at(pe.scene, niu.pe(), polygon, hit);
+  // A record that goes from PE to PE would never end.
+  require(niu, light.here || record.kind == RecordKind::light, RecordField::surface, record.target);
   if (!light.here) {
     record.kind = RecordKind::shade;
-    record.target = hit.polygon;
+    record.target = light.place;
     pe.outbox.put(niu, pe.slots, light.keeper, slot);
     return Next::sent;
   }
+  record.kind = RecordKind::light;
   note_surface(pe, niu, record, hit, light.irradiance_over_pi);
   if (is_specular(pe.scene.materials[polygon.material].kind)) return next(turn_ray(pe, record, hit));
   see_surface(pe, niu, record, hit, light.irradiance_over_pi);
@@ -288,9 +291,8 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
 
 namespace {
 
-/// Of kind shade. That this PE keeps what is seen follows from the stores: the leaf that names it is the same on all.
 void check_surface(const Pe& pe, Niu& niu, const RayRecord& record) {
-  require(niu, record.target < pe.scene.polygons.size(), RecordField::surface, record.target);
+  require(niu, record.target < pe.scene.kept.size(), RecordField::surface, record.target);
   require(niu, (record.flags & protocol::kShadow) == 0, RecordField::surface, record.flags);
 }
 

@@ -32,7 +32,7 @@ struct Scene {
   HemicubeGrid hemicube_grid;
   // Ray tracing stage.
   std::span<const protocol::LatticeTriangle> lattice;
-  std::span<const std::uint32_t> kept;
+  std::span<const protocol::KeptSurface> kept;
   std::span<const protocol::Texture> textures;
   std::span<const protocol::Texel> texels;
   std::span<const protocol::TexturePoint> texture_points;
@@ -57,7 +57,7 @@ struct Scene {
     facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
     lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
-    kept = memory.store<const std::uint32_t>(layout.kept);
+    kept = memory.store<const protocol::KeptSurface>(layout.kept);
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);
     texture_points = memory.store<const protocol::TexturePoint>(layout.texture_points);

@@ -39,15 +39,16 @@ protocol::Weights weights_of(const Hit& hit) {
 }  // namespace
 
 SurfaceLight light_at(const Scene& scene, protocol::PeNumber pe, const protocol::Polygon& polygon, const Hit& hit) {
-  SurfaceLight light{true, pe, glm::vec3(0.0F)};
+  SurfaceLight light{true, pe, 0, glm::vec3(0.0F)};
   if (!has_elements(polygon, hit)) return light;
   protocol::Weights at = weights_of(hit);
   std::uint32_t leaf = protocol::find_leaf(scene.nodes.data(), polygon.surface, at);
   if ((leaf & protocol::kKept) != 0) {
     light.keeper = protocol::keeper_of(leaf);
+    light.place = protocol::kept_place(leaf);
     light.here = light.keeper == pe;
     if (!light.here) return light;
-    leaf = protocol::find_leaf(scene.nodes.data(), scene.kept[protocol::kept_part(leaf)], at);
+    leaf = protocol::find_leaf(scene.nodes.data(), scene.kept[light.place].node, at);
   }
   if (!hit.front && (polygon.sides & protocol::kFrontPresent) != 0) ++leaf;
   const auto& corner = scene.lattice[leaf].irradiance_over_pi;
@@ -62,7 +63,7 @@ std::uint32_t element_code_at(const Scene& scene, const protocol::Polygon& polyg
   std::uint32_t code = 1;
   const std::uint32_t leaf = protocol::find_leaf(scene.nodes.data(), polygon.surface, at, code);
   if ((leaf & protocol::kKept) != 0) {
-    protocol::find_leaf(scene.nodes.data(), scene.kept[protocol::kept_part(leaf)], at, code);
+    protocol::find_leaf(scene.nodes.data(), scene.kept[protocol::kept_place(leaf)].node, at, code);
   }
   return code;
 }

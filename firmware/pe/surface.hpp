@@ -39,8 +39,9 @@ glm::vec3 diffuse_reflectance(const Scene& scene, const protocol::Polygon& polyg
 
 /// What a PE has of the surface at a hit.
 struct SurfaceLight {
-  bool here;  ///< or `keeper` has it, another PE
+  bool here;  ///< or another PE has it
   protocol::PeNumber keeper;
+  std::uint32_t place;           ///< among what the keeper keeps
   glm::vec3 irradiance_over_pi;  ///< interpolated over the element of the side that was hit; zero where it has none
 };
 SurfaceLight light_at(const Scene& scene, protocol::PeNumber pe, const protocol::Polygon& polygon, const Hit& hit);

@@ -62,6 +62,7 @@ class Verifier {
     check_map();
     for (const Subspace& subspace : scene_.subspaces) check(subspace);
     for (const Polygon& polygon : scene_.polygons) check(polygon);
+    for (const protocol::KeptSurface& kept : scene_.kept) below(Index::kept, kept.polygon, scene_.polygons.size());
     for (const protocol::Material& material : scene_.materials) check(material);
     check_textures();
     check_emitters();
@@ -198,8 +199,8 @@ class Verifier {
     } else {
       below(Index::kept, protocol::keeper_of(node), niu_.pes());
       if (protocol::keeper_of(node) != niu_.pe()) return;
-      below(Index::kept, protocol::kept_part(node), scene_.kept.size());
-      check_tree(scene_.kept[protocol::kept_part(node)], limit, depth);
+      below(Index::kept, protocol::kept_place(node), scene_.kept.size());
+      check_tree(scene_.kept[protocol::kept_place(node)].node, limit, depth);
     }
   }
   /// Every leaf below `limit`, and no deeper than a polygon is ever cut.

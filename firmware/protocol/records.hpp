@@ -26,7 +26,7 @@ enum class RecordKind : std::uint8_t {
   light,    ///< looks for the first polygon on its way
   deposit,  ///< flux on its way to the owner of the element that it met (radiosity stage)
   point,    ///< a point of a shot on its way to the PE that makes its records (radiosity stage): a PointRecord
-  shade,    ///< has met polygon `target`, and goes to the keeper of what is seen there (ray tracing stage)
+  shade,    ///< has met a surface, and goes to its keeper (ray tracing stage)
 };
 
 /// Bits of `flags`.
@@ -104,7 +104,7 @@ struct RayRecord {
   std::uint32_t key;     ///< random numbers: hash of (seed, pixel, sample, branches taken)
   std::uint32_t pixel;   ///< row * width + column
   std::uint32_t target;  ///< kShadow: global number of the emitter; `weight` is the light if nothing is before it.
-                         ///< Kind shade: index of the polygon, one that all PEs have at that index
+                         ///< Kind shade: place of the surface that it has met among those that its keeper keeps
   RecordKind kind;
   std::uint8_t bounce;  ///< segments ended so far
   std::uint8_t flags;

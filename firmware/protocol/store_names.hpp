@@ -65,7 +65,7 @@ constexpr std::array<StoreExtent, kStores> store_extents(const StageLayout& l) {
       {l.facets, sizeof(Facet)},
       {l.hemicube, sizeof(HemicubeEntry)},
       {l.lattice, sizeof(LatticeTriangle)},
-      {l.kept, sizeof(std::uint32_t)},
+      {l.kept, sizeof(KeptSurface)},
       {l.textures, sizeof(Texture)},
       {l.texels, sizeof(Texel)},
       {l.texture_points, sizeof(TexturePoint)},

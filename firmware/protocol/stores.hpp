@@ -161,6 +161,13 @@ struct LatticeTriangle {
 };
 static_assert(sizeof(LatticeTriangle) == 36);
 
+/// Of a part of a polygon (patch level), what is seen on it, which this PE alone has (kKept).
+struct KeptSurface {
+  std::uint32_t polygon;  ///< local
+  std::uint32_t node;     ///< of the part
+};
+static_assert(sizeof(KeptSurface) == 8);
+
 /// Something that emits, for shadow rays. All PEs have all emitters, or none where no shadow rays are asked for.
 struct Emitter {
   std::array<Vec3f, 3> corner;
@@ -244,7 +251,7 @@ struct StageLayout {
   float points_per_quantum;       ///< of reflected light, by the greatest channel of what is shot
   // Ray tracing stage.
   Store lattice;         ///< LatticeTriangle[]
-  Store kept;            ///< uint32_t[]: nodes of the parts of polygons whose surfaces this PE alone has (kKept)
+  Store kept;            ///< KeptSurface[]
   Store textures;        ///< Texture[]
   Store texels;          ///< Texel[]
   Store texture_points;  ///< TexturePoint[]

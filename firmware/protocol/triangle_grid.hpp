@@ -111,19 +111,19 @@ constexpr std::uint32_t find_leaf(const std::uint32_t* nodes, std::uint32_t node
 }
 
 /// Of a leaf's number, ray tracing stage: it stands for a part of the polygon whose surface one PE alone has, its
-/// keeper: the lower 16 bits. There the tree goes on at a node of its list `StageLayout::kept`, whose place the bits
-/// between name.
+/// keeper: the lower 16 bits. There the tree goes on at a node of its list `StageLayout::kept`, at the place that the
+/// bits between name.
 inline constexpr std::uint32_t kKept = 0x4000'0000U;
 inline constexpr std::uint32_t kKeptShift = 16;
 inline constexpr std::uint32_t kMostKept = (kKept >> kKeptShift);
 
-constexpr std::uint32_t kept_leaf(PeNumber keeper, std::uint32_t part) {
-  return kLeaf | kKept | part << kKeptShift | keeper;
+constexpr std::uint32_t kept_leaf(PeNumber keeper, std::uint32_t place) {
+  return kLeaf | kKept | place << kKeptShift | keeper;
 }
 constexpr PeNumber keeper_of(std::uint32_t leaf) {
   return static_cast<PeNumber>(leaf & 0xFFFFU);
 }
-constexpr std::uint32_t kept_part(std::uint32_t leaf) {
+constexpr std::uint32_t kept_place(std::uint32_t leaf) {
   return (leaf & (kKept - 1U)) >> kKeptShift;
 }
 

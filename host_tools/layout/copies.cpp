@@ -6,7 +6,6 @@
 #include <queue>
 
 #include "firmware/protocol/triangle_grid.hpp"
-#include "host_tools/layout/keepers.hpp"
 #include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
@@ -78,6 +77,16 @@ struct Offer {
 
 }  // namespace
 
+SurfaceSize surface_size(const Mesh& mesh, std::uint32_t part) {
+  const MeshTriangle& triangle = mesh.triangles[mesh.facets[mesh.parts[part].facet].triangle];
+  const std::uint32_t last = triangle.first_part + protocol::triangles_of_level(triangle.patch_level) - 1;
+  const std::uint32_t end =
+      part == last ? mesh.parts[triangle.first_part].facet + triangle.facets : mesh.parts[part + 1].facet;
+  const std::uint32_t facets = end - mesh.parts[part].facet;
+  // Every four children add three leaves.
+  return {(facets - 1) / 3 * 4, facets * triangle.side_count()};
+}
+
 std::uint64_t polygon_bytes(const MeshTriangle& triangle, Stage stage) {
   std::uint64_t bytes = sizeof(protocol::Polygon);
   if (triangle.normals != protocol::kNoPolygon) bytes += 3 * sizeof(protocol::Vec3f);
@@ -122,8 +131,9 @@ std::vector<bool> CopyOrder::first(std::size_t count, std::size_t of_cells) cons
   return marked;
 }
 
-std::size_t CopyOrder::within(std::uint64_t most) const {
-  return static_cast<std::size_t>(std::upper_bound(bytes.begin(), bytes.end(), most) - bytes.begin());
+std::size_t CopyOrder::worth_at_least(double least) const {
+  const auto end = std::partition_point(worth.begin(), worth.end(), [&](double w) { return w >= least; });
+  return static_cast<std::size_t>(end - worth.begin());
 }
 
 CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage,

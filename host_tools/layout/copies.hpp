@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/layout/placement.hpp"
 #include "host_tools/mesh/mesh.hpp"
 #include "host_tools/subspace/grid.hpp"
 
 namespace torolux {
 
+/// part: of Mesh::parts, its triangle has sides.
+SurfaceSize surface_size(const Mesh& mesh, std::uint32_t part);
 /// Bytes of a polygon in a PE's stores: itself, normals, tree nodes, patch references or lattice, texture points. What
 /// several polygons share (materials, textures) is not in it.
 std::uint64_t polygon_bytes(const MeshTriangle& triangle, protocol::Stage stage);
@@ -29,8 +32,8 @@ struct CopyOrder {
 
   /// By cell: the first `count` are marked.
   std::vector<bool> first(std::size_t count, std::size_t of_cells) const;
-  /// The most of them that take no more than `most` bytes.
-  std::size_t within(std::uint64_t most) const;
+  /// How many of them are worth so much.
+  std::size_t worth_at_least(double least) const;
 };
 
 /// By part of the mesh: heat per byte of its surface, ray tracing stage; 0 where there is none.

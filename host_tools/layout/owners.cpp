@@ -99,7 +99,8 @@ class Balanced {
       costs_[cell].cycles = cell_cycles_[cell];
       costs_[cell].bytes = cell_bytes(placement_.polygons_of_cell[cell].size());
       for (const std::uint32_t t : placement_.polygons_of_cell[cell])
-        costs_[cell].bytes += polygon_bytes(mesh_.triangles[t], load_.stage);
+        costs_[cell].bytes += load_.common_surface.empty() ? polygon_bytes(mesh_.triangles[t], load_.stage)
+                                                           : shape_bytes(mesh_, mesh_.triangles[t], load_.stage);
     }
   }
 

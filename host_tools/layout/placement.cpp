@@ -87,11 +87,6 @@ std::optional<std::uint32_t> Placement::local_polygon(PeNumber pe, std::uint32_t
   return std::nullopt;
 }
 
-bool Placement::is_common_polygon(std::uint32_t triangle) const {
-  const auto& polygons = polygons_of_pe.front();
-  return std::binary_search(polygons.begin(), polygons.begin() + common_polygons, triangle);
-}
-
 Placement Placement::with_nobody() const {
   Placement more = *this;
   const auto first = [](const auto& list, std::uint32_t count) {
@@ -101,6 +96,7 @@ Placement Placement::with_nobody() const {
   more.polygons_of_pe.push_back(first(polygons_of_pe.front(), common_polygons));
   more.patches_of_pe.emplace_back();
   more.kept_by_pe.emplace_back();
+  if (!surfaces_with_keepers.empty()) more.surfaces_with_keepers.push_back(common_surfaces_with_keepers);
   return more;
 }
 

@@ -28,6 +28,11 @@ struct PatchHome {
 struct SurfaceSize {
   std::uint32_t nodes = 0, lattice = 0;
 
+  SurfaceSize& operator+=(const SurfaceSize& other) {
+    nodes += other.nodes;
+    lattice += other.lattice;
+    return *this;
+  }
   std::uint64_t bytes() const {
     return std::uint64_t{nodes} * sizeof(std::uint32_t) + std::uint64_t{lattice} * sizeof(protocol::LatticeTriangle);
   }
@@ -54,22 +59,22 @@ struct Placement {
   /// Local number -> triangle: those of common cells, ascending, then what else the PE needs, ascending.
   std::vector<std::vector<std::uint32_t>> polygons_of_pe;
   std::uint32_t common_polygons = 0;
-  /// Ray tracing stage, by part of the mesh, of common polygons: who alone has its surface, or kNobody: every PE has
-  /// it. Empty: every PE, all of them.
+  /// Ray tracing stage, by part of the mesh: who alone has its surface, or kNobody: every PE that has its polygon.
+  /// Empty: kNobody for all.
   std::vector<protocol::PeNumber> keeper_of_part;
   std::vector<std::uint32_t> place_of_part;               ///< where one is kept, among those of its keeper
   std::vector<std::vector<std::uint32_t>> kept_by_pe;     ///< parts, by place
-  SurfaceSize kept_surfaces;                              ///< of all those
+  std::vector<SurfaceSize> surfaces_with_keepers;         ///< by PE: of its polygons, whoever keeps them
+  SurfaceSize common_surfaces_with_keepers;               ///< the same of common polygons
   std::vector<std::vector<std::uint32_t>> patches_of_pe;  ///< ascending: local number -> global patch
   std::vector<PatchHome> patch_home;                      ///< by global patch
   std::uint64_t filled_cells = 0;
 
   /// Absent: the PE does not have it.
   std::optional<std::uint32_t> local_polygon(protocol::PeNumber pe, std::uint32_t triangle) const;
-  bool is_common_polygon(std::uint32_t triangle) const;
-  /// Of a common polygon: every PE has the part's surface.
-  bool is_everywhere(std::uint32_t part) const {
-    return keeper_of_part.empty() || keeper_of_part[part] == protocol::kNobody;
+  /// Or every PE has the part's surface that has its polygon.
+  bool has_keeper(std::uint32_t part) const {
+    return !keeper_of_part.empty() && keeper_of_part[part] != protocol::kNobody;
   }
   /// The same with one PE more behind the others, which has what all have, and nothing of its own.
   Placement with_nobody() const;
@@ -98,7 +103,7 @@ struct StageLoad {
   protocol::Stage stage = protocol::Stage::radiosity;
   const Heat* heat = nullptr;          ///< for `balanced`; null: by memory alone
   std::vector<bool> common_cell = {};  ///< empty: none
-  /// Ray tracing stage, by part of the mesh: if its polygon is common, its surface is, too. Empty: all.
+  /// Ray tracing stage, by part of the mesh: its surface stands wherever its polygon does. Empty: all.
   std::vector<bool> common_surface = {};
   /// `balanced` gives a PE at most so many times the mean of its own memory, but what is owned by one cell.
   double most_memory = kMostMemory;

@@ -9,8 +9,8 @@
 #include "emulator/errors.hpp"
 #include "firmware/protocol/store_names.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/copies.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
-#include "host_tools/layout/keepers.hpp"
 
 namespace torolux {
 namespace {
@@ -167,7 +167,7 @@ class ImageWriter {
       polygon.material = static_cast<std::uint16_t>(triangle.material);
       polygon.sides = triangle.sides;
       polygon.patch_level = triangle.patch_level;
-      if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_surface(*lattice, t, local) : references;
+      if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_surface(*lattice, t) : references;
       if (triangle.sides != 0) references += protocol::triangles_of_level(triangle.patch_level);
       put(layout_.polygons, local, polygon);
     }
@@ -185,18 +185,19 @@ class ImageWriter {
     }
   }
 
-  /// Returns the node of the polygon's tree. local: of the polygon.
-  std::uint32_t write_surface(const Lattice& lattice, std::uint32_t t, std::size_t local) {
-    const bool common = local < placement_.common_polygons;
+  /// Returns the node of the polygon's tree.
+  std::uint32_t write_surface(const Lattice& lattice, std::uint32_t t) {
     return write_polygon_tree(mesh_.triangles[t], 0, 0, [&](std::uint32_t part) {
-      if (!common || placement_.is_everywhere(part)) return write_lattice(lattice, part);
+      if (!placement_.has_keeper(part)) return write_lattice(lattice, part);
       return protocol::kept_leaf(placement_.keeper_of_part[part], placement_.place_of_part[part]);
     });
   }
 
   void write_kept(const Lattice& lattice) {
     for (std::size_t place = 0; place < placement_.kept_by_pe[pe_].size(); ++place) {
-      put(layout_.kept, place, write_lattice(lattice, placement_.kept_by_pe[pe_][place]));
+      const std::uint32_t part = placement_.kept_by_pe[pe_][place];
+      const std::uint32_t polygon = local_polygon(mesh_.facets[mesh_.parts[part].facet].triangle);
+      put(layout_.kept, place, protocol::KeptSurface{polygon, write_lattice(lattice, part)});
     }
   }
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "firmware/protocol/triangle_grid.hpp"
-#include "host_tools/layout/keepers.hpp"
+#include "host_tools/layout/copies.hpp"
 #include "host_tools/layout/polygon_groups.hpp"
 
 namespace torolux {
@@ -25,9 +25,9 @@ struct Counts {
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
 };
 
-/// Takes away what of the common polygons' surfaces others keep.
+/// Takes away what of the polygons' surfaces others keep.
 void leave_to_keepers(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Counts& counts) {
-  const SurfaceSize& all = placement.kept_surfaces;
+  const SurfaceSize& all = placement.surfaces_with_keepers[pe];
   counts.nodes -= all.nodes;
   counts.lattice -= all.lattice;
   for (const std::uint32_t part : placement.kept_by_pe[pe]) {
@@ -153,7 +153,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
   layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(protocol::HemicubeEntry));
   layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
-  layout.kept = allocator.place("kept surfaces", counts.kept, sizeof(std::uint32_t));
+  layout.kept = allocator.place("kept surfaces", counts.kept, sizeof(protocol::KeptSurface));
   layout.textures = allocator.place("textures", counts.textures, sizeof(protocol::Texture));
   layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));
   layout.texture_points = allocator.place("texture points", counts.texture_points, sizeof(protocol::TexturePoint));

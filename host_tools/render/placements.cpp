@@ -3,11 +3,11 @@
 #include "host_tools/render/placements.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/copies.hpp"
-#include "host_tools/layout/keepers.hpp"
 #include "host_tools/render/camera_sample.hpp"
 #include "host_tools/render/sample_heat.hpp"
 
@@ -64,9 +64,11 @@ class Chooser {
       result.radiosity = place(Stage::radiosity, {}, {}, most_memory);
       result.ray_tracing = place(Stage::ray_tracing, {}, {}, most_memory);
       settle_memory(result);
+      const std::uint32_t memory = result.memory.value_or(machine_.pe_memory.value_or(protocol::kLargestLocalMemory));
+      copy(Stage::ray_tracing, memory, most_memory, result.ray_tracing, result.ray_tracing_copies);
+      if (!result.memory) settle_memory(result);
       if (!result.memory) continue;
-      copy(Stage::radiosity, *result.memory, most_memory, result.radiosity, result.radiosity_copies);
-      copy(Stage::ray_tracing, *result.memory, most_memory, result.ray_tracing, result.ray_tracing_copies);
+      copy(Stage::radiosity, memory, most_memory, result.radiosity, result.radiosity_copies);
       settle_memory(result);
       break;
     }
@@ -98,6 +100,12 @@ class Chooser {
     return share;
   }
 
+  MemoryNeed need_of(const Placement& placement, Stage stage) const {
+    MemoryNeed need;
+    need.add(mesh_, placement, stage, parameters_, map_);
+    return need;
+  }
+
   /// Puts as many copies into `placement` as fit.
   void copy(Stage stage, std::uint32_t memory, double most_memory, Placement& placement, StageCopies& copies) const {
     if (choice_.torus.pes() == 1 || heat(stage).empty()) return;
@@ -105,28 +113,36 @@ class Chooser {
     std::vector<double> surfaces;
     if (stage == Stage::ray_tracing) surfaces = worth_of_surfaces(mesh_, heat_of_surfaces(heat(stage)));
     const double most = machine_.replicate.value_or(1) * memory;
-    const auto try_with = [&](double least_worth) {
-      const auto count = static_cast<std::size_t>(
-          std::partition_point(order.worth.begin(), order.worth.end(), [&](double w) { return w >= least_worth; }) -
-          order.worth.begin());
-      if (count == 0) return false;
-      StageCopies chosen{count, order.bytes[count - 1]};
+    const auto try_with = [&](double least_of_cells, double least_of_surfaces) {
+      const std::size_t count = order.worth_at_least(least_of_cells);
+      if (count == 0 && surfaces.empty()) return false;
+      StageCopies chosen{count, count > 0 ? order.bytes[count - 1] : 0};
       std::vector<bool> everywhere(surfaces.size());
       for (std::uint32_t part = 0; part < surfaces.size(); ++part) {
-        everywhere[part] = surfaces[part] >= least_worth && surfaces[part] > 0;
-        if (everywhere[part]) chosen.bytes += surface_size(mesh_, part).bytes();
+        everywhere[part] = surfaces[part] >= least_of_surfaces && surfaces[part] > 0;
       }
-      if (static_cast<double>(chosen.bytes) > most) return false;
       Placement with = place(stage, order.first(count, lists_.grid.count()), std::move(everywhere), most_memory);
-      MemoryNeed need;
-      need.add(mesh_, with, stage, parameters_, map_);
-      if (need.most() > memory || most_kept(with) > protocol::kMostKept) return false;
+      if (!surfaces.empty()) chosen.bytes += bytes_of_common_surfaces(with);
+      if (static_cast<double>(chosen.bytes) > most) return false;
+      if (need_of(with, stage).most() > memory || most_kept(with) > protocol::kMostKept) return false;
       placement = std::move(with);
       for (const auto& kept : placement.kept_by_pe) chosen.kept += kept.size();
       copies = chosen;
       return true;
     };
-    if (try_with(0)) return;
+    if (try_with(0, 0)) return;
+    // Where whole surfaces do not fit with all who own a cell of theirs, copies of shapes alone may.
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    double least_of_cells = kNone;
+    if (stage == Stage::ray_tracing && need_of(placement, stage).most() > memory) {
+      std::size_t count = order.cells.size();
+      const auto worth = [&] { return count > 0 ? order.worth[count - 1] : kNone; };
+      while (!try_with(worth(), kNone)) {
+        if (count == 0) return;
+        count = count * 3 / 4;
+      }
+      least_of_cells = worth();
+    }
     std::vector<double> worths = order.worth;
     for (const double worth : surfaces) {
       if (worth > 0) worths.push_back(worth);
@@ -136,8 +152,18 @@ class Chooser {
     std::size_t too_many = worths.size();
     for (int step = 0; step < kSearchSteps && enough + 1 < too_many; ++step) {
       const std::size_t middle = enough + (too_many - enough) / 2;
-      (try_with(worths[middle]) ? enough : too_many) = middle;
+      (try_with(std::min(worths[middle], least_of_cells), worths[middle]) ? enough : too_many) = middle;
     }
+  }
+
+  /// Of those without a keeper.
+  std::uint64_t bytes_of_common_surfaces(const Placement& placement) const {
+    std::uint64_t bytes = 0;
+    for (std::uint32_t local = 0; local < placement.common_polygons; ++local) {
+      const MeshTriangle& triangle = mesh_.triangles[placement.polygons_of_pe.front()[local]];
+      bytes += polygon_bytes(triangle, Stage::ray_tracing) - shape_bytes(mesh_, triangle, Stage::ray_tracing);
+    }
+    return bytes - placement.common_surfaces_with_keepers.bytes();
   }
 
   static std::size_t most_kept(const Placement& placement) {

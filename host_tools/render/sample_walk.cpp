@@ -263,9 +263,7 @@ void SampleWalker::see(const Meeting& met) {
   if (met.triangle->sides == 0) return;
   const std::uint32_t part = part_at(met);
   if (heat_ != nullptr) heat_->surfaces[part] += static_cast<double>(records_);
-  if (placement_.is_everywhere(part) || at_ == placement_.keeper_of_part[part]) return;
-  const auto triangle = static_cast<std::uint32_t>(met.triangle - mesh_.triangles.data());
-  if (!placement_.is_common_polygon(triangle)) return;
+  if (!placement_.has_keeper(part) || at_ == placement_.keeper_of_part[part]) return;
   at_ = placement_.keeper_of_part[part];
   work().hand_overs += 1;
 }

@@ -178,9 +178,10 @@ TEST(Malformed, KeptSurfacesThatDoNotHoldAreRefused) {
   const std::vector<std::function<void(PeStores&)>> changes = {
       [](PeStores& s) { s.polygons[0].surface = protocol::kept_leaf(0, static_cast<std::uint32_t>(s.kept.size())); },
       [](PeStores& s) { s.polygons[0].surface = protocol::kept_leaf(1, 0); },
-      [](PeStores& s) { s.kept[0] = protocol::kLeaf | static_cast<std::uint32_t>(s.lattice.size()); },
-      [](PeStores& s) { s.kept[0] = protocol::kept_leaf(0, 0); },  // once more the same
-      [](PeStores& s) { s.kept[0] = static_cast<std::uint32_t>(s.nodes.size()); },
+      [](PeStores& s) { s.kept[0].node = protocol::kLeaf | static_cast<std::uint32_t>(s.lattice.size()); },
+      [](PeStores& s) { s.kept[0].node = protocol::kept_leaf(0, 0); },  // once more the same
+      [](PeStores& s) { s.kept[0].node = static_cast<std::uint32_t>(s.nodes.size()); },
+      [](PeStores& s) { s.kept[0].polygon = static_cast<std::uint32_t>(s.polygons.size()); },
   };
   TestScene scene = small_scene();
   scene.keep_surfaces = true;
@@ -497,28 +498,38 @@ TEST(Malformed, RaysThatNameWhatIsNotThereAreRefused) {
   EXPECT_EQ(ray([](RayRecord& r) { r.waiting = 3; }), bad);
   EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::point; }), bad);
   EXPECT_EQ(ray([](RayRecord& r) { r.kind = protocol::RecordKind::deposit; }), bad);
-  const auto shade = [](RayRecord& r, std::uint32_t polygon) {
-    r.kind = protocol::RecordKind::shade;
-    r.target = polygon;
-  };
-  EXPECT_EQ(ray([&](RayRecord& r) { shade(r, 0xFFFF'FFFF); }), bad);
-  EXPECT_EQ(ray([&](RayRecord& r) {
-              shade(r, 0);
-              r.origin = {-1, -1, -1};
-              r.direction = {0, 0, -1};
-            }),
-            bad)
-      << "it does not meet the polygon";
-  EXPECT_EQ(ray([&](RayRecord& r) {
-              shade(r, 0);
-              r.flags = protocol::kShadow;
-            }),
-            bad);
   EXPECT_EQ(ray([](RayRecord& r) {
               r.waiting = 1;
               r.branches[0].place = protocol::cell_code(0, 0, 2);
             }),
             bad);
+}
+
+// Of two PEs each keeps every other polygon's surface.
+TEST(Malformed, RaysToBeShadedWhereTheSurfaceIsNotKeptAreRefused) {
+  const std::uint32_t bad = code(FaultCode::bad_record);
+  TestScene scene = small_scene();
+  scene.pes = 2;
+  scene.keep_surfaces = true;
+  const auto ray = [&scene](const std::function<void(RayRecord&)>& change, std::uint32_t kept = 0) {
+    FakeMachine machine(2);
+    machine.load(scene, Stage::ray_tracing, 64, 1, [kept](PeStores& s) { s.kept[0].polygon = kept; });
+    for (std::uint16_t p = 0; p < 2; ++p) machine.message(p, MessageKind::begin);
+    machine.run();
+    const auto& corner = machine.stores[0].polygons[kept].corner;
+    RayRecord r{};
+    r.kind = protocol::RecordKind::shade;
+    r.origin = {0.5F, 0.5F, 0.5F};
+    const glm::vec3 to = (pe::to_vector(corner[0]) + pe::to_vector(corner[1]) + pe::to_vector(corner[2])) / 3.0F;
+    r.direction = pe::to_array(glm::normalize(to - pe::to_vector(r.origin)));
+    change(r);
+    return fault_of([&] { send(machine, r); });
+  };
+  EXPECT_EQ(ray([](RayRecord&) {}), 0U);
+  EXPECT_EQ(ray([](RayRecord& r) { r.target = 0xFFFF'FFFF; }), bad);
+  EXPECT_EQ(ray([](RayRecord& r) { r.origin = {-1, 2, 3}; }), bad) << "it does not meet the polygon";
+  EXPECT_EQ(ray([](RayRecord& r) { r.flags = protocol::kShadow; }), bad);
+  EXPECT_EQ(ray([](RayRecord&) {}, 1), bad) << "the other one keeps it: the ray would go to and fro";
 }
 
 // Random bytes in records that look well-formed, NaN and infinities among them, and in messages.

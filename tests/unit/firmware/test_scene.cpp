@@ -117,8 +117,8 @@ class Builder {
         const protocol::Vec3f value{lattice_value_, lattice_value_, lattice_value_};
         out.lattice.resize(leaf, {{value, value, value}});
         if (!kept) polygon.surface = tree;
-        out.kept.resize(number / scene_.pes + 1, protocol::kLeaf);
-        out.kept.back() = tree;
+        out.kept.resize(number / scene_.pes + 1, {0, protocol::kLeaf});
+        out.kept.back() = {static_cast<std::uint32_t>(out.polygons.size()), tree};
       }
     } else {
       polygon.surface = static_cast<std::uint32_t>(out.references.size());

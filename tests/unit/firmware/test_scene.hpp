@@ -80,7 +80,7 @@ struct PeStores {
   std::vector<protocol::Facet> facets;
   std::vector<protocol::HemicubeEntry> hemicube;
   std::vector<protocol::LatticeTriangle> lattice;  ///< all `lattice_value`
-  std::vector<std::uint32_t> kept;
+  std::vector<protocol::KeptSurface> kept;
   std::vector<protocol::Texture> textures;  ///< none, as those that follow
   std::vector<protocol::Texel> texels;
   std::vector<protocol::TexturePoint> texture_points;

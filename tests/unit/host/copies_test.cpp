@@ -71,13 +71,9 @@ TEST_F(Copies, BytesAreThoseOfTheStores) {
     const CopyOrder all = order(stage);
     ASSERT_EQ(all.cells.size(), all.bytes.size());
     for (const std::size_t count : {std::size_t{1}, std::size_t{9}, all.cells.size()}) {
-      // A PE that owns nothing has the copies alone.
       const Placement placement = placed({1, 2}, stage, all.first(count, grid_.count()), nullptr, "block");
-      Placement alone = placement;
-      alone.cells_of_pe[0].resize(placement.common_cells);
-      alone.polygons_of_pe[0].resize(placement.common_polygons);
-      alone.kept_by_pe[0].clear();
-      EXPECT_EQ(all.bytes[count - 1], bytes_of(lay_out(mesh_, alone, 0, stage, {}, kMap), stores)) << count;
+      const Placement more = placement.with_nobody();
+      EXPECT_EQ(all.bytes[count - 1], bytes_of(lay_out(mesh_, more, 2, stage, {}, kMap), stores)) << count;
     }
   }
 }
@@ -88,16 +84,16 @@ TEST_F(Copies, AreTakenByHeatPerByteAndWithinABudget) {
   EXPECT_EQ(all.cells.size(), static_cast<std::size_t>(filled)) << "all but the empty ones, each once";
   EXPECT_EQ(std::set<CellIndex>(all.cells.begin(), all.cells.end()).size(), all.cells.size());
   EXPECT_TRUE(std::is_sorted(all.bytes.begin(), all.bytes.end()));
-  for (const std::uint64_t most : {std::uint64_t{0}, all.bytes[4], all.bytes[4] + 1, ~std::uint64_t{0}}) {
-    const std::size_t count = all.within(most);
-    EXPECT_TRUE(count == 0 || all.bytes[count - 1] <= most);
-    EXPECT_TRUE(count == all.cells.size() || all.bytes[count] > most);
+  for (const double least : {0.0, all.worth[4], all.worth[4] * 1.0001, 1e30}) {
+    const std::size_t count = all.worth_at_least(least);
+    EXPECT_TRUE(count == 0 || all.worth[count - 1] >= least);
+    EXPECT_TRUE(count == all.cells.size() || all.worth[count] < least);
   }
   // In half of the bytes that all need there is more heat than in what cells in the order of their numbers put there.
   const std::vector<double> heat = heat_of_cells(heat_);
   const std::uint64_t half = all.bytes.back() / 2;
   double hottest = 0;
-  for (std::size_t i = 0; i < all.within(half); ++i) hottest += heat[all.cells[i]];
+  for (std::size_t i = 0; all.bytes[i] <= half; ++i) hottest += heat[all.cells[i]];
   EXPECT_GT(hottest, 1.2 * heat_in_turn(heat, half));
   EXPECT_EQ(order(Stage::radiosity).cells, all.cells) << "the same every time";
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/copies.hpp"
 #include "host_tools/layout/stage_image.hpp"
 #include "host_tools/render/sample_heat.hpp"
 #include "tests/unit/host/test_scenes.hpp"
@@ -89,7 +90,7 @@ TEST_F(Keepers, EveryPeFindsTheLightOrItsKeeper) {
       const PeLoad made = load(placement, pe, nullptr);
       EXPECT_EQ(load(placement, pe, &common).image, made.image) << "begun with what all have";
       const auto nodes = store_of<std::uint32_t>(made, made.layout.nodes);
-      const auto kept = store_of<std::uint32_t>(made, made.layout.kept);
+      const auto kept = store_of<protocol::KeptSurface>(made, made.layout.kept);
       const auto light = store_of<protocol::LatticeTriangle>(made, made.layout.lattice);
       const auto polygons = store_of<protocol::Polygon>(made, made.layout.polygons);
       for (std::size_t p = 0; p < polygons.size(); ++p) {
@@ -98,12 +99,13 @@ TEST_F(Keepers, EveryPeFindsTheLightOrItsKeeper) {
           protocol::Weights at{1 - b1 - b2, b1, b2};
           std::uint32_t leaf = protocol::find_leaf(nodes.data(), polygons[p].surface, at);
           if ((leaf & protocol::kKept) != 0) {
-            EXPECT_LT(p, placement.common_polygons);
             if (protocol::keeper_of(leaf) != pe) {
               ++elsewhere;
               continue;
             }
-            leaf = protocol::find_leaf(nodes.data(), kept.at(protocol::kept_part(leaf)), at);
+            const protocol::KeptSurface& surface = kept.at(protocol::kept_place(leaf));
+            EXPECT_EQ(surface.polygon, p);
+            leaf = protocol::find_leaf(nodes.data(), surface.node, at);
           }
           const std::uint32_t first = lattice_.first[mesh_.facet_at(polygons[p].number, b1, b2)];
           for (std::uint32_t side = 0; side < (polygons[p].sides == 3 ? 2U : 1U); ++side) {
