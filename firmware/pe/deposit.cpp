@@ -27,14 +27,15 @@ bool deposit(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   protocol::Weights at{(1.0F - hit.b1) - hit.b2, hit.b1, hit.b2};
   const std::uint32_t path = protocol::enter_level(at, polygon.patch_level);
   const protocol::PatchReference& owner = pe.scene.patch_references[polygon.surface + path];
-  const std::uint32_t element = protocol::find_leaf(pe.scene.nodes.data(), owner.tree, at);
   if (owner.pe == niu.pe()) {
-    add_to_element(pe, owner.patch, element, hit.front ? 0 : 1, (record.flags & protocol::kDirect) != 0, record.flux);
-    return leave_element(pe, niu, slot, owner.patch);
+    const protocol::PatchPart& part = pe.scene.patch_parts[owner.part];
+    const std::uint32_t element = protocol::find_leaf(pe.scene.nodes.data(), part.tree, at);
+    add_to_element(pe, part.patch, element, hit.front ? 0 : 1, (record.flags & protocol::kDirect) != 0, record.flux);
+    return leave_element(pe, niu, slot, part.patch);
   }
   record.kind = protocol::RecordKind::deposit;
-  record.place = owner.patch;
-  record.polygon = element;
+  record.place = owner.part;
+  record.polygon = protocol::way_to_leaf(at, owner.levels);
   record.flags = static_cast<std::uint8_t>((record.flags & (protocol::kDirect | protocol::kGoesOn)) |
                                            (hit.front ? 0U : protocol::kBackSide));
   pe.outbox.put(niu, pe.slots, owner.pe, slot);

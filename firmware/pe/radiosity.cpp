@@ -7,6 +7,7 @@
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux::pe {
 namespace {
@@ -85,11 +86,10 @@ void choose_lobe(const Pe& pe, RadiosityRecord& record, const Hit& hit) {
 
 void check_deposit(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
   const Scene& scene = pe.scene;
-  require(niu, record.place < scene.patches.size(), RecordField::patch, record.place);
-  const protocol::Patch& patch = scene.patches[record.place];
+  require(niu, record.place < scene.patch_parts.size(), RecordField::part, record.place);
+  const protocol::Patch& patch = scene.patches[scene.patch_parts[record.place].patch];
   const std::uint32_t side = (record.flags & protocol::kBackSide) != 0 ? 1U : 0U;
   require(niu, patch.side[side] != protocol::kNoSide, RecordField::side, side);
-  require(niu, record.polygon < patch.elements, RecordField::element, record.polygon);
 }
 
 void check_flux(Niu& niu, const protocol::Flux& record_flux) {
@@ -128,9 +128,11 @@ void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
     return;
   }
   const PhaseMark<Phase::deposit> mark(niu);
-  add_to_element(pe, record.place, record.polygon, (record.flags & protocol::kBackSide) != 0 ? 1 : 0,
+  const protocol::PatchPart& part = pe.scene.patch_parts[record.place];
+  const std::uint32_t element = protocol::leaf_on_way(pe.scene.nodes.data(), part.tree, record.polygon);
+  add_to_element(pe, part.patch, element, (record.flags & protocol::kBackSide) != 0 ? 1 : 0,
                  (record.flags & protocol::kDirect) != 0, record.flux);
-  if (leave_element(pe, niu, slot, record.place)) follow_light(pe, niu, slot);
+  if (leave_element(pe, niu, slot, part.patch)) follow_light(pe, niu, slot);
 }
 
 bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch) {

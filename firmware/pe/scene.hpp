@@ -24,6 +24,7 @@ struct Scene {
   std::span<const std::uint32_t> nodes;
   // Radiosity stage.
   std::span<const protocol::PatchReference> patch_references;
+  std::span<const protocol::PatchPart> patch_parts;
   std::span<const protocol::Patch> patches;
   std::span<protocol::PatchSide> patch_sides;
   std::span<protocol::Element> elements;
@@ -51,6 +52,7 @@ struct Scene {
     normals = memory.store<const protocol::Vec3f>(layout.normals);
     nodes = memory.store<const std::uint32_t>(layout.nodes);
     patch_references = memory.store<const protocol::PatchReference>(layout.patch_references);
+    patch_parts = memory.store<const protocol::PatchPart>(layout.patch_parts);
     patches = memory.store<const protocol::Patch>(layout.patches);
     patch_sides = memory.store<protocol::PatchSide>(layout.patch_sides);
     elements = memory.store<protocol::Element>(layout.elements);

@@ -34,7 +34,8 @@ enum class Index : std::uint32_t {
   leaf,
   kept,
   reference_pe,
-  reference_patch,
+  reference_part,
+  patch,
   reference_side,
   facet,
   facet_polygon,
@@ -67,6 +68,7 @@ class Verifier {
     check_textures();
     check_emitters();
     if (scene_.layout.stage != Stage::radiosity) return;
+    for (const protocol::PatchPart& part : scene_.patch_parts) check(part);
     for (const protocol::Patch& patch : scene_.patches) check(patch);
     check_hemicube();
   }
@@ -211,12 +213,7 @@ class Verifier {
     }
     require(depth < protocol::kMostLevels, Index::tree_depth, node, protocol::kMostLevels);
     range(Index::node, node, 4, scene_.nodes.size());
-    const auto children = scene_.nodes.subspan(node, 4);
-    // Any leaf is below the greatest limit, that of other PEs' patches.
-    if (limit == protocol::kLeaf && (children[0] & children[1] & children[2] & children[3] & protocol::kLeaf) != 0) {
-      return;
-    }
-    for (const std::uint32_t child : children) {
+    for (const std::uint32_t child : scene_.nodes.subspan(node, 4)) {
       // Four out of five are leaves: no call for those.
       if ((child & protocol::kLeaf) != 0) {
         below(Index::leaf, child & ~protocol::kLeaf, limit);
@@ -225,21 +222,22 @@ class Verifier {
       }
     }
   }
-  /// Where this PE owns the patch, it has the sides and elements that the polygon promises. Of another PE's patch only
-  /// that PE knows.
+  /// Where this PE owns the patch, it has the sides that the polygon promises. Of another PE's only that PE knows.
   void check(const Polygon& p, const protocol::PatchReference& reference) {
     below(Index::reference_pe, reference.pe, niu_.pes());
-    std::size_t elements = protocol::kLeaf;
-    if (reference.pe == niu_.pe()) {
-      below(Index::reference_patch, reference.patch, scene_.patches.size());
-      const protocol::Patch& patch = scene_.patches[reference.patch];
-      elements = patch.elements;
-      for (std::uint32_t side = 0; side < 2; ++side) {
-        const bool promised = (p.sides & (1U << side)) != 0;
-        require(!promised || patch.side[side] != protocol::kNoSide, Index::reference_side, reference.patch, side);
-      }
+    require(reference.levels <= protocol::kMostLevels, Index::level, reference.levels, protocol::kMostLevels);
+    if (reference.pe != niu_.pe()) return;
+    below(Index::reference_part, reference.part, scene_.patch_parts.size());
+    const std::uint32_t number = scene_.patch_parts[reference.part].patch;
+    below(Index::patch, number, scene_.patches.size());
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      const bool promised = (p.sides & (1U << side)) != 0;
+      require(!promised || scene_.patches[number].side[side] != protocol::kNoSide, Index::reference_side, number, side);
     }
-    check_tree(reference.tree, elements, p.patch_level);
+  }
+  void check(const protocol::PatchPart& part) {
+    below(Index::patch, part.patch, scene_.patches.size());
+    check_tree(part.tree, scene_.patches[part.patch].elements, 0);
   }
 
   void check(const protocol::Material& material) {

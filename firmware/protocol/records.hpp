@@ -50,8 +50,8 @@ struct RadiosityRecord {
   Vec3f origin;
   Vec3f direction;  ///< unit length
   Flux flux;
-  std::uint32_t place;    ///< cell code of the subspace that it enters; deposit: the owner's number of the patch
-  std::uint32_t polygon;  ///< global number of the polygon that it left, or kNoPolygon; deposit: element of the patch
+  std::uint32_t place;    ///< cell code of the subspace that it enters; deposit: of the owner's parts of patches
+  std::uint32_t polygon;  ///< global number of the polygon that it left, or kNoPolygon; deposit: way_to_leaf
   std::uint32_t key;      ///< random numbers of this record: hash of (seed, patch, shot, point, pixel); kGoesOn: global
                           ///< number of the polygon that it leaves
   RecordKind kind;

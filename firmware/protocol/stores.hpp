@@ -74,14 +74,20 @@ static_assert(sizeof(Material) == 120);
 
 // ---- Radiosity stage only ----
 
-/// The patch that a level-patch_level triangle of a polygon belongs to, and how it is cut into the patch's elements.
+/// Of a level-patch_level triangle of a polygon: who owns the patch that it belongs to.
 struct PatchReference {
-  std::uint32_t patch;  ///< local number at `pe`
+  std::uint32_t part;  ///< place among the owner's parts
   PeNumber pe;
-  std::uint16_t unused;
-  std::uint32_t tree;  ///< node (triangle_grid.hpp) whose leaves are elements of the patch
+  std::uint16_t levels;  ///< at least the depth of the part's tree
 };
-static_assert(sizeof(PatchReference) == 12);
+static_assert(sizeof(PatchReference) == 8);
+
+/// What of a polygon belongs to a patch, at its owner, and how it is cut into the patch's elements.
+struct PatchPart {
+  std::uint32_t patch;  ///< local
+  std::uint32_t tree;   ///< node (triangle_grid.hpp) whose leaves are elements of the patch
+};
+static_assert(sizeof(PatchPart) == 8);
 
 inline constexpr std::uint32_t kNoSide = 0xFFFF'FFFFU;
 
@@ -240,6 +246,7 @@ struct StageLayout {
   std::uint32_t bounces;                        ///< path segments after which light is cut off
   // Radiosity stage (counts 0 in the other).
   Store patch_references;         ///< PatchReference[]
+  Store patch_parts;              ///< PatchPart[], of patches that this PE owns
   Store patches;                  ///< Patch[]
   Store patch_sides;              ///< PatchSide[]
   Store elements;                 ///< Element[]
@@ -263,6 +270,6 @@ struct StageLayout {
   float least_weight;    ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 336);
+static_assert(sizeof(StageLayout) == 344);
 
 }  // namespace torolux::protocol

@@ -100,6 +100,24 @@ constexpr std::uint32_t find_leaf(const std::uint32_t* nodes, std::uint32_t node
   return node & ~kLeaf;
 }
 
+/// Children that hold the point, `levels` deep, coarsest first, two bits each from the top of the word on: with them
+/// another PE finds the same leaf of a tree that is no deeper.
+constexpr std::uint32_t way_to_leaf(Weights& at, std::uint32_t levels) {
+  std::uint32_t way = 0;
+  for (std::uint32_t shift = 32; levels > 0; --levels) {
+    shift -= 2U;
+    way |= enter_child(at) << shift;
+  }
+  return way;
+}
+constexpr std::uint32_t leaf_on_way(const std::uint32_t* nodes, std::uint32_t node, std::uint32_t way) {
+  while ((node & kLeaf) == 0) {
+    node = nodes[node + (way >> 30U)];
+    way <<= 2U;
+  }
+  return node & ~kLeaf;
+}
+
 /// The same leaf; `code` is continued by its place in the grid, from that of the triangle with which the tree begins.
 constexpr std::uint32_t find_leaf(const std::uint32_t* nodes, std::uint32_t node, Weights& at, std::uint32_t& code) {
   while ((node & kLeaf) == 0) {

@@ -94,9 +94,9 @@ std::uint64_t polygon_bytes(const MeshTriangle& triangle, Stage stage) {
   if (!radiosity && triangle.texture != protocol::kNoTexture) bytes += 3 * sizeof(protocol::TexturePoint);
   if (triangle.sides == 0) return bytes;
   const std::uint32_t parts = protocol::triangles_of_level(triangle.patch_level);
-  // Every four children add three leaves.
-  bytes += (triangle.facets - (radiosity ? parts : 1U)) / 3 * 4 * sizeof(std::uint32_t);
   if (radiosity) return bytes + parts * sizeof(protocol::PatchReference);
+  // Every four children add three leaves.
+  bytes += (triangle.facets - 1U) / 3 * 4 * sizeof(std::uint32_t);
   return bytes + std::uint64_t{triangle.side_count()} * triangle.facets * sizeof(protocol::LatticeTriangle);
 }
 

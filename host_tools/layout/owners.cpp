@@ -19,7 +19,9 @@ using protocol::Stage;
 constexpr double kEvenly = 0.5;
 
 std::uint64_t patch_bytes(const MeshPatch& patch) {
-  std::uint64_t bytes = sizeof(protocol::Patch) + patch.facets * sizeof(protocol::Facet);
+  // As if it were of one part; every four children add three leaves.
+  std::uint64_t bytes = sizeof(protocol::Patch) + sizeof(protocol::PatchPart) +
+                        patch.facets / 3 * 4 * sizeof(std::uint32_t) + patch.facets * sizeof(protocol::Facet);
   for (const std::uint32_t side : patch.side) {
     if (side != protocol::kNoSide) bytes += sizeof(protocol::PatchSide) + patch.elements * sizeof(protocol::Element);
   }

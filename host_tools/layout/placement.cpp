@@ -65,6 +65,17 @@ void spread_patches(const Mesh& mesh, const std::vector<CellIndex>& patch_cell, 
   }
 }
 
+/// Ray tracing stage: no patches.
+void spread_parts(const Mesh& mesh, Placement& placement) {
+  placement.parts_of_pe.resize(placement.torus.pes());
+  if (placement.patch_home.empty()) return;
+  for (std::uint32_t part = 0; part < mesh.parts.size(); ++part) {
+    std::vector<std::uint32_t>& parts = placement.parts_of_pe[placement.patch_home[mesh.parts[part].patch].pe];
+    placement.local_of_part.push_back(static_cast<std::uint32_t>(parts.size()));
+    parts.push_back(part);
+  }
+}
+
 /// Leaves behind the common polygons those that are not among them.
 void order_polygons(Placement& placement) {
   for (auto& polygons : placement.polygons_of_pe) {
@@ -95,6 +106,7 @@ Placement Placement::with_nobody() const {
   more.cells_of_pe.push_back(first(cells_of_pe.front(), common_cells));
   more.polygons_of_pe.push_back(first(polygons_of_pe.front(), common_polygons));
   more.patches_of_pe.emplace_back();
+  more.parts_of_pe.emplace_back();
   more.kept_by_pe.emplace_back();
   if (!surfaces_with_keepers.empty()) more.surfaces_with_keepers.push_back(common_surfaces_with_keepers);
   return more;
@@ -137,6 +149,7 @@ Placement make_placement(const Mesh& mesh, const CellLists& lists, const Placeme
   placement.pe_of_cell = owners.of_cell;
   spread_cells(placement);
   spread_patches(mesh, patch_cell, owners.of_patch, placement);
+  spread_parts(mesh, placement);
   order_polygons(placement);
   placement.kept_by_pe.resize(placement.torus.pes());
   if (!load.common_surface.empty()) keep_surfaces(mesh, load, placement);

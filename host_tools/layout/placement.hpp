@@ -68,6 +68,8 @@ struct Placement {
   SurfaceSize common_surfaces_with_keepers;               ///< the same of common polygons
   std::vector<std::vector<std::uint32_t>> patches_of_pe;  ///< ascending: local number -> global patch
   std::vector<PatchHome> patch_home;                      ///< by global patch
+  std::vector<std::vector<std::uint32_t>> parts_of_pe;    ///< of those patches, ascending: local -> Mesh::parts
+  std::vector<std::uint32_t> local_of_part;               ///< by part: at its patch's owner
   std::uint64_t filled_cells = 0;
 
   /// Absent: the PE does not have it.

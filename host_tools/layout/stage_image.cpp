@@ -40,6 +40,7 @@ class ImageWriter {
     write_subspaces();
     write_polygons(nullptr);
     write_patch_references();
+    write_patch_parts();
     write_patches();
     if (common_.hemicube.count == 0)
       put_all<protocol::HemicubeEntry>(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
@@ -245,11 +246,26 @@ class ImageWriter {
       if (triangle.sides == 0) continue;
       for (std::uint32_t path = 0; path < protocol::triangles_of_level(triangle.patch_level); ++path) {
         const MeshPart& part = mesh_.parts[triangle.first_part + path];
-        const PatchHome& home = placement_.patch_home[part.patch];
-        const std::uint32_t tree =
-            write_tree(part.tree, [&](std::uint32_t leaf) { return mesh_.facets[part.facet + leaf].element; });
-        put(layout_.patch_references, next++, protocol::PatchReference{home.local, home.pe, 0, tree});
+        put(layout_.patch_references, next++,
+            protocol::PatchReference{placement_.local_of_part[triangle.first_part + path],
+                                     placement_.patch_home[part.patch].pe, depth_of(part.tree)});
       }
+    }
+  }
+
+  std::uint16_t depth_of(std::uint32_t node) const {
+    if ((node & protocol::kLeaf) != 0) return 0;
+    std::uint16_t most = 0;
+    for (std::uint32_t child = 0; child < 4; ++child) most = std::max(most, depth_of(mesh_.nodes[node + child]));
+    return static_cast<std::uint16_t>(most + 1);
+  }
+
+  void write_patch_parts() {
+    for (std::size_t local = 0; local < placement_.parts_of_pe[pe_].size(); ++local) {
+      const MeshPart& part = mesh_.parts[placement_.parts_of_pe[pe_][local]];
+      const std::uint32_t tree =
+          write_tree(part.tree, [&](std::uint32_t leaf) { return mesh_.facets[part.facet + leaf].element; });
+      put(layout_.patch_parts, local, protocol::PatchPart{placement_.patch_home[part.patch].local, tree});
     }
   }
 

@@ -20,8 +20,8 @@ using protocol::Store;
 struct Counts {
   std::uint64_t cell_words = 0, cell_entries = 0, subspaces = 0, polygon_list = 0, polygons = 0, materials = 0,
                 normals = 0;
-  std::uint64_t nodes = 0, patch_references = 0, patches = 0, patch_sides = 0, elements = 0, facets = 0, hemicube = 0,
-                lattice = 0, kept = 0;
+  std::uint64_t nodes = 0, patch_references = 0, patch_parts = 0, patches = 0, patch_sides = 0, elements = 0,
+                facets = 0, hemicube = 0, lattice = 0, kept = 0;
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
 };
 
@@ -52,12 +52,11 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
     if (triangle.normals != protocol::kNoPolygon) counts.normals += 3;
     if (triangle.texture != protocol::kNoTexture) counts.texture_points += 3;
     if (triangle.sides == 0) continue;
-    const std::uint32_t parts = protocol::triangles_of_level(triangle.patch_level);
-    // Every four children add three leaves.
-    counts.nodes += (triangle.facets - (stage == Stage::radiosity ? parts : 1U)) / 3 * 4;
     if (stage == Stage::radiosity) {
-      counts.patch_references += parts;
+      counts.patch_references += protocol::triangles_of_level(triangle.patch_level);
     } else {
+      // Every four children add three leaves.
+      counts.nodes += (triangle.facets - 1U) / 3 * 4;
       counts.lattice += std::uint64_t{triangle.side_count()} * triangle.facets;
     }
   }
@@ -81,6 +80,8 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
     }
   }
   counts.patches = placement.patches_of_pe[pe].size();
+  counts.patch_parts = placement.parts_of_pe[pe].size();
+  for (const std::uint32_t part : placement.parts_of_pe[pe]) counts.nodes += surface_size(mesh, part).nodes;
   counts.hemicube = protocol::hemicube_weights(hemicube);
   return counts;
 }
@@ -147,6 +148,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.nodes = allocator.place("nodes", counts.nodes, sizeof(std::uint32_t));
   layout.patch_references =
       allocator.place("patch references", counts.patch_references, sizeof(protocol::PatchReference));
+  layout.patch_parts = allocator.place("parts of patches", counts.patch_parts, sizeof(protocol::PatchPart));
   layout.patches = allocator.place("patches", counts.patches, sizeof(protocol::Patch));
   layout.patch_sides = allocator.place("patch sides", counts.patch_sides, sizeof(protocol::PatchSide));
   layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));

@@ -249,6 +249,7 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.normals, s.normals);
   place(l.nodes, s.nodes);
   place(l.patch_references, s.references);
+  place(l.patch_parts, s.parts);
   place(l.patches, s.patches);
   place(l.patch_sides, s.sides);
   place(l.elements, s.elements);

@@ -338,9 +338,16 @@ TEST(TriangleGrid, TreesMayBeCutUnevenly) {
   using protocol::kLeaf;
   const std::array<std::uint32_t, 8> nodes{4,           kLeaf | 1U,  kLeaf | 2U,  kLeaf | 3U,
                                            kLeaf | 10U, kLeaf | 11U, kLeaf | 12U, kLeaf | 13U};
+  // Whoever knows of the tree only how deep it may be finds the same leaf.
   const auto leaf_at = [&](float b0, float b1) {
-    protocol::Weights at{b0, b1, 1.0F - b0 - b1};
-    return protocol::find_leaf(nodes.data(), 0, at);
+    const protocol::Weights at{b0, b1, 1.0F - b0 - b1};
+    protocol::Weights there = at;
+    const std::uint32_t leaf = protocol::find_leaf(nodes.data(), 0, there);
+    for (const std::uint32_t levels : {2U, 3U, protocol::kMostLevels}) {
+      protocol::Weights on_the_way = at;
+      EXPECT_EQ(protocol::leaf_on_way(nodes.data(), 0, protocol::way_to_leaf(on_the_way, levels)), leaf) << levels;
+    }
+    return leaf;
   };
   EXPECT_EQ(leaf_at(0.9F, 0.05F), 10U);
   EXPECT_EQ(leaf_at(0.6F, 0.35F), 11U);

@@ -143,9 +143,11 @@ TEST(Malformed, IndicesThatLeaveTheirStoresAreRefused) {
       [](PeStores& s) { s.polygons[2].sides = 3; },
       [](PeStores& s) { s.materials[1].kind = protocol::MaterialKind{9}; },
       [](PeStores& s) { s.materials[1].kind = protocol::MaterialKind::glossy; },
-      [](PeStores& s) { s.references[1].patch = 999; },
-      [](PeStores& s) { s.references[1].tree = protocol::kLeaf | 4U; },
-      [](PeStores& s) { s.references[1].tree = 0x1000; },
+      [](PeStores& s) { s.references[1].part = 999; },
+      [](PeStores& s) { s.references[1].levels = protocol::kMostLevels + 1; },
+      [](PeStores& s) { s.parts[1].patch = 999; },
+      [](PeStores& s) { s.parts[1].tree = protocol::kLeaf | 4U; },
+      [](PeStores& s) { s.parts[1].tree = 0x1000; },
       [](PeStores& s) { s.nodes[0] = 0; },  // a child that is its own parent
       [](PeStores& s) { s.nodes[2] = protocol::kLeaf | 4U; },
       [](PeStores& s) { s.references[1].pe = 4; },
@@ -441,16 +443,15 @@ TEST(Malformed, RecordsThatNameWhatIsNotThereAreRefused) {
   EXPECT_EQ(fault([](RadiosityRecord& r) { r.kind = protocol::RecordKind{77}; }), bad);
   EXPECT_EQ(fault([](RadiosityRecord& r) { r.flags = protocol::kEntryAxisMask; }), bad);
   EXPECT_EQ(fault([](RadiosityRecord& r) { r.flux[1] = -1; }), bad);
-  const auto deposit = [&](std::uint32_t patch, std::uint32_t element, std::uint8_t flags) {
+  const auto deposit = [&](std::uint32_t part, std::uint32_t way, std::uint8_t flags) {
     return fault([=](RadiosityRecord& r) {
       r.kind = protocol::RecordKind::deposit;
-      r.place = patch;
-      r.polygon = element;
+      r.place = part;
+      r.polygon = way;
       r.flags = flags;
     });
   };
-  EXPECT_EQ(deposit(0, 3, 0), 0U);
-  EXPECT_EQ(deposit(0, 4, 0), bad);
+  EXPECT_EQ(deposit(0, 0xFFFF'FFFF, 0), 0U) << "any way ends at a leaf";
   EXPECT_EQ(deposit(9999, 0, 0), bad);
   EXPECT_EQ(deposit(0, 0, protocol::kBackSide), bad);
 }

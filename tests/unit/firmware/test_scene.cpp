@@ -123,9 +123,11 @@ class Builder {
     } else {
       polygon.surface = static_cast<std::uint32_t>(out.references.size());
       for (const PatchPlace& place : places_[number]) {
+        const auto levels = static_cast<std::uint16_t>(from.element_level - from.patch_level);
+        out.references.push_back({place.local, place.pe, levels});
+        if (place.pe != pe) continue;
         std::uint32_t element = 0;
-        const std::uint32_t tree = add_tree(out, from.element_level - from.patch_level, 1, element);
-        out.references.push_back({place.local, place.pe, 0, tree});
+        out.parts.push_back({place.local, add_tree(out, levels, 1, element)});
       }
     }
     out.polygons.push_back(polygon);
@@ -297,6 +299,7 @@ pe::Scene PeStores::scene() {
   s.normals = normals;
   s.nodes = nodes;
   s.patch_references = references;
+  s.patch_parts = parts;
   s.patches = patches;
   s.patch_sides = sides;
   s.elements = elements;

@@ -74,6 +74,7 @@ struct PeStores {
   std::vector<protocol::Vec3f> normals;
   std::vector<std::uint32_t> nodes;  ///< uniform trees
   std::vector<protocol::PatchReference> references;
+  std::vector<protocol::PatchPart> parts;
   std::vector<protocol::Patch> patches;
   std::vector<protocol::PatchSide> sides;
   std::vector<protocol::Element> elements;

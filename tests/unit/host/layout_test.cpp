@@ -66,6 +66,7 @@ TEST_F(LayoutTest, StoresAreAlignedAndApart) {
     add(l.polygons, sizeof(protocol::Polygon));
     add(l.materials, sizeof(protocol::Material));
     add(l.patch_references, sizeof(protocol::PatchReference));
+    add(l.patch_parts, sizeof(protocol::PatchPart));
     add(l.patches, sizeof(protocol::Patch));
     add(l.patch_sides, sizeof(protocol::PatchSide));
     add(l.elements, sizeof(protocol::Element));
@@ -159,7 +160,8 @@ TEST_F(LayoutTest, ReferencesNameTheOwnersPatch) {
       for (std::uint32_t path = 0; path < protocol::triangles_of_level(polygon.patch_level); ++path) {
         const auto reference = pe.at<protocol::PatchReference>(l.patch_references, polygon.surface + path);
         const Loaded& owner = pes_[reference.pe];
-        const auto patch = owner.at<protocol::Patch>(owner.layout.layout.patches, reference.patch);
+        const auto owned_part = owner.at<protocol::PatchPart>(owner.layout.layout.patch_parts, reference.part);
+        const auto patch = owner.at<protocol::Patch>(owner.layout.layout.patches, owned_part.patch);
         const MeshPart& part = mesh_.parts[mesh_.triangles[polygon.number].first_part + path];
         EXPECT_EQ(patch.number, part.patch);
         const auto facet = owner.at<protocol::Facet>(owner.layout.layout.facets, patch.first_facet);
