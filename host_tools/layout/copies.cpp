@@ -65,6 +65,9 @@ class Items {
   std::vector<std::vector<std::uint32_t>> of_cell_;
 };
 
+/// Above all ratios of heat per byte.
+constexpr double kMoreThanAShare = 1e12;
+
 /// A cell that may be taken next. Outdated where the cell's bytes have become fewer since.
 struct Offer {
   double heat_per_byte;
@@ -137,12 +140,15 @@ std::size_t CopyOrder::worth_at_least(double least) const {
 }
 
 CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell, Stage stage,
-                     std::span<const double> heat, std::span<const double> lacking) {
+                     std::span<const double> heat, std::span<const double> lacking, double share) {
   Items items(mesh, polygons_of_cell, stage, lacking);
   std::vector<double> bytes(polygons_of_cell.size());
   std::vector<bool> taken(polygons_of_cell.size());
   std::priority_queue<Offer> offers;
-  const auto offer = [&](CellIndex cell) { offers.push({heat[cell] / bytes[cell], cell, bytes[cell]}); };
+  const auto offer = [&](CellIndex cell) {
+    const double factor = heat[cell] > share ? kMoreThanAShare : 1;
+    offers.push({factor * heat[cell] / bytes[cell], cell, bytes[cell]});
+  };
   for (CellIndex cell = 0; cell < bytes.size(); ++cell) {
     if (polygons_of_cell[cell].empty()) continue;
     bytes[cell] = static_cast<double>(cell_bytes(polygons_of_cell[cell].size()));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct CopyOrder {
   std::vector<CellIndex> cells;      ///< those with polygons
   std::vector<std::uint64_t> bytes;  ///< [i]: of each PE's stores for cells[0..i], what they share counted once,
                                      ///< without surfaces
-  std::vector<double> worth;         ///< [i]: heat per byte of cells[i], or of one before it if that is less
+  std::vector<double> worth;         ///< [i]: heat per byte of cells[i] (those with more than a share: times
+                                     ///< kMoreThanAShare), or of one before it if that is less
 
   /// By cell: the first `count` are marked.
   std::vector<bool> first(std::size_t count, std::size_t of_cells) const;
@@ -39,10 +41,12 @@ struct CopyOrder {
 /// By part of the mesh: heat per byte of its surface, ray tracing stage; 0 where there is none.
 std::vector<double> worth_of_surfaces(const Mesh& mesh, std::span<const double> heat);
 
-/// Takes the cell of the greatest heat per byte, again and again. What a cell shares with others that are not taken yet
-/// counts in equal parts; what is already there, nothing. heat: by cell, > 0 where there are polygons. lacking: by
+/// Takes the cell of the greatest heat per byte, again and again; before all others those with more heat than
+/// `share`: their owners would keep the others waiting. What a cell shares with others that are not taken
+/// yet counts in equal parts; what is already there, nothing. heat: by cell, > 0 where there are polygons. lacking: by
 /// polygon, the share of the PEs that would not have it without copies, and for which alone it counts; empty: all.
 CopyOrder copy_order(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> polygons_of_cell,
-                     protocol::Stage stage, std::span<const double> heat, std::span<const double> lacking = {});
+                     protocol::Stage stage, std::span<const double> heat, std::span<const double> lacking = {},
+                     double share = std::numeric_limits<double>::infinity());
 
 }  // namespace torolux

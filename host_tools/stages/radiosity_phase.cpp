@@ -24,6 +24,10 @@ constexpr std::uint32_t kSupply = 2;
 /// Points are dealt in parts when fewer are left for each PE.
 constexpr std::uint64_t kPointsUndivided = 2;
 static_assert(kSupply <= protocol::kPointPlaces);
+/// A round's shots have at least 3/4 of what the least of the last round's had, mostly: PEs need not name those with
+/// less.
+constexpr std::int64_t kExpectedFactor = 3;
+constexpr std::int64_t kExpectedDivisor = 4;
 
 /// Compares of a sort [n log2 n, rounded up].
 std::uint64_t compares_to_sort(std::uint64_t n) {
@@ -48,17 +52,22 @@ RadiosityPhase::RadiosityPhase(RadiositySettings settings)
       credits_(settings_.credits, settings_.pes) {}
 
 void RadiosityPhase::start(HostPort& port) {
-  select(port);
+  begin_selection(port);
 }
 
-void RadiosityPhase::select(HostPort& port) {
+void RadiosityPhase::begin_selection(HostPort& port) {
   state_ = State::selecting;
+  rounds_.push_back({});
+  rounds_.back().begin = port.now();
+  select(port, std::max(settings_.least_unshot, expected_));
+}
+
+void RadiosityPhase::select(HostPort& port, std::int64_t threshold) {
+  threshold_ = threshold;
   answers_ = 0;
   unshot_ = 0;
   candidates_.clear();
-  rounds_.push_back({});
-  rounds_.back().begin = port.now();
-  const protocol::Select message{settings_.shooters, 0, settings_.least_unshot};
+  const protocol::Select message{settings_.shooters, 0, threshold};
   port.broadcast(static_cast<std::uint16_t>(MessageKind::select), std::as_bytes(std::span(&message, 1)));
 }
 
@@ -98,13 +107,23 @@ void RadiosityPhase::take_candidates(HostPort& port, PeNumber source, std::span<
   if (++answers_ == settings_.pes) begin_round(port);
 }
 
+std::uint64_t RadiosityPhase::most_shots() const {
+  if (settings_.max_shots == 0) return settings_.shooters;
+  return std::min<std::uint64_t>(settings_.shooters, settings_.max_shots - shots_);
+}
+
 void RadiosityPhase::begin_round(HostPort& port) {
+  const std::uint64_t most = most_shots();
+  // What PEs have not named has less than all that they have: it is needed only if those are too few.
+  if (candidates_.size() < most && threshold_ > settings_.least_unshot && unshot_ > settings_.enough_unshot) {
+    select(port, settings_.least_unshot);
+    return;
+  }
   port.work(HostWork::compare, compares_to_sort(candidates_.size()));
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Chosen& a, const Chosen& b) { return before(a.candidate, b.candidate); });
-  std::uint64_t most = settings_.shooters;
-  if (settings_.max_shots > 0) most = std::min<std::uint64_t>(most, settings_.max_shots - shots_);
   if (candidates_.size() > most) candidates_.resize(most);
+  expected_ = candidates_.size() < most ? 0 : candidates_.back().candidate.unshot / kExpectedDivisor * kExpectedFactor;
   RoundFigures& round = rounds_.back();
   round.unshot = settings_.emitted > 0 ? static_cast<double>(unshot_) / settings_.emitted : 0;
   port.note(HostGauge::unshot, round.unshot);
@@ -239,7 +258,7 @@ void RadiosityPhase::end_round_if_over(HostPort& port) {
     state_ = State::done;
     return;
   }
-  select(port);
+  begin_selection(port);
 }
 
 const char* RadiosityPhase::waiting_for() const {

@@ -59,7 +59,9 @@ class RadiosityPhase : public Phase {
     bool begun = false;      ///< its owner has been told
   };
 
-  void select(HostPort& port);
+  void begin_selection(HostPort& port);
+  void select(HostPort& port, std::int64_t threshold);
+  std::uint64_t most_shots() const;
   void take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   void begin_round(HostPort& port);
   void add_shots();
@@ -75,6 +77,8 @@ class RadiosityPhase : public Phase {
   std::vector<Chosen> candidates_;
   unsigned answers_ = 0;  ///< PEs whose candidates are all here
   std::int64_t unshot_ = 0;
+  std::int64_t threshold_ = 0;  ///< of the selection: PEs name only sides with more
+  std::int64_t expected_ = 0;   ///< so much have this round's shots, if they are like those of the last one
   std::vector<std::deque<RoundShot>> shots_of_;  ///< with points left, by owner
   std::vector<PeNumber> owners_;                 ///< of those, in the order of PEs
   std::size_t turn_ = 0;                         ///< of owners_: who makes the next point

@@ -98,6 +98,17 @@ TEST_F(Copies, AreTakenByHeatPerByteAndWithinABudget) {
   EXPECT_EQ(order(Stage::radiosity).cells, all.cells) << "the same every time";
 }
 
+TEST_F(Copies, CellsWithMoreThanAShareAreBeforeAllOthers) {
+  const std::vector<double> heat = heat_of_cells(heat_);
+  std::vector<double> sorted = heat;
+  std::sort(sorted.rbegin(), sorted.rend());
+  const double share = sorted[10];
+  const CopyOrder by_share = copy_order(mesh_, lists_, Stage::radiosity, heat, {}, share);
+  for (std::size_t i = 0; i < by_share.cells.size(); ++i) EXPECT_EQ(heat[by_share.cells[i]] > share, i < 10) << i;
+  EXPECT_TRUE(std::is_sorted(by_share.worth.rbegin(), by_share.worth.rend()));
+  EXPECT_NE(order(Stage::radiosity).cells, by_share.cells);
+}
+
 TEST_F(Copies, OneHotCellAmongEqualsIsFirst) {
   std::vector<double> heat(grid_.count(), 1);
   const CopyOrder cold = copy_order(mesh_, lists_, Stage::radiosity, heat);

@@ -175,6 +175,41 @@ TEST(RadiosityPhase, TheBestOfAllPesShootAndTheirNumbersFollowTheOrderOfChoice) 
   }
 }
 
+/// Sides with no more than this are not to be named.
+std::vector<std::int64_t> thresholds_in(const std::vector<Sent>& sent) {
+  std::vector<std::int64_t> thresholds;
+  for (const Sent& one : sent) {
+    if (one.is(MessageKind::select)) thresholds.push_back(one.as<protocol::Select>().threshold);
+  }
+  return thresholds;
+}
+
+// Most sides have less than any that is chosen: they are named only where others are too few, so the choice is the
+// same.
+TEST(RadiosityPhase, PesNameWhatMayBeChosenAndTheRestIfThatIsTooLittle) {
+  FakePort port(2);
+  RadiosityPhase phase(settings(2));
+  phase.start(port);
+  EXPECT_EQ(thresholds_in(port.take()), std::vector<std::int64_t>{7});
+  offer(phase, port, 0, {candidate(900, 1), candidate(100, 2), candidate(20, 3)}, 1000);
+  offer(phase, port, 1, {candidate(800, 4), candidate(700, 5)}, 2000);
+  EXPECT_EQ(thresholds_in(finish_round(phase, port)), std::vector<std::int64_t>{75}) << "3/4 of the least one chosen";
+  offer(phase, port, 0, {candidate(80, 1), candidate(90, 2)}, 900);
+  offer(phase, port, 1, {candidate(95, 4), candidate(76, 5)}, 900);
+  EXPECT_EQ(thresholds_in(finish_round(phase, port)), std::vector<std::int64_t>{57}) << "four were enough";
+  EXPECT_EQ(phase.shots(), 8U);
+  offer(phase, port, 0, {candidate(80, 1)}, 800);
+  offer(phase, port, 1, {candidate(95, 4), candidate(76, 5)}, 800);
+  EXPECT_EQ(thresholds_in(port.take()), std::vector<std::int64_t>{7}) << "three are too few";
+  offer(phase, port, 0, {candidate(80, 1), candidate(40, 2)}, 800);
+  offer(phase, port, 1, {candidate(95, 4), candidate(76, 5), candidate(30, 6)}, 800);
+  EXPECT_EQ(thresholds_in(finish_round(phase, port)), std::vector<std::int64_t>{30});
+  EXPECT_EQ(phase.rounds().size(), 4U) << "asked twice, it is one round";
+  offer(phase, port, 0, {}, 20);
+  offer(phase, port, 1, {}, 20);
+  EXPECT_TRUE(phase.done()) << "little is unshot, whatever was not named";
+}
+
 TEST(RadiosityPhase, SumsOfFluxShotAreThoseOfTheAmounts) {
   FakePort port(1);
   RadiosityPhase phase(settings(1));
