@@ -142,6 +142,7 @@ bool handle_message(Pe& pe, Niu& niu) {
     case MessageKind::select:
       require(pe, niu, is_radiosity(pe));
       select_shooters(pe, niu, niu.message_as<protocol::Select>());
+      pe.credits.homewards = false;
       return true;
     case MessageKind::shoot:
       require(pe, niu, is_radiosity(pe) && !pe.shot.active);
@@ -159,6 +160,10 @@ bool handle_message(Pe& pe, Niu& niu) {
       require(pe, niu, pe.state == State::running);
       pe.credits.in_hand += niu.message_as<protocol::Grant>().credits;
       pe.credits.asked = false;
+      return true;
+    case MessageKind::recall:
+      require(pe, niu, pe.state == State::running);
+      pe.credits.homewards = true;
       return true;
     case MessageKind::read:
       read(pe, niu);

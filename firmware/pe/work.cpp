@@ -34,10 +34,11 @@ void settle(Pe& pe, Niu& niu) {
     pe.done = {};
   }
   Credits& credits = pe.credits;
-  if (!has_work(pe)) {
+  const bool works = has_work(pe);
+  if (!works && credits.homewards) {
     if (credits.in_hand > 0) pe.homecoming.add_credits(niu, credits.in_hand);
     credits.in_hand = 0;
-  } else if (credits.in_hand == 0 && !credits.asked) {
+  } else if (works && credits.in_hand == 0 && !credits.asked) {
     niu.send(protocol::MessageKind::need);
     credits.asked = true;
   } else if (credits.in_hand >= pe.scene.layout.credits_kept + Homecoming::kManyCredits) {

@@ -25,6 +25,8 @@ struct Points {
 struct Credits {
   std::uint32_t in_hand = 0;
   bool asked = false;  ///< for more
+  /// Without work they go home at once. Else they wait for what the host deals next, so that they need not come again.
+  bool homewards = true;
 };
 
 bool has_work(const Pe& pe);

@@ -22,6 +22,7 @@ enum class MessageKind : std::uint16_t {
   deal,                              ///< Deal: who gets the shot's next points
   tile,                              ///< Tile: pixels whose rays this PE makes; answer, when it has: work_done
   grant,                             ///< Grant: credits for the records that this PE makes
+  recall,                            ///< nothing follows: credits without work come home, until the next `select`
   read,                              ///< Read; answer: data
   report,                            ///< nothing follows; answer: tally
   stop,                              ///< nothing follows; the PE halts

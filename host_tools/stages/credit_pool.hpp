@@ -17,6 +17,8 @@ class CreditPool {
 
   std::uint64_t home() const { return home_; }
   bool all_home() const { return home_ == credits_; }
+  /// Somebody has asked, and none is home.
+  bool are_short() const { return home_ == 0 && !hungry_.empty(); }
   /// The host makes a record itself. One is home.
   void spend() { --home_; }
 

@@ -64,6 +64,7 @@ void RadiosityPhase::begin_selection(HostPort& port) {
 
 void RadiosityPhase::select(HostPort& port, std::int64_t threshold) {
   threshold_ = threshold;
+  recalled_ = false;
   answers_ = 0;
   unshot_ = 0;
   candidates_.clear();
@@ -81,8 +82,10 @@ void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kin
     end_round_if_over(port);
   } else if (state_ == State::shooting && kind == MessageKind::need) {
     credits_.ask(port, source);
+    recall_if_due(port);
   } else if (state_ == State::shooting && kind == MessageKind::work_done) {
     take_work_done(port, source, contents_as<protocol::WorkDone>(contents));
+    recall_if_due(port);
     end_round_if_over(port);
   } else {
     unexpected(source, kind, state_ == State::selecting ? "selecting shooters" : "shooting");
@@ -248,6 +251,15 @@ void RadiosityPhase::begin_shot(HostPort& port, PeNumber owner, RoundShot& shot)
   torolux::send(port, owner, MessageKind::shoot,
                 protocol::Shoot{candidate.amount, candidate.patch, candidate.side, candidate.kind, shot.number});
   shot.begun = true;
+}
+
+/// Whoever has no work keeps its credits for what is dealt to it next: each way home and out again is two messages. But
+/// at the end they are all needed at home, and before it where others wait for some.
+void RadiosityPhase::recall_if_due(HostPort& port) {
+  const bool all_made = owners_.empty() && under_way_ == 0 && !credits_.all_home();
+  if (recalled_ || !(all_made || credits_.are_short())) return;
+  recalled_ = true;
+  port.broadcast(static_cast<std::uint16_t>(MessageKind::recall), {});
 }
 
 void RadiosityPhase::end_round_if_over(HostPort& port) {

@@ -70,6 +70,7 @@ class RadiosityPhase : public Phase {
   void deal_point(HostPort& port, PeNumber owner, PeNumber to);
   void send_deal(HostPort& port, PeNumber owner);
   void begin_shot(HostPort& port, PeNumber owner, RoundShot& shot);
+  void recall_if_due(HostPort& port);
   void end_round_if_over(HostPort& port);
 
   RadiositySettings settings_;
@@ -88,6 +89,7 @@ class RadiosityPhase : public Phase {
   std::vector<std::uint32_t> supplied_;          ///< points that a PE has been dealt and not finished
   std::uint64_t under_way_ = 0;                  ///< of those, in all
   std::uint64_t points_left_ = 0;                ///< to be dealt
+  bool recalled_ = false;                        ///< PEs without work send their credits home
   CreditPool credits_;
   std::uint64_t shots_ = 0;
   std::vector<RoundFigures> rounds_;

@@ -370,6 +370,7 @@ std::uint64_t FakeMachine::rays() {
 
 std::vector<protocol::Candidate> FakeMachine::select(std::uint16_t pe, std::uint32_t count, std::int64_t threshold) {
   message(pe, MessageKind::select, protocol::Select{count, 0, threshold});
+  message(pe, MessageKind::recall);
   run();
   std::vector<protocol::Candidate> out;
   const auto messages = take(MessageKind::candidates);

@@ -417,6 +417,7 @@ class RandomPes {
 
   /// Until the host selects again. Checks each step.
   void work_until_the_round_ends() {
+    recalled_ = false;
     for (int step = 0; listen(); ++step) {
       ASSERT_LT(step, 100'000);
       ASSERT_EQ(out_ + phase_.credits_home(), settings_.credits);
@@ -450,6 +451,10 @@ class RandomPes {
           EXPECT_LE(++points_[piece.to], protocol::kPointPlaces);
           dealt_ += piece.of_point;
         }
+      } else if (sent.is(MessageKind::recall)) {
+        EXPECT_EQ(sent.pe, protocol::kHost) << "to all";
+        EXPECT_FALSE(recalled_) << "once is enough";
+        recalled_ = true;
       } else {
         EXPECT_TRUE(sent.is(MessageKind::grant));
         held_[sent.pe] += sent.as<protocol::Grant>().credits;
@@ -471,7 +476,7 @@ class RandomPes {
     } else if (points_[pe] > 0 && !asked_[pe]) {
       asked_[pe] = true;
       tell(phase_, port_, pe, MessageKind::need);
-    } else if (points_[pe] == 0 && held_[pe] > 0) {
+    } else if (points_[pe] == 0 && held_[pe] > 0 && recalled_) {
       const auto all = static_cast<std::uint32_t>(held_[pe]);
       out_ -= all;
       held_[pe] = 0;
@@ -487,6 +492,7 @@ class RandomPes {
   std::map<PeNumber, std::uint32_t> points_;  ///< dealt to it, or parts of points, and not done
   std::map<PeNumber, std::uint64_t> held_;    ///< credits granted and not home
   std::map<PeNumber, bool> asked_;
+  bool recalled_ = false;  ///< without work they go home
   std::uint64_t out_ = 0;  ///< credits, their sum
   std::uint64_t shots_ = 0, dealt_ = 0;
 };
@@ -521,8 +527,11 @@ TEST(RadiosityPhase, WhoNeedsCreditsGetsThemInTheOrderOfAsking) {
   EXPECT_EQ(grants, (std::map<PeNumber, std::uint32_t>{{0, 25}, {1, 25}, {2, 25}, {3, 25}})) << "an equal share";
   EXPECT_EQ(phase.credits_home(), 0U);
   tell(phase, port, 3, MessageKind::need);
+  const auto recall = port.take();
+  ASSERT_EQ(recall.size(), 1U) << "there are none";
+  EXPECT_TRUE(recall[0].is(MessageKind::recall) && recall[0].pe == protocol::kHost);
   tell(phase, port, 0, MessageKind::need);
-  EXPECT_TRUE(port.take().empty()) << "there are none";
+  EXPECT_TRUE(port.take().empty()) << "once is enough";
   tell(phase, port, 1, MessageKind::credits, protocol::Credits{5});
   EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{3, 5}}));
   tell(phase, port, 1, MessageKind::credits, protocol::Credits{20});
@@ -545,7 +554,9 @@ TEST(RadiosityPhase, ARoundEndsWithTheLastPointAndTheLastCredit) {
     const auto done = [&] { tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 12}); };
     const auto home = [&] { tell(phase, port, 0, MessageKind::credits, protocol::Credits{100}); };
     credits_last ? done() : home();
-    EXPECT_TRUE(port.take().empty());
+    const auto before = port.take();
+    EXPECT_EQ(before.size(), credits_last ? 1U : 0U);
+    EXPECT_TRUE(!credits_last || before[0].is(MessageKind::recall)) << "no work is left, so the credits are not needed";
     credits_last ? home() : done();
     const auto sent = port.take();
     ASSERT_EQ(sent.size(), 1U);
