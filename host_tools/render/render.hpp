@@ -87,6 +87,7 @@ struct RenderProgress {
   double unshot_fraction;  ///< of the emitted flux
   std::uint64_t credits_home, credits_total;
   Cycles virtual_time;
+  double overall = 0;  ///< of all stages together, drafts' included, 0..1; rough
 };
 
 /// Subspaces that stand on every PE in a stage.

@@ -128,6 +128,7 @@ void RadiosityPhase::begin_round(HostPort& port) {
   std::uint64_t most = settings_.shooters;
   if (settings_.max_shots > 0) most = std::min<std::uint64_t>(most, settings_.max_shots - shots_);
   if (candidates_.size() > most) candidates_.resize(most);
+  selected_unshot_ = unshot_;
   RoundFigures& round = rounds_.back();
   round.unshot = settings_.emitted > 0 ? static_cast<double>(unshot_) / settings_.emitted : 0;
   port.note(HostGauge::unshot, round.unshot);
