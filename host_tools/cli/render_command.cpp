@@ -11,6 +11,7 @@
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/measured_speed.hpp"
 #include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
@@ -79,6 +80,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (interrupted()) return {kInterrupted, ""};
   const RenderResult result = run_machine(prepared.scene, settled, options);
   if (interrupted()) return {kInterrupted, ""};
+  remember_speed(settled.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
 
