@@ -13,7 +13,7 @@
 namespace torolux {
 namespace {
 
-constexpr double kLeastSeconds = 2;  ///< below, translation and set-up weigh too much
+constexpr double kLeastSeconds = 2;  ///< below, what else goes on weighs too much
 constexpr double kMostTimes = 1000;  ///< what is beyond, either way, is no measurement
 
 /// Empty: there is none.
@@ -42,8 +42,8 @@ std::optional<double> measured_slowness(const std::string& engine) {
 
 void remember_speed(const MachineChoice& machine, const RenderFigures& figures) {
   const std::filesystem::path file = file_of(machine.engine);
-  const bool alone = figures.draft_cycles == 0 && machine.debugging.qemu_pes.empty() && machine.debugging.gdb.empty();
-  if (file.empty() || !alone || figures.wall_seconds < kLeastSeconds) return;
+  const bool alone = machine.debugging.qemu_pes.empty() && machine.debugging.gdb.empty();
+  if (file.empty() || !alone || figures.run_seconds < kLeastSeconds) return;
   double packets = 0;
   for (const PeFigures& pe : figures.machine.pes) packets += static_cast<double>(pe.packets_sent);
   const double foretold = wall_seconds_of(static_cast<double>(figures.machine.instructions()), packets, machine,
@@ -51,7 +51,7 @@ void remember_speed(const MachineChoice& machine, const RenderFigures& figures) 
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
   try {
-    write_file(file, std::to_string(figures.wall_seconds / foretold) + "\n");
+    write_file(file, std::to_string(figures.run_seconds / foretold) + "\n");
   } catch (const InputError&) {
     // A prediction is not worth a failure.
   }

@@ -14,8 +14,8 @@ namespace torolux {
 /// been measured, or there is no cache.
 std::optional<double> measured_slowness(const std::string& engine);
 
-/// Remembers it, where the render took long enough to tell and nothing else than its own machine ran (no drafts, no PEs
-/// of another engine). Does nothing where there is no cache.
+/// Remembers it, where the run took long enough to tell and all PEs were of this engine. Does nothing where there is no
+/// cache.
 void remember_speed(const MachineChoice& machine, const RenderFigures& figures);
 
 }  // namespace torolux

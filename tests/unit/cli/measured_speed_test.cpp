@@ -37,7 +37,7 @@ class MeasuredSpeed : public testing::Test {
 TEST_F(MeasuredSpeed, IsThatOfTheLastRender) {
   EXPECT_EQ(measured_slowness("translated"), std::nullopt);
   for (const double times : {3.0, 0.5}) {
-    figures_.wall_seconds = times * foretold();
+    figures_.run_seconds = times * foretold();
     remember_speed(machine_, figures_);
     ASSERT_TRUE(measured_slowness("translated"));
     EXPECT_NEAR(*measured_slowness("translated"), times, 1e-5);
@@ -46,19 +46,16 @@ TEST_F(MeasuredSpeed, IsThatOfTheLastRender) {
 }
 
 TEST_F(MeasuredSpeed, IsNotTakenFromWhatTellsNothing) {
-  figures_.wall_seconds = 1.9;
+  figures_.run_seconds = 1.9;
   remember_speed(machine_, figures_);
-  figures_.wall_seconds = 30;
-  figures_.draft_cycles = 1;
-  remember_speed(machine_, figures_);
-  figures_.draft_cycles = 0;
+  figures_.run_seconds = 30;
   machine_.debugging.qemu_pes = {1};
   remember_speed(machine_, figures_);
   EXPECT_EQ(folder_.files(), 0U);
 }
 
 TEST_F(MeasuredSpeed, DoesWithoutACacheAndWithADamagedOne) {
-  figures_.wall_seconds = 30;
+  figures_.run_seconds = 30;
   set_cache("/dev/null");
   remember_speed(machine_, figures_);
   EXPECT_EQ(measured_slowness("translated"), std::nullopt);
