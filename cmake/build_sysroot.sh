@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Builds the PEs' C library (newlib), the headers of libstdc++ and GLM from Debian's packages into a cache, once, and
-# prints where they are. Enters: newlib-source, gcc-12-source, libglm-dev, the cross compiler. Leaves: one folder,
-# complete or not there at all; two builds at once do no harm.
+# Builds the PEs' C library (newlib), the headers of libstdc++ and GLM from Debian's packages, and prints where they are:
+# in this checkout's build folder, so that it is complete for whoever runs it. Enters: newlib-source, gcc-12-source,
+# libglm-dev, the cross compiler. Leaves: one folder, complete or not there at all, and a copy of it in the user's cache
+# where there is one, from which other checkouts take theirs; two builds at once do no harm.
 set -euo pipefail
 
 target=riscv64-unknown-elf
@@ -15,23 +16,43 @@ gcc_archive=$(compgen -G '/usr/src/gcc-12/gcc-12*.tar.xz' | sort | tail -n 1) ||
   { echo "build_sysroot: Debian package gcc-12-source is missing" >&2; exit 1; }
 gcc_version=$("$target-gcc" -dumpfullversion)
 
-cache=${XDG_CACHE_HOME:-${HOME:-/nonexistent}/.cache}/torolux
-if ! mkdir -p "$cache" 2>/dev/null; then
-  cache=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/.cache
-  mkdir -p "$cache"
-fi
 key=$( { cat "${BASH_SOURCE[0]}"; echo "$gcc_version"; stat -L -c '%n %s' "$newlib_archive" "$gcc_archive" \
   /usr/include/glm/glm.hpp; } | sha256sum | cut -c 1-16)
-sysroot=$cache/sysroot-$key
+build=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build
+sysroot=$build/sysroot-$key
 if [ -d "$sysroot" ]; then
+  echo "$sysroot"
+  exit 0
+fi
+
+# The user's cache, or nothing: never a folder for a home that is not there.
+cache=
+case ${XDG_CACHE_HOME-} in
+  /*) cache=$XDG_CACHE_HOME/torolux ;;
+  *) [ ! -d "${HOME-}" ] || cache=$HOME/.cache/torolux ;;
+esac
+kept=$cache/sysroot-$key
+
+# put FOLDER PLACE: a copy, complete from one moment to the next. Where another was first, its result is the same.
+put() {
+  local staged
+  mkdir -p "$(dirname "$2")" && staged=$(mktemp -d "$2.XXXXXX") || return
+  if cp -r "$1/include" "$1/lib" "$1/shim" "$1/c++" "$1/glm" "$staged/" && chmod 755 "$staged"; then
+    mv -T "$staged" "$2" 2>/dev/null && return
+  fi
+  rm -rf "$staged"
+  [ -d "$2" ]
+}
+
+if [ -n "$cache" ] && [ -d "$kept" ]; then
+  put "$kept" "$sysroot"
   echo "$sysroot"
   exit 0
 fi
 
 # newlib's and libstdc++'s builds do not work in a path with a space: build in one without, then copy.
 work=$(mktemp -d /tmp/torolux-sysroot.XXXXXX)
-staged=$(mktemp -d "$cache/unfinished.XXXXXX")
-trap 'rm -rf "$work" "$staged"' EXIT
+trap 'rm -rf "$work"' EXIT
 log=$work/log
 jobs=$(nproc)
 stage=$work/stage
@@ -125,8 +146,6 @@ if ! wait $!; then
   echo "build_sysroot: the build of newlib or of libstdc++'s headers failed" >&2
   exit 1
 fi
-cp -r "$stage/include" "$stage/lib" "$stage/shim" "$stage/c++" "$stage/glm" "$staged/"
-chmod 755 "$staged"
-# Complete from one moment to the next. Where another build was first, its result is the same.
-mv -T "$staged" "$sysroot" 2>/dev/null || [ -d "$sysroot" ]
+put "$stage" "$sysroot"
+[ -z "$cache" ] || put "$stage" "$kept" 2>/dev/null || true
 echo "$sysroot"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Set-up shared by ./torolux and ./run-tests (bash, sourced with `root` set to the checkout): packages, configure, build.
-# Says nothing while there is nothing to do, else a line for each step on stderr. Logs lie in build/.
+# Says nothing while there is nothing to do, else on stderr a line for each step and how far it is. Logs lie in build/.
+# Whoever may not write to the checkout's build folder can run what is built there, and builds nothing.
 
 readonly setup_failed=3  # a machine failure, as in emulator/errors.hpp: the machine cannot be built here
 
@@ -57,6 +58,10 @@ setup_logged_or_stop() {
 # moved, presets that have changed, another C library (a cache that was emptied).
 setup_configure() {
   local preset=$1 folder=$2 known=$2/CMakeCache.txt sysroot=
+  if ((setup_read_only)); then
+    [[ -e $folder/build.ninja ]] || setup_stop_read_only
+    return 0
+  fi
   if [[ $preset == firmware ]]; then
     sysroot=$("$root/cmake/build_sysroot.sh" 9>&-) || setup_stop "The PEs' C library could not be built."
   fi
@@ -81,18 +86,70 @@ setup_preset() {
   if [[ $(ninja -C "$folder" -n "$@" 2>&1 9>&- | tail -n 1) == *'no work to do.' ]]; then
     return
   fi
-  echo "torolux: building: $preset" >&2
-  setup_logged_or_stop "build-$preset" cmake --build "$folder" --target "$@"
+  ((!setup_read_only)) || setup_stop_read_only
+  setup_build "$preset" "$folder" "$@"
   # The table of regions of each image that was linked.
   [[ $preset == firmware ]] && grep -E ' (address|0x[0-9a-f]{8}) ' "$root/build/build-firmware.log" >&2
   return 0
 }
 
+# setup_build PRESET FOLDER TARGET...: tells how far it is, and stops where it fails.
+setup_build() {
+  local preset=$1 folder=$2 log=$root/build/build-$1.log
+  shift 2
+  echo "torolux: building: $preset" >&2
+  cmake --build "$folder" --target "$@" 2>&1 </dev/null 9>&- | tee "$log" | setup_tell_progress "$preset" && return
+  tail -n 40 "$log" >&2
+  setup_stop "This step failed: build-$preset. The whole log: $log"
+}
+
+# setup_tell_progress WHAT: Ninja's output in; on a terminal one line that is written again and again, else one line for
+# each tenth. The time left is that of the steps done so far, of which there must be some.
+setup_tell_progress() {
+  local line done_steps steps text left tenth=0 again=0
+  local begin=$SECONDS
+  [[ ! -t 2 ]] || again=1
+  while IFS= read -r line; do
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    done_steps=${BASH_REMATCH[1]} steps=${BASH_REMATCH[2]}
+    text="torolux: building: $1: $((100 * done_steps / steps)) %, $done_steps of $steps steps"
+    if ((SECONDS - begin >= 10 && done_steps < steps)); then
+      left=$(((SECONDS - begin) * (steps - done_steps) / done_steps))
+      ((left < 90)) && text+=", about $left s left" || text+=", about $(((left + 30) / 60)) min left"
+    fi
+    if ((again)); then
+      printf '\r\033[K%s' "${text:0:$((${COLUMNS:-80} - 1))}" >&2
+    elif ((10 * done_steps / steps > tenth)); then
+      tenth=$((10 * done_steps / steps))
+      printf '%s\n' "$text" >&2
+    fi
+  done
+  ((!again)) || printf '\r\033[K' >&2
+}
+
+setup_stop_read_only() {
+  local owner
+  owner=$(stat -c %U "$root/build" 2>/dev/null || stat -c %U "$root")
+  setup_stop "Something is to be built in $root, whose build folder belongs to $owner: you may not write to it." \
+    "Let $owner run ./torolux there once, or work in a checkout of your own (cp -r $root torolux)."
+}
+
 # Holds the lock from here on until setup_end: parallel starts build once.
 setup_begin() {
-  mkdir -p "$root/build"
-  exec 9>"$root/build/.lock"
-  flock 9
+  setup_read_only=0
+  mkdir -p "$root/build" 2>/dev/null || setup_stop_read_only
+  local lock=$root/build/.lock
+  if [[ -w $root/build && (! -e $lock || -w $lock) ]]; then
+    exec 9>"$lock"
+    flock 9
+  else
+    setup_read_only=1
+    # Waits for whoever is building there.
+    if [[ -r $lock ]]; then
+      exec 9<"$lock"
+      flock --shared 9
+    fi
+  fi
   setup_packages
 }
 

@@ -3,24 +3,26 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
 namespace torolux {
 
 /// A debugger may hold this PE: it runs on QEMU, and is halted before its first instruction.
-struct GdbPort {
+struct GdbEndpoint {
   unsigned pe;
-  std::uint16_t port;  ///< TCP, on 127.0.0.1; 0: any that is free
+  std::uint16_t port;               ///< TCP, on 127.0.0.1; 0: any that is free
+  std::filesystem::path path = {};  ///< if not empty, a Unix socket there instead, for this user alone
 
-  bool operator==(const GdbPort&) const = default;
+  bool operator==(const GdbEndpoint&) const = default;
 };
 
 struct Debugging {
   std::vector<unsigned> qemu_pes;  ///< these run on QEMU, whatever engine runs the rest
-  std::vector<GdbPort> gdb;        ///< these, too
+  std::vector<GdbEndpoint> gdb;    ///< these, too
   /// Called when a PE of `gdb` listens, with the port it has got.
-  std::function<void(const GdbPort&)> listens = {};
+  std::function<void(const GdbEndpoint&)> listens = {};
 
   /// By number of the PE: whether it runs on QEMU. Throws UsageError where one is named that is not in the machine, or
   /// twice for a debugger.

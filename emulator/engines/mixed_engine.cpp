@@ -58,7 +58,7 @@ std::vector<bool> Debugging::on_qemu(std::size_t pes) const {
   for (auto port = gdb.begin(); port != gdb.end(); ++port) {
     check_pe(port->pe, pes);
     result[port->pe] = true;
-    const auto same = [port](const GdbPort& other) { return other.pe == port->pe; };
+    const auto same = [port](const GdbEndpoint& other) { return other.pe == port->pe; };
     if (std::any_of(gdb.begin(), port, same)) {
       throw UsageError("PE " + std::to_string(port->pe) + " is to have two debuggers: one is allowed");
     }

@@ -6,6 +6,7 @@
 
 #include "emulator/errors.hpp"
 #include "emulator/machine/emulation.hpp"
+#include "emulator/pause.hpp"
 
 namespace torolux {
 
@@ -52,7 +53,7 @@ void Emulation::await(unsigned pe, Cycles wanted) {
   NiuNetworkSide& niu = nius_[pe];
   for (int i = 0; i < kLooks; ++i) {
     if (niu.refresh(events_, pool_, times_)) return;
-    __builtin_ia32_pause();
+    torolux::pause();
   }
   const double begin = wall_seconds();
   niu.sleep_until_bound(wanted);

@@ -27,6 +27,13 @@ std::uint32_t crc(std::span<const std::byte> data) {
       crc32(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(data.data()), static_cast<uInt>(data.size())));
 }
 
+/// Whether a receiver notices that bit `bit` of the block's data has been flipped: compares CRC-32 sums.
+bool crc_detects_flip(const Block& block, std::uint32_t bit) {
+  Block received = block;
+  received.data[bit / 8] ^= std::byte{1} << (bit % 8);
+  return crc(received.payload()) != crc(block.payload());
+}
+
 }  // namespace
 
 LinkFaults::LinkFaults(const MachineDescription::Torus& torus)
@@ -44,12 +51,6 @@ std::uint32_t LinkFaults::bad_copies(const Block& block) {
     ++retries_;
   }
   return bad;
-}
-
-bool crc_detects_flip(const Block& block, std::uint32_t bit) {
-  Block received = block;
-  received.data[bit / 8] ^= std::byte{1} << (bit % 8);
-  return crc(received.payload()) != crc(block.payload());
 }
 
 }  // namespace torolux

@@ -23,7 +23,4 @@ class LinkFaults {
   std::uint64_t retries_ = 0;
 };
 
-/// Whether a receiver notices that bit `bit` of the block's data has been flipped: compares CRC-32 sums.
-bool crc_detects_flip(const Block& block, std::uint32_t bit);
-
 }  // namespace torolux

@@ -122,8 +122,12 @@ class Reach {
   struct Parts {
     std::uint32_t x, y, z;
   };
+  /// What is no number, or beyond all integers, becomes whatever the processor makes of it: no ray of a scene's begins
+  /// that far away, and for others only which polygons are tested depends on it.
+  __attribute__((no_sanitize("float-cast-overflow"))) static std::uint32_t part(float x) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
+  }
   Parts at(float t) const {
-    const auto part = [](float x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x)); };
     return {part(origin_.x + direction_.x * t), part(origin_.y + direction_.y * t), part(origin_.z + direction_.z * t)};
   }
   template <std::uint32_t kAxis>

@@ -49,16 +49,18 @@ void add_debugging_options(CLI::App& command, Debugging& debugging, const std::s
                const std::vector<unsigned> pes = parse_pe_list(text);
                debugging.qemu_pes.insert(debugging.qemu_pes.end(), pes.begin(), pes.end());
              });
-  add_values(command, "--gdb", "PE:PORT",
+  add_values(command, "--gdb", "PE:PORT|PE:PATH",
              "Halt this PE at its start, on QEMU, until a debugger that connects to this port of 127.0.0.1 lets it go "
-             "on; 0: any free port. May be repeated",
-             group, [&debugging](const std::string& text) { debugging.gdb.push_back(parse_gdb_port(text)); });
+             "on; 0: any free port; a path with a slash: a socket there that this user alone may open. May be repeated",
+             group, [&debugging](const std::string& text) { debugging.gdb.push_back(parse_gdb_endpoint(text)); });
 }
 
-std::function<void(const GdbPort&)> announce_debugger(const std::filesystem::path& image) {
-  return [file = shell_word(image.string())](const GdbPort& debugger) {
+std::function<void(const GdbEndpoint&)> announce_debugger(const std::filesystem::path& image) {
+  return [file = shell_word(image.string())](const GdbEndpoint& debugger) {
+    const std::string place = debugger.path.empty() ? "127.0.0.1:" + std::to_string(debugger.port)
+                                                    : std::filesystem::absolute(debugger.path).string();
     std::cerr << "torolux: PE " << debugger.pe << " is halted until a debugger lets it go on:\n"
-              << "  gdb-multiarch " << file << " -ex 'target remote 127.0.0.1:" << debugger.port << "' -ex 'tbreak *"
+              << "  gdb-multiarch " << file << " -ex " << shell_word("target remote " + place) << " -ex 'tbreak *"
               << std::hex << std::showbase << protocol::kLocalMemoryBase << std::dec << "' -ex continue" << std::endl;
   };
 }

@@ -17,6 +17,6 @@ namespace torolux {
 void add_debugging_options(CLI::App& command, Debugging& debugging, const std::string& group);
 
 /// As Debugging::listens: prints on standard error how to connect. image: that the PEs run.
-std::function<void(const GdbPort&)> announce_debugger(const std::filesystem::path& image);
+std::function<void(const GdbEndpoint&)> announce_debugger(const std::filesystem::path& image);
 
 }  // namespace torolux

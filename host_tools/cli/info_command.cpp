@@ -10,6 +10,7 @@
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/measured_speed.hpp"
 #include "host_tools/cli/settle.hpp"
 #include "host_tools/report/text.hpp"
 
@@ -106,9 +107,11 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
   line("predicted work", rounded(prediction.records) + " records of " + grouped(prediction.shots) + " shots, " +
                              rounded(prediction.rays) + " camera rays, " + significant(prediction.instructions, 2) +
                              " instructions");
+  const std::optional<double> slowness = measured_slowness(machine.engine);
   line("predicted time", significant(prediction.cycles(), 2) + " cycles, " + duration(prediction.cycles() / hertz) +
-                             " of the machine's time; on this computer some " + duration(prediction.wall_seconds) +
-                             " (both rough)");
+                             " of the machine's time; on " +
+                             (slowness ? "this computer" : "a computer of 2020, as none was rendered here,") +
+                             " some " + duration(prediction.wall_seconds * slowness.value_or(1)) + " (both rough)");
 }
 
 int run_info(const RenderOptions& options) {

@@ -150,12 +150,14 @@ std::vector<unsigned> parse_pe_list(const std::string& text) {
   return pes;
 }
 
-GdbPort parse_gdb_port(const std::string& text) {
-  constexpr const char* kForm = "a PE and a TCP port like 3:1234";
-  const auto parts = split(text, ':');
-  if (parts.size() != 2) wrong_form(text, kForm);
-  const unsigned pe = pe_number(parts[0], kForm);
-  const auto port = whole(parts[1]);
+GdbEndpoint parse_gdb_endpoint(const std::string& text) {
+  constexpr const char* kForm = "a PE and a TCP port like 3:1234, or a path with a / like 3:/tmp/pe3";
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) wrong_form(text, kForm);
+  const unsigned pe = pe_number(text.substr(0, colon), kForm);
+  const std::string place = text.substr(colon + 1);
+  if (place.find('/') != std::string::npos) return {pe, 0, place};
+  const auto port = whole(place);
   if (!port) wrong_form(text, kForm);
   return {pe, static_cast<std::uint16_t>(in_range(text, *port, 0, std::numeric_limits<std::uint16_t>::max()))};
 }

@@ -48,8 +48,8 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
 /// checked.
 std::vector<unsigned> parse_pe_list(const std::string& text);
 
-/// "PE:PORT", each within its range of all machines.
-GdbPort parse_gdb_port(const std::string& text);
+/// "PE:PORT", each within its range of all machines, or "PE:PATH": what has a slash is a path.
+GdbEndpoint parse_gdb_endpoint(const std::string& text);
 
 /// "link:P": the chance P, 0 to 0.5, that a packet is spoilt on a link.
 double parse_link_fault(const std::string& text);

@@ -11,6 +11,7 @@
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/measured_speed.hpp"
 #include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
@@ -56,9 +57,9 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
 }
 
-RenderResult run_machine(const Scene& scene, const Settled& settled, bool quiet) {
-  ProgressLine line(std::cerr, !quiet && ::isatty(STDERR_FILENO) == 1,
-                    settled.machine.description.processor.clock_hertz);
+RenderResult run_machine(const Scene& scene, const Settled& settled, const RenderOptions& options) {
+  ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
+                    settled.machine.description.processor.clock_hertz, options.verbose);
   return render(scene, settled.camera, settled.quality, settled.machine, settled.files, firmware_image(),
                 [&line](const RenderProgress& progress) {
                   if (interrupted()) return false;
@@ -77,8 +78,9 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   print_notes(prepared.scene.warnings, options.quiet);
   print_notes(prepared.findings, options.quiet);
   if (interrupted()) return {kInterrupted, ""};
-  const RenderResult result = run_machine(prepared.scene, settled, options.quiet);
+  const RenderResult result = run_machine(prepared.scene, settled, options);
   if (interrupted()) return {kInterrupted, ""};
+  remember_speed(settled.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
 

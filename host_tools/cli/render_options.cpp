@@ -132,6 +132,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",
        options.radiosity);
   command.add_flag("--quiet", options.quiet, "No progress, no notes, no summary; errors only")->group(group);
+  command.add_flag("--verbose", options.verbose, "Progress tells of credits, too")->group(group);
 }
 
 void add_view_options(CLI::App& command, RenderOptions& options) {

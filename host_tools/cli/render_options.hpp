@@ -53,7 +53,7 @@ struct RenderOptions {
   ToneOptions tone;
   LayerSet layers = 0;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv;
-  bool quiet = false;
+  bool quiet = false, verbose = false;
 
   // The view.
   std::optional<std::array<std::uint32_t, 2>> size;
@@ -96,7 +96,7 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group);
 /// --output, --no-picture, --layers, --exposure, --tone-curve, --stats, --save-radiosity, --save-mesh, --radiosity,
-/// --quiet.
+/// --quiet, --verbose.
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);

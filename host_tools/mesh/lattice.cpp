@@ -12,9 +12,6 @@
 namespace torolux {
 namespace {
 
-/// An element's own light against that of its corners is made up for at borders so many times.
-constexpr int kBorderSteps = 1;
-
 bool is_dark(const Vec3d& light) {
   return light == Vec3d{0, 0, 0};
 }
@@ -30,10 +27,8 @@ class SideLight {
       : plan_(plan), flux_(flux), clusters_(plan.clusters, flux) {
     take_means();
     settle();
-    for (int step = 0; step < kBorderSteps; ++step) {
-      follow_to_borders();
-      settle();
-    }
+    follow_to_borders();
+    settle();
     note_lit_sides();
   }
 

@@ -44,7 +44,7 @@ constexpr double kTail = 0.85;
 constexpr double kRayUtilisation = 0.9;
 constexpr double kTileUtilisation = 0.97;
 
-/// Instructions per second of this computer's cores and what a packet costs them, measured on one of 2020.
+/// Instructions per second of a computer's cores and what a packet costs them, measured on one of 2020.
 struct HostSpeed {
   double instructions_per_second;
   double seconds_per_packet;
@@ -318,12 +318,16 @@ Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& 
     prediction.draft_packets = kDrafts * rough.packets;
     prediction.draft_instructions = kDrafts * rough.instructions;
   }
+  prediction.wall_seconds =
+      wall_seconds_of(prediction.instructions + prediction.draft_instructions,
+                      prediction.packets + prediction.draft_packets, machine, setup.placement.torus.pes());
+  return prediction;
+}
+
+double wall_seconds_of(double instructions, double packets, const MachineChoice& machine, unsigned pes) {
   const unsigned cores = machine.threads != 0 ? machine.threads : std::max(1U, std::thread::hardware_concurrency());
   const HostSpeed& speed = machine.engine == kQemuEngine ? kQemuSpeed : kTranslatedSpeed;
-  prediction.wall_seconds = (prediction.instructions + prediction.draft_instructions) /
-                                (speed.instructions_per_second * std::min(cores, setup.placement.torus.pes())) +
-                            (prediction.packets + prediction.draft_packets) * speed.seconds_per_packet;
-  return prediction;
+  return instructions / (speed.instructions_per_second * std::min(cores, pes)) + packets * speed.seconds_per_packet;
 }
 
 }  // namespace torolux

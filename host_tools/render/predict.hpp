@@ -14,4 +14,7 @@ namespace torolux {
 Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& setup, const RenderSetup* draft,
                    const Quality& quality, const MachineChoice& machine);
 
+/// What so many instructions of all PEs and packets take on a computer of 2020. pes: of the machine.
+double wall_seconds_of(double instructions, double packets, const MachineChoice& machine, unsigned pes);
+
 }  // namespace torolux

@@ -10,6 +10,7 @@
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
 #include "host_tools/mesh/refine.hpp"
+#include "host_tools/render/course.hpp"
 #include "host_tools/render/frame_layers.hpp"
 #include "host_tools/render/setup.hpp"
 #include "host_tools/solution/ply_file.hpp"
@@ -85,10 +86,25 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   }
 }
 
+/// Runs one machine of a render after the other, and tells how far they all are.
+struct Watch {
+  Course& course;
+  const std::function<bool(const RenderProgress&)>& progress;
+
+  void run(Machine& machine, RenderProgram& program) const {
+    course.begin_machine();
+    machine.run(program, [&](Cycles now) {
+      if (!progress) return true;
+      RenderProgress present = program.progress(now);
+      present.overall = course.share(present);
+      return progress(present);
+    });
+  }
+};
+
 /// Where the mesh needs more elements. Absent: stopped by `progress`.
 std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera& camera, const Quality& full,
-                                               const MachineChoice& choice, const Image& image,
-                                               const std::function<bool(const RenderProgress&)>& progress,
+                                               const MachineChoice& choice, const Image& image, const Watch& watch,
                                                RenderFigures& figures) {
   const Quality quality = draft_of(full);
   std::vector<Split> splits;
@@ -100,7 +116,7 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
       setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
       RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
       Machine torolux(machine_setup(setup, quality, choice), image);
-      torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
+      watch.run(torolux, program);
       if (!program.finished()) return std::nullopt;
       figures.draft_cycles += program.times().read;
       figures.draft_records += program.solution()->tally.rays;
@@ -124,6 +140,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   const Image image = load_image(pe_image);
   const auto begin = std::chrono::steady_clock::now();
   RenderResult result;
+  Course course(quality, files.radiosity.has_value());
+  const Watch watch{course, progress};
   std::optional<SavedRadiosity> saved;
   std::vector<Split> splits;
   if (files.radiosity) {
@@ -131,7 +149,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
     check_radiosity(*saved, scene, quality);
     splits = saved->splits;
   } else if (quality.refine > 0) {
-    auto chosen = draft_splits(scene, camera, quality, machine, image, progress, result.figures);
+    auto chosen = draft_splits(scene, camera, quality, machine, image, watch, result.figures);
     if (!chosen) return result;
     splits = std::move(*chosen);
   }
@@ -145,7 +163,9 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
 
   RenderProgram program(std::move(job));
   Machine torolux(machine_setup(setup, quality, machine), image);
-  torolux.run(program, [&](Cycles now) { return !progress || progress(program.progress(now)); });
+  const auto run_begin = std::chrono::steady_clock::now();
+  watch.run(torolux, program);
+  result.figures.run_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - run_begin).count();
 
   result.notes = setup.notes;
   add_figures(program, torolux, setup, result.figures);

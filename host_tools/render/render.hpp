@@ -87,6 +87,7 @@ struct RenderProgress {
   double unshot_fraction;  ///< of the emitted flux
   std::uint64_t credits_home, credits_total;
   Cycles virtual_time;
+  double overall = 0;  ///< of all stages together, drafts' included, 0..1; rough
 };
 
 /// Subspaces that stand on every PE in a stage.
@@ -115,6 +116,7 @@ struct RenderFigures {
   std::uint64_t splits = 0;                           ///< elements that were cut by it
   std::uint64_t credits_total = 0, credits_home = 0;  ///< at the end
   double wall_seconds = 0;
+  double run_seconds = 0;  ///< of those, while the picture's machine ran: without mesh, translation and drafts
   std::uint32_t local_memory_bytes = 0;  ///< per PE, as chosen
   std::array<std::uint32_t, 3> subspaces{};
   std::uint64_t filled_subspaces = 0;                ///< with anything in them

@@ -2,7 +2,11 @@
 // Progress enters, at most five lines a second leave, each written over the one before.
 #include "host_tools/report/progress_line.hpp"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <vector>
 
 #include "host_tools/report/text.hpp"
 
@@ -12,7 +16,13 @@ namespace {
 constexpr std::chrono::milliseconds kInterval{200};
 constexpr double kLeastFraction = 0.01;  ///< below these no time left is foretold
 constexpr double kLeastSeconds = 1;
-constexpr std::size_t kWidth = 79;
+constexpr std::size_t kUsualColumns = 80;
+
+/// Of the terminal on standard error; it may be made wider or narrower at any time.
+std::size_t columns_of_terminal() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
+}
 
 }  // namespace
 
@@ -28,33 +38,41 @@ std::string_view name_of(RenderStage stage) {
   return "";
 }
 
-std::string progress_text(const RenderProgress& progress, double clock_hertz, double seconds_left) {
-  const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
-  std::string text = left(std::string(name_of(progress.stage)), 11) + right(percent(fraction, 0), 6);
-  if (progress.stage == RenderStage::radiosity) text += "  unshot " + percent(progress.unshot_fraction, 2);
-  if (progress.credits_total > 0)
-    text += "  home " + std::to_string(progress.credits_home) + "/" + std::to_string(progress.credits_total);
-  text += "  virtual " + fixed(1e3 * static_cast<double>(progress.virtual_time) / clock_hertz, 1) + " ms";
-  if (seconds_left >= 0) text += "  left " + duration(seconds_left);
-  return text.substr(0, kWidth);
+std::string progress_text(const RenderProgress& progress, double clock_hertz, double seconds_left, std::size_t width,
+                          bool verbose) {
+  std::vector<std::string> parts = {right(percent(std::clamp(progress.overall, 0.0, 1.0), 0), 5)};
+  if (seconds_left >= 0) parts.push_back(duration(seconds_left) + " left");
+  parts.push_back(std::string(name_of(progress.stage)) + " " + percent(std::clamp(progress.fraction, 0.0, 1.0), 0));
+  if (progress.stage == RenderStage::radiosity) parts.push_back("unshot " + percent(progress.unshot_fraction, 2));
+  parts.push_back("virtual " + fixed(1e3 * static_cast<double>(progress.virtual_time) / clock_hertz, 1) + " ms");
+  if (verbose && progress.credits_total > 0) {
+    parts.push_back("credits home " + std::to_string(progress.credits_home) + "/" +
+                    std::to_string(progress.credits_total));
+  }
+  std::string text;
+  for (const std::string& part : parts) {
+    const std::string longer = text + (text.empty() ? "" : "  ") + part;
+    if (longer.size() > width) break;
+    text = longer;
+  }
+  return text;
 }
 
 void ProgressLine::show(const RenderProgress& progress) {
   if (!shown_) return;
   const Clock::time_point now = Clock::now();
-  if (!begun_ || progress.stage != stage_) {
+  if (!begun_) {
     begun_ = true;
-    stage_ = progress.stage;
-    stage_begin_ = now;
+    begin_ = now;
   } else if (now - last_ < kInterval) {
     return;
   }
   last_ = now;
-  const double spent = std::chrono::duration<double>(now - stage_begin_).count();
-  const double fraction = std::min(progress.fraction, 1.0);
-  const double seconds_left =
-      fraction >= kLeastFraction && spent >= kLeastSeconds ? spent * (1 - fraction) / fraction : -1;
-  out_ << "\r\x1b[K" << progress_text(progress, hertz_, seconds_left) << std::flush;
+  const double spent = std::chrono::duration<double>(now - begin_).count();
+  const double done = std::min(progress.overall, 1.0);
+  const double seconds_left = done >= kLeastFraction && spent >= kLeastSeconds ? spent * (1 - done) / done : -1;
+  out_ << "\r\x1b[K" << progress_text(progress, hertz_, seconds_left, columns_of_terminal() - 1, verbose_)
+       << std::flush;
   visible_ = true;
 }
 

@@ -12,14 +12,17 @@ namespace torolux {
 
 std::string_view name_of(RenderStage stage);
 
-/// One line, at most 79 characters, without a line end. seconds_left: of the stage; negative: not known yet.
-std::string progress_text(const RenderProgress& progress, double clock_hertz, double seconds_left);
+/// One line of at most so many characters, without a line end: what matters most first, and what does not fit left out.
+/// seconds_left: of all stages; negative: not known yet. verbose: credits at home, too.
+std::string progress_text(const RenderProgress& progress, double clock_hertz, double seconds_left, std::size_t width,
+                          bool verbose);
 
 /// Shows the newest progress in place, a few times a second, and wipes it at the end.
 class ProgressLine {
  public:
   /// shown: false where there is no terminal, or with --quiet; then nothing is written.
-  ProgressLine(std::ostream& out, bool shown, double clock_hertz) : out_(out), shown_(shown), hertz_(clock_hertz) {}
+  ProgressLine(std::ostream& out, bool shown, double clock_hertz, bool verbose = false)
+      : out_(out), shown_(shown), hertz_(clock_hertz), verbose_(verbose) {}
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { wipe(); }
@@ -33,10 +36,10 @@ class ProgressLine {
   std::ostream& out_;
   bool shown_;
   double hertz_;
+  bool verbose_;
   bool visible_ = false;
   bool begun_ = false;
-  RenderStage stage_ = RenderStage::load;
-  Clock::time_point stage_begin_{};
+  Clock::time_point begin_{};
   Clock::time_point last_{};
 };
 

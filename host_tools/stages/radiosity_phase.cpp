@@ -42,6 +42,27 @@ bool before(const Candidate& a, const Candidate& b) {
   return rank(a) < rank(b);
 }
 
+/// All that a PE may report [quanta]: all of a scene's is 3 * 2^48, and what walls of 0.99 send back and forth, a
+/// hundred times that. With it no sum overflows.
+constexpr std::int64_t kMostFlux = std::int64_t{1} << 56U;
+
+/// In the whole stage.
+constexpr std::int64_t kMostShotFlux = 16 * kMostFlux;
+
+void check_flux(PeNumber source, const char* what, std::int64_t value) {
+  if (value >= 0 && value <= kMostFlux) return;
+  throw MachineFailure("PE " + std::to_string(source) + " reports " + what + " of " + std::to_string(value) +
+                       " quanta: 0 to " + std::to_string(kMostFlux) + " are possible");
+}
+
+void check_candidate(PeNumber source, const Candidate& candidate) {
+  check_flux(source, "a candidate's unshot flux", candidate.unshot);
+  for (const std::int64_t amount : candidate.amount) check_flux(source, "a candidate's amount", amount);
+  if (candidate.side <= 1 && (candidate.kind == ShotKind::emitted || candidate.kind == ShotKind::reflected)) return;
+  throw MachineFailure("PE " + std::to_string(source) + " offers side " + std::to_string(candidate.side) + " of kind " +
+                       std::to_string(static_cast<std::uint32_t>(candidate.kind)) + ": 0 and 1 are possible for both");
+}
+
 }  // namespace
 
 RadiosityPhase::RadiosityPhase(RadiositySettings settings)
@@ -103,9 +124,11 @@ void RadiosityPhase::take_candidates(HostPort& port, PeNumber source, std::span<
     if (message.candidate[i].number >= settings_.reflectance.size()) {
       throw MachineFailure("PE " + std::to_string(source) + " offers a patch that does not exist");
     }
+    check_candidate(source, message.candidate[i]);
     candidates_.push_back({source, message.candidate[i]});
   }
   if (message.last == 0) return;
+  for (const std::int64_t unshot : message.unshot) check_flux(source, "unshot flux", unshot);
   unshot_ += message.unshot[0] + message.unshot[1] + message.unshot[2];
   if (++answers_ == settings_.pes) begin_round(port);
 }
@@ -127,6 +150,7 @@ void RadiosityPhase::begin_round(HostPort& port) {
             [](const Chosen& a, const Chosen& b) { return before(a.candidate, b.candidate); });
   if (candidates_.size() > most) candidates_.resize(most);
   expected_ = candidates_.size() < most ? 0 : candidates_.back().candidate.unshot / kExpectedDivisor * kExpectedFactor;
+  selected_unshot_ = unshot_;
   RoundFigures& round = rounds_.back();
   round.unshot = settings_.emitted > 0 ? static_cast<double>(unshot_) / settings_.emitted : 0;
   port.note(HostGauge::unshot, round.unshot);
@@ -164,6 +188,10 @@ void RadiosityPhase::add_shots() {
         reflected_shot_[c] += flux[c];
       } else {
         emitted_shot_[c] += flux[c];
+      }
+      if (std::max(reflected_shot_[c], emitted_shot_[c]) > kMostShotFlux) {
+        throw MachineFailure("PEs offer more flux than any scene has: more than " + std::to_string(kMostShotFlux) +
+                             " quanta have been shot");
       }
     }
     shots_of_[candidates_[i].pe].push_back(

@@ -40,7 +40,7 @@ class RadiosityPhase : public Phase {
   std::uint64_t shots() const { return shots_; }
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< the present one, not ended, included
   std::uint64_t credits_home() const { return credits_.home(); }
-  std::int64_t unshot() const { return unshot_; }  ///< [quanta, R + G + B], at the last selection
+  std::int64_t unshot() const { return selected_unshot_; }  ///< [quanta, R + G + B], at the last selection
   const protocol::Flux& emitted_shot() const { return emitted_shot_; }
   const protocol::Flux& reflected_shot() const { return reflected_shot_; }
 
@@ -76,10 +76,11 @@ class RadiosityPhase : public Phase {
   RadiositySettings settings_;
   State state_ = State::selecting;
   std::vector<Chosen> candidates_;
-  unsigned answers_ = 0;  ///< PEs whose candidates are all here
-  std::int64_t unshot_ = 0;
-  std::int64_t threshold_ = 0;  ///< of the selection: PEs name only sides with more
-  std::int64_t expected_ = 0;   ///< so much have this round's shots, if they are like those of the last one
+  unsigned answers_ = 0;              ///< PEs whose candidates are all here
+  std::int64_t unshot_ = 0;           ///< of the PEs that have answered the present selection
+  std::int64_t selected_unshot_ = 0;  ///< of all, at the last one
+  std::int64_t threshold_ = 0;        ///< of the selection: PEs name only sides with more
+  std::int64_t expected_ = 0;         ///< so much have this round's shots, if they are like those of the last one
   std::vector<std::deque<RoundShot>> shots_of_;  ///< with points left, by owner
   std::vector<PeNumber> owners_;                 ///< of those, in the order of PEs
   std::size_t turn_ = 0;                         ///< of owners_: who makes the next point

@@ -14,9 +14,9 @@ namespace torolux::study {
 namespace {
 
 /// These a study decides itself, or they are for looking at one run.
-constexpr std::array<std::string_view, 12> kNotInPlans = {"help",  "output",         "no-picture", "stats", "stats-csv",
-                                                          "quiet", "save-radiosity", "save-mesh",  "gdb",   "threads",
-                                                          "set",   "format"};
+constexpr std::array<std::string_view, 13> kNotInPlans = {
+    "help",           "output",    "no-picture", "stats",   "stats-csv", "quiet", "verbose",
+    "save-radiosity", "save-mesh", "gdb",        "threads", "set",       "format"};
 constexpr std::array<std::string_view, 3> kCommands = {"render", "run", "network"};
 constexpr std::string_view kMachine = "machine.";
 

@@ -3,6 +3,7 @@
 // do the same and count the same as those of one engine that nobody looks at.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
@@ -104,7 +105,7 @@ TEST(MixedEngines, WhatTheMachineDoesNotHaveIsRefused) {
   expect({"--gdb", "16:0"}, 1, "there is no PE 16 to run on QEMU: this machine's PEs are 0 to 15");
   expect({"--gdb", "3:0", "--gdb", "3:0"}, 1, "PE 3 is to have two debuggers");
   expect({"--gdb", "3:65536"}, 2, "--gdb: \"3:65536\" is out of range: 0 to 65535 are allowed");
-  expect({"--gdb", "3"}, 1, "--gdb: \"3\" is not a PE and a TCP port like 3:1234");
+  expect({"--gdb", "3"}, 1, "--gdb: \"3\" is not a PE and a TCP port like 3:1234, or a path");
 }
 
 // ---- Debuggers ----
@@ -131,15 +132,21 @@ class Debugged : public testing::Test {
   std::string stats(const std::string& name) const { return folder_.path() / (name + ".json"); }
 
   std::uint16_t await_port(unsigned pe) const {
-    const std::regex line("PE " + std::to_string(pe) + " is halted.*\n.*127\\.0\\.0\\.1:([0-9]+)");
+    const std::smatch match = await_line("PE " + std::to_string(pe) + " is halted.*\n.*127\\.0\\.0\\.1:([0-9]+)");
+    return match.empty() ? std::uint16_t{0} : static_cast<std::uint16_t>(std::stoul(match[1]));
+  }
+
+  /// Waits until the run has written what matches.
+  std::smatch await_line(const std::string& expression) const {
+    const std::regex line(expression);
     for (int tries = 0; tries < 1000; ++tries) {
+      errors_ = run_->errors_so_far();
       std::smatch match;
-      const std::string text = run_->errors_so_far();
-      if (std::regex_search(text, match, line)) return static_cast<std::uint16_t>(std::stoul(match[1]));
+      if (std::regex_search(errors_, match, line)) return match;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    ADD_FAILURE() << "no port for PE " << pe << ": " << run_->errors_so_far();
-    return 0;
+    ADD_FAILURE() << "no " << expression << ": " << errors_;
+    return {};
   }
 
   static std::uint32_t address_of(const std::string& part_of_name) {
@@ -153,6 +160,7 @@ class Debugged : public testing::Test {
 
   TemporaryFolder folder_;
   std::optional<ToroluxProcess> run_;
+  mutable std::string errors_;  // that the last match points into
   std::vector<std::uint16_t> ports_;
 };
 
@@ -224,6 +232,26 @@ TEST_F(Debugged, APortInUseIsRefused) {
   EXPECT_THAT(second.errors, HasSubstr("port " + port + " of 127.0.0.1: Address already in use"));
   GdbClient(ports_[0]).send("c");
   expect_undisturbed();
+}
+
+TEST_F(Debugged, ASocketOfAFolderIsForItsUserAlone) {
+  const std::filesystem::path path = folder_.path() / "pe3";
+  const mode_t before = umask(0);
+  start({}, {"--gdb", "3:" + path.string()});
+  umask(before);
+  await_line("target remote " + path.string());
+  struct stat status {};
+  ASSERT_EQ(lstat(path.c_str(), &status), 0);
+  EXPECT_TRUE(S_ISSOCK(status.st_mode));
+  EXPECT_EQ(status.st_mode & 07777U, 0600U);
+  const Finished second = run_torolux({"run", image("token"), "--gdb", "4:" + path.string()});
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.errors, HasSubstr("pe3: Address already in use; take the path of a file that is not there yet"));
+  GdbClient gdb(path);
+  EXPECT_THAT(gdb.ask("?").value_or(""), StartsWith("T05"));
+  gdb.send("c");
+  expect_undisturbed();
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST_F(Debugged, APeThatItsDebuggerKillsEndsTheRun) {

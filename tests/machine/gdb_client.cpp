@@ -7,6 +7,7 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <sys/time.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,8 +17,7 @@
 namespace torolux::test {
 
 GdbClient::GdbClient(std::uint16_t port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-  const timeval longest{10, 0};
-  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
+  wait_at_most_ten_seconds();
   const int yes = 1;
   setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   sockaddr_in address{};
@@ -28,6 +28,22 @@ GdbClient::GdbClient(std::uint16_t port) : socket_(socket(AF_INET, SOCK_STREAM |
     close(socket_);
     throw std::runtime_error("nobody listens on port " + std::to_string(port));
   }
+}
+
+GdbClient::GdbClient(const std::filesystem::path& path) : socket_(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  wait_at_most_ten_seconds();
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.string().copy(std::begin(address.sun_path), sizeof address.sun_path - 1);
+  if (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    close(socket_);
+    throw std::runtime_error("nobody listens at " + path.string());
+  }
+}
+
+void GdbClient::wait_at_most_ten_seconds() const {
+  const timeval longest{10, 0};
+  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
 }
 
 GdbClient::~GdbClient() {

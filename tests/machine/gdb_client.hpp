@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A debugger as far as tests need one: GDB's remote serial protocol over TCP. Commands in, replies out.
+// A debugger as far as tests need one: GDB's remote serial protocol over a socket. Commands in, replies out.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,8 @@ class GdbClient {
  public:
   /// Connects to 127.0.0.1. Throws std::runtime_error.
   explicit GdbClient(std::uint16_t port);
+  /// Connects to a Unix socket. Throws std::runtime_error.
+  explicit GdbClient(const std::filesystem::path& path);
   GdbClient(const GdbClient&) = delete;
   GdbClient& operator=(const GdbClient&) = delete;
   ~GdbClient();
@@ -30,6 +33,7 @@ class GdbClient {
   std::uint32_t pc() { return registers()[32]; }
 
  private:
+  void wait_at_most_ten_seconds() const;
   std::optional<char> next();
 
   int socket_ = -1;

@@ -52,7 +52,7 @@ TEST(Feet, NoLightGetsUnderABlock) {
   rough.quality.shot_points = 2;
   rough.quality.unshot = 0.001;  // the block's inside would be among the last to shoot
   double share = 0;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{3}}) {
     rough.quality.seed = seed;
     share += hidden_share(solve_scene(rough)) / 3;
   }

@@ -3,25 +3,36 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+
+#include "emulator/engines/debugging.hpp"
 
 namespace torolux {
 
 class GdbSocket {
  public:
-  /// Listens on 127.0.0.1. port 0: any that is free. Throws InputError where it is in use or not allowed.
-  explicit GdbSocket(std::uint16_t port);
+  /// Listens on 127.0.0.1, or where the endpoint has a path on a Unix socket of mode 0600 that is made there. Throws
+  /// InputError where that cannot be.
+  explicit GdbSocket(const GdbEndpoint& endpoint);
   GdbSocket(GdbSocket&& other) noexcept;
   GdbSocket(const GdbSocket&) = delete;
   GdbSocket& operator=(const GdbSocket&) = delete;
   GdbSocket& operator=(GdbSocket&&) = delete;
+  /// A Unix socket goes from its folder.
   ~GdbSocket();
 
-  int descriptor() const { return descriptor_; }  ///< close-on-exec
-  std::uint16_t port() const { return port_; }    ///< that it has got
+  int descriptor() const { return descriptor_; }             ///< close-on-exec; -1 once it has been left to QEMU
+  const GdbEndpoint& endpoint() const { return endpoint_; }  ///< with the port that it has got
+  /// From now on QEMU alone listens: nobody connects to a PE that is gone.
+  void leave_to_qemu();
 
  private:
+  void listen_on_port();
+  void listen_on_path();
+
+  GdbEndpoint endpoint_;
   int descriptor_ = -1;
-  std::uint16_t port_ = 0;
+  bool file_is_ours_ = false;
 };
 
 }  // namespace torolux

@@ -78,12 +78,6 @@ struct Launch {
   std::vector<int> cores;
 };
 
-/// A PE, and the debugger that may hold it.
-struct Debugged {
-  unsigned pe;
-  GdbSocket socket;
-};
-
 class QemuPe {
  public:
   /// debugger: where one may connect; none: not at all.
@@ -235,7 +229,7 @@ class QemuEngine final : public Engine {
       : launch_{setup, options.logs, options.meetings, {}, {}},
         listens_(options.listens),
         most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {
-    for (const GdbPort& port : options.gdb) debugged_.push_back({port.pe, GdbSocket(port.port)});
+    for (const GdbEndpoint& endpoint : options.gdb) debugged_.emplace_back(endpoint);
   }
 
   std::string_view name() const override { return kQemuEngine; }
@@ -248,10 +242,10 @@ class QemuEngine final : public Engine {
       if (launch_.setup.runs(pe)) pes_.emplace_back(pe, launch_, debugger_of(pe));
     }
     last_check_ = Clock::now();
-    for (const Debugged& debugged : debugged_) {
-      if (listens_) listens_({debugged.pe, debugged.socket.port()});
+    for (GdbSocket& debugger : debugged_) {
+      if (listens_) listens_(debugger.endpoint());
+      debugger.leave_to_qemu();
     }
-    debugged_.clear();  // QEMU alone listens: nobody connects to a PE that is gone
   }
 
   void check() override {
@@ -280,13 +274,13 @@ class QemuEngine final : public Engine {
 
  private:
   const GdbSocket* debugger_of(std::size_t pe) const {
-    const auto found = std::ranges::find(debugged_, pe, &Debugged::pe);
-    return found == debugged_.end() ? nullptr : &found->socket;
+    const auto found = std::ranges::find(debugged_, pe, [](const GdbSocket& socket) { return socket.endpoint().pe; });
+    return found == debugged_.end() ? nullptr : &*found;
   }
 
   Launch launch_;
-  std::vector<Debugged> debugged_;  // until they have started
-  std::function<void(const GdbPort&)> listens_;
+  std::vector<GdbSocket> debugged_;
+  std::function<void(const GdbEndpoint&)> listens_;
   std::uint64_t most_cycles_between_hints_;
   std::vector<QemuPe> pes_;
   Clock::time_point last_check_;

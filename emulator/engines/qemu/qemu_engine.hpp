@@ -23,8 +23,8 @@ struct QemuOptions {
   std::optional<QemuHintLogs> logs = {};
   /// Memory of a HintMeeting for each PE: whoever has it does what HINTs do. nullptr: QEMU's plugin does.
   std::vector<SharedMemory>* meetings = nullptr;
-  std::vector<GdbPort> gdb = {};                     ///< of PEs that this engine runs
-  std::function<void(const GdbPort&)> listens = {};  ///< as Debugging::listens
+  std::vector<GdbEndpoint> gdb = {};                     ///< of PEs that this engine runs
+  std::function<void(const GdbEndpoint&)> listens = {};  ///< as Debugging::listens
 };
 
 /// QEMU and the plugin are looked for when the PEs are started. setup.pes must outlive the engine. Throws InputError

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Files of the cache: written under other names, then renamed.
+// Which folder it is, and what lies there.
 #include "emulator/engines/translated/cache.hpp"
 
-#include <fcntl.h>
 #include <openssl/evp.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +11,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iostream>
+#include <mutex>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -49,22 +50,18 @@ std::optional<OpenFile> sealed_copy(const std::string& contents) {
   return copy;
 }
 
-/// False where it cannot be written; then nothing is left behind.
-bool replace_file(const std::filesystem::path& file, const std::string& contents) {
-  std::string name = file.string() + ".XXXXXX";
-  const int descriptor = mkstemp(name.data());
-  if (descriptor < 0) return false;
-  close(descriptor);
-  std::ofstream stream(name, std::ios::binary);
-  stream << contents;
-  stream.close();
+std::filesystem::path folder_for_temporary_files() {
   std::error_code error;
-  if (stream) std::filesystem::rename(name, file, error);
-  if (!stream || error) {
-    std::filesystem::remove(name, error);
-    return false;
-  }
-  return true;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  return error ? std::filesystem::path("/tmp") : folder;
+}
+
+/// The line is written once, however many images are translated.
+void tell_once(const std::string& line) {
+  static std::mutex mutex;
+  static std::set<std::string> told;
+  const std::lock_guard lock(mutex);
+  if (told.insert(line).second) std::cerr << "torolux: note: " << line << std::endl;
 }
 
 }  // namespace
@@ -84,12 +81,6 @@ std::string digest(std::string_view bytes) {
   return text;
 }
 
-OpenFile::OpenFile(OpenFile&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-OpenFile::~OpenFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "torolux-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw MachineFailure("cannot make " + name + ": " + std::strerror(errno));
@@ -101,21 +92,41 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-Cache::Cache(std::filesystem::path folder) : folder_(folder.empty() ? default_folder() : std::move(folder)) {}
+Cache::Cache(std::filesystem::path folder, const Tell& tell) {
+  if (folder.empty()) folder = default_folder();
+  const std::string doubt = folder.empty() ? std::string() : take(folder);
+  if (folder_) return;
+  const std::filesystem::path instead = folder_for_temporary_files() / ("torolux-" + std::to_string(geteuid()));
+  const std::string second_doubt = take(instead);
+  if (doubt.empty() && second_doubt.empty()) return;
+  (tell ? tell : tell_once)("translated code is not kept in " + (doubt.empty() ? instead : folder).string() +
+                            ", where others could put theirs: " + (doubt.empty() ? second_doubt : doubt) +
+                            (folder_ ? "; " + instead.string() + " is used" : "; it is translated each time") +
+                            ". Make that folder yours alone (chown, chmod go-w), or remove it");
+}
+
+std::string Cache::take(const std::filesystem::path& folder) {
+  auto opened = PrivateFolder::open(folder);
+  if (auto* own = std::get_if<PrivateFolder>(&opened)) {
+    folder_.emplace(std::move(*own));
+    return {};
+  }
+  const auto& refusal = std::get<PrivateFolder::Refusal>(opened);
+  return refusal.untrusted ? refusal.why : std::string();
+}
 
 std::optional<OpenFile> Cache::find(const std::string& key) const {
-  const auto contents = contents_of(object(key));
-  const auto expected = contents_of(seal(key));
+  if (!folder_) return std::nullopt;
+  const auto contents = folder_->read(key + ".so");
+  const auto expected = folder_->read(key + ".sha256");
   if (!contents || !expected || digest(*contents) != *expected) return std::nullopt;
   return sealed_copy(*contents);
 }
 
 void Cache::store(const std::string& key, const std::filesystem::path& file) const {
-  std::error_code ignored;
-  std::filesystem::create_directories(folder_, ignored);
+  if (!folder_) return;
   const auto contents = contents_of(file);
-  if (!contents || folder_.empty()) return;
-  if (replace_file(object(key), *contents)) replace_file(seal(key), digest(*contents));
+  if (contents && folder_->replace(key + ".so", *contents)) folder_->replace(key + ".sha256", digest(*contents));
 }
 
 }  // namespace torolux::translated

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shared objects by the digest of all that they were made from. What is damaged, cut short or changed is never used.
+// Shared objects by the digest of all that they were made from. What is damaged, cut short or changed, or lies where
+// others may change it, is never used.
 #pragma once
 
 #include <filesystem>
@@ -8,23 +9,12 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/engines/translated/private_folder.hpp"
+
 namespace torolux::translated {
 
 /// SHA-256 in hexadecimal.
 std::string digest(std::string_view bytes);
-
-/// An open file, closed with the object.
-class OpenFile {
- public:
-  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
-  OpenFile(OpenFile&& other) noexcept;
-  OpenFile& operator=(OpenFile&&) = delete;
-  ~OpenFile();
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 /// A folder of its own for temporary files, removed with all that is in it.
 class TemporaryFolder {
@@ -41,8 +31,13 @@ class TemporaryFolder {
 
 class Cache {
  public:
-  /// folder: empty for $XDG_CACHE_HOME/torolux/translated, or .cache below $HOME. Made when it is first needed.
-  explicit Cache(std::filesystem::path folder);
+  using Tell = std::function<void(const std::string& line)>;
+
+  /// folder: empty for $XDG_CACHE_HOME/torolux/translated, or .cache below $HOME. Made where it is not there. One that
+  /// others may change is left alone, which `tell` is told (empty: standard error, once for each process and folder);
+  /// then, and where it cannot be made, torolux-USER in the folder for temporary files takes its place. Where that is
+  /// not the user's own either, nothing is kept.
+  explicit Cache(std::filesystem::path folder, const Tell& tell = {});
 
   /// The object of this key, whose digest has just been checked: what is open can no longer be changed by others.
   std::optional<OpenFile> find(const std::string& key) const;
@@ -50,10 +45,10 @@ class Cache {
   void store(const std::string& key, const std::filesystem::path& file) const;
 
  private:
-  std::filesystem::path object(const std::string& key) const { return folder_ / (key + ".so"); }
-  std::filesystem::path seal(const std::string& key) const { return folder_ / (key + ".sha256"); }
+  /// Takes the folder where it is the user's own; else says what others could do, or nothing if it is just not there.
+  std::string take(const std::filesystem::path& folder);
 
-  std::filesystem::path folder_;
+  std::optional<PrivateFolder> folder_;
 };
 
 }  // namespace torolux::translated

@@ -4,6 +4,8 @@
 
 #include <chrono>
 
+#include "emulator/pause.hpp"
+
 namespace torolux::translated {
 namespace {
 
@@ -85,7 +87,7 @@ std::optional<unsigned> RunQueue::take() {
 
 std::optional<unsigned> RunQueue::wait_and_take() {
   idle_.fetch_add(1);
-  for (int i = 0; i < kLooks && !may_take(); ++i) __builtin_ia32_pause();
+  for (int i = 0; i < kLooks && !may_take(); ++i) torolux::pause();
   if (!may_take()) {
     std::unique_lock lock(mutex_);
     sleepers_.fetch_add(1);

@@ -13,6 +13,7 @@
 #include "emulator/engines/translated/run_queue.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/pause.hpp"
 
 namespace torolux {
 namespace {
@@ -126,7 +127,7 @@ bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
     std::optional<unsigned> other = queue_.take();
     for (int i = 0; i < kLooks && !other; ++i) {
       if (news.there()) return true;
-      __builtin_ia32_pause();
+      torolux::pause();
       other = queue_.take();
     }
     if (!other) return false;

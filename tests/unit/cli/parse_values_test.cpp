@@ -76,12 +76,15 @@ TEST(ParsePeList, TakesNumbersAndRanges) {
     EXPECT_THROW(parse_pe_list(text), InputError) << text;
 }
 
-TEST(ParseGdbPort, TakesPeAndPort) {
-  EXPECT_EQ(parse_gdb_port("3:1234"), (GdbPort{3, 1234}));
-  EXPECT_EQ(parse_gdb_port("0:0"), (GdbPort{0, 0}));
-  for (const char* text : {"", "3", "3:", ":1234", "3:1:2", "a:1", "3:-1", "localhost:1234"})
-    EXPECT_THROW(parse_gdb_port(text), UsageError) << text;
-  for (const char* text : {"3:65536", "65520:1234"}) EXPECT_THROW(parse_gdb_port(text), InputError) << text;
+TEST(ParseGdbEndpoint, TakesPeAndPort) {
+  EXPECT_EQ(parse_gdb_endpoint("3:1234"), (GdbEndpoint{3, 1234}));
+  EXPECT_EQ(parse_gdb_endpoint("0:0"), (GdbEndpoint{0, 0}));
+  EXPECT_EQ(parse_gdb_endpoint("7:/tmp/a:b"), (GdbEndpoint{7, 0, "/tmp/a:b"}));
+  EXPECT_EQ(parse_gdb_endpoint("7:./pe7"), (GdbEndpoint{7, 0, "./pe7"}));
+  for (const char* text :
+       {"", "3", "3:", ":1234", "3:1:2", "a:1", "3:-1", "localhost:1234", "3:pe3", "/tmp/pe3", "x:/tmp/pe3"})
+    EXPECT_THROW(parse_gdb_endpoint(text), UsageError) << text;
+  for (const char* text : {"3:65536", "65520:1234"}) EXPECT_THROW(parse_gdb_endpoint(text), InputError) << text;
 }
 
 TEST(ParseVector, TakesThreeNumbers) {
