@@ -8,7 +8,7 @@ namespace torolux::test {
 namespace {
 
 RenderResult lit_room(const char* file) {
-  RenderCase result = native_case(data_dir() / "scenes" / "lamp_in_ceiling" / file);
+  RenderCase result = native_case(data_dir() / "overlaps" / "lamp_in_ceiling" / file);
   result.quality.hemicube = 16;
   result.quality.max_shots = 0;
   result.quality.width = result.quality.height = 48;
