@@ -18,6 +18,7 @@ struct Member {
   Vec3d normal{0, 0, 0};  ///< times area
   double area = 0;
   std::vector<std::uint32_t> neighbours;
+  std::size_t triangles = 0;
 };
 
 /// Normals of members differ from the first one's by no more than this.
@@ -27,6 +28,8 @@ constexpr double kPatchCosine = 0.6427876096865394;    ///< 50 degrees
 constexpr double kScrap = 0.25;
 /// A patch of fewer stays as it is: a small quadrilateral is no finely tessellated surface.
 constexpr std::size_t kFewTriangles = 8;
+/// Nor has one more than this: a patch's owner holds all of it, and a million triangles may lie within one's length.
+constexpr std::size_t kMostTriangles = 4096;
 
 double cosine(const Vec3d& a, const Vec3d& b) {
   const double lengths = vec::length(a) * vec::length(b);
@@ -42,6 +45,7 @@ std::vector<std::uint32_t> grow(const std::vector<Member>& members, double lengt
     if (cluster[seed] != none) continue;
     cluster[seed] = next;
     std::deque<std::uint32_t> reached{seed};
+    std::size_t triangles = members[seed].triangles;
     while (!reached.empty()) {
       const std::uint32_t member = reached.front();
       reached.pop_front();
@@ -49,6 +53,8 @@ std::vector<std::uint32_t> grow(const std::vector<Member>& members, double lengt
         if (cluster[other] != none) continue;
         const double far = vec::length(vec::subtract(members[other].centre, members[seed].centre));
         if (far > 0.5 * length || cosine(members[other].normal, members[seed].normal) < least_cosine) continue;
+        if (triangles + members[other].triangles > kMostTriangles) continue;
+        triangles += members[other].triangles;
         cluster[other] = next;
         reached.push_back(other);
       }
@@ -66,6 +72,7 @@ std::vector<Member> merged(const std::vector<Member>& members, const std::vector
     into.centre = vec::add(into.centre, vec::scale(members[m].centre, members[m].area));
     into.normal = vec::add(into.normal, members[m].normal);
     into.area += members[m].area;
+    into.triangles += members[m].triangles;
     for (const std::uint32_t other : members[m].neighbours) {
       if (cluster[other] != cluster[m]) into.neighbours.push_back(cluster[other]);
     }
@@ -86,7 +93,12 @@ void join_scraps(const std::vector<Member>& members, double length, double least
   DisjointSets sets(clusters.size());
   std::vector<double> area;
   area.reserve(clusters.size());
-  for (const Member& member : clusters) area.push_back(member.area);
+  std::vector<std::size_t> triangles;
+  triangles.reserve(clusters.size());
+  for (const Member& member : clusters) {
+    area.push_back(member.area);
+    triangles.push_back(member.triangles);
+  }
   for (std::uint32_t c = 0; c < clusters.size(); ++c) {
     if (area[sets.root(c)] > kScrap * full) continue;
     std::uint32_t best = kNoNeighbour;
@@ -94,13 +106,16 @@ void join_scraps(const std::vector<Member>& members, double length, double least
     for (const std::uint32_t other : clusters[c].neighbours) {
       const double alike = cosine(clusters[c].normal, clusters[other].normal);
       if (sets.root(other) == sets.root(c) || area[sets.root(other)] > full || !(alike > best_cosine)) continue;
+      if (triangles[sets.root(c)] + triangles[sets.root(other)] > kMostTriangles) continue;
       best = other;
       best_cosine = alike;
     }
     if (best == kNoNeighbour) continue;
     const double both = area[sets.root(c)] + area[sets.root(best)];
+    const std::size_t count = triangles[sets.root(c)] + triangles[sets.root(best)];
     sets.merge(c, best);
     area[sets.root(c)] = both;
+    triangles[sets.root(c)] = count;
   }
   std::vector<std::uint32_t> number(clusters.size(), kNoNeighbour);
   std::uint32_t next = 0;
@@ -136,6 +151,7 @@ std::vector<Member> members_of(const Mesh& mesh, const Scene& scene, const std::
     member.centre = vec::scale(vec::add(vec::add(a, b), c), 1.0 / 3);
     member.normal = vec::scale(vec::cross(vec::subtract(b, a), vec::subtract(c, a)), 0.5);
     member.area = mesh.triangles[t].area;
+    member.triangles = 1;
     for (const std::uint32_t other : mesh.smooth.neighbour[t]) {
       if (other != kNoNeighbour && number[other] != kNoNeighbour) member.neighbours.push_back(number[other]);
     }

@@ -38,6 +38,13 @@ std::array<Vec3d, 3> corners_of(const MeshTriangle& triangle) {
 struct Sets {
   std::vector<std::uint32_t> root;  ///< the lowest of the set
   std::vector<bool> alike;          ///< by root: wound alike, no edge is shared by more than two
+  std::vector<std::pair<std::uint32_t, std::uint8_t>> border;  ///< triangle and edge, of edges that one triangle has
+};
+
+/// A set before it is known whether it may hide.
+struct Candidate {
+  std::vector<std::array<Vec3d, 3>> triangles;
+  std::vector<std::array<Vec3d, 2>> border;
 };
 
 Sets sets_of(const Mesh& mesh) {
@@ -46,14 +53,16 @@ Sets sets_of(const Mesh& mesh) {
   const std::vector<EdgeUse> uses = edge_uses(positions);
   DisjointSets joined(positions.size());
   std::vector<bool> alike(positions.size(), true);
+  std::vector<std::pair<std::uint32_t, std::uint8_t>> border;
   for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 1) border.emplace_back(edge[0].triangle, edge[0].edge);
     const bool one_way = edge.size() == 1 || (edge.size() == 2 && edge[0].forward != edge[1].forward);
     for (const EdgeUse& use : edge) {
       joined.merge(edge[0].triangle, use.triangle);
       if (!one_way) alike[use.triangle] = false;
     }
   });
-  Sets sets{{}, std::vector<bool>(positions.size(), true)};
+  Sets sets{{}, std::vector<bool>(positions.size(), true), std::move(border)};
   for (std::uint32_t t = 0; t < positions.size(); ++t) {
     sets.root.push_back(joined.root(t));
     if (!alike[t]) sets.alike[sets.root[t]] = false;
@@ -71,40 +80,58 @@ PlanePoint middle_of_grid(std::uint32_t code) {
 }
 
 Hiding::Hiding(const Mesh& mesh, const Scene& scene) {
-  auto [root, may_hide] = sets_of(mesh);
-  thing_of_ = std::move(root);
-  std::vector<Thing> sets(mesh.triangles.size());
+  Sets sets = sets_of(mesh);
+  thing_of_ = std::move(sets.root);
+  std::vector<Candidate> all(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const SceneMaterial& material = scene.materials[mesh.triangles[t].material];
-    Thing& thing = sets[thing_of_[t]];
-    thing.corners.push_back(corners_of(mesh.triangles[t]));
-    for (const Vec3d& corner : thing.corners.back()) thing.box.include(corner);
-    if (material.kind == SurfaceKind::glass || emits(material)) may_hide[thing_of_[t]] = false;
+    Candidate& candidate = all[thing_of_[t]];
+    candidate.triangles.push_back(corners_of(mesh.triangles[t]));
+    if (material.kind == SurfaceKind::glass || emits(material)) sets.alike[thing_of_[t]] = false;
   }
+  for (const auto& [triangle, edge] : sets.border) {
+    const auto corner = corners_of(mesh.triangles[triangle]);
+    all[thing_of_[triangle]].border.push_back({corner[edge], corner[(edge + 1) % 3]});
+  }
+  std::vector<std::uint32_t> number(all.size(), protocol::kNoSide);
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const std::size_t size = all[s].triangles.size();
+    if (size < 4 || size > kMostTriangles || !sets.alike[s]) continue;
+    Thing& thing = things_.emplace_back();
+    for (const auto& triangle : all[s].triangles)
+      for (const Vec3d& corner : triangle) thing.box.include(corner);
+    thing.angle = SolidAngle(std::move(all[s].triangles), all[s].border);
+    number[s] = static_cast<std::uint32_t>(things_.size() - 1);
+  }
+  // Those that an emitter stands in are left out, and the numbers close ranks.
+  const std::vector<bool> lit = lit_inside(mesh, scene);
+  std::vector<std::uint32_t> kept(things_.size(), protocol::kNoSide);
+  std::vector<Thing> dark;
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    if (lit[i]) continue;
+    kept[i] = static_cast<std::uint32_t>(dark.size());
+    dark.push_back(std::move(things_[i]));
+  }
+  things_ = std::move(dark);
+  for (std::uint32_t& thing : thing_of_) {
+    thing = number[thing];
+    if (thing < kept.size()) thing = kept[thing];
+  }
+}
+
+std::vector<bool> Hiding::lit_inside(const Mesh& mesh, const Scene& scene) const {
+  std::vector<bool> lit(things_.size(), false);
   for (const MeshTriangle& triangle : mesh.triangles) {
     if (!emits(scene.materials[triangle.material])) continue;
     const auto corner = corners_of(triangle);
     const Vec3d middle = vec::scale(vec::add(vec::add(corner[0], corner[1]), corner[2]), 1.0 / 3);
-    for (std::size_t s = 0; s < sets.size(); ++s) {
-      if (sets[s].corners.empty() || !may_hide[s] || !contains(sets[s].box, middle)) continue;
+    for (std::size_t i = 0; i < things_.size(); ++i) {
+      if (lit[i] || !contains(things_[i].box, middle)) continue;
       // Half a sphere is enough for what stands on the floor: elsewhere, be careful.
-      if (std::abs(solid_angle(sets[s], middle)) > std::numbers::pi) may_hide[s] = false;
+      if (std::abs(things_[i].angle.seen_from(middle)) > std::numbers::pi) lit[i] = true;
     }
   }
-  std::vector<std::uint32_t> number(sets.size(), protocol::kNoSide);
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    if (sets[s].corners.size() < 4 || sets[s].corners.size() > kMostTriangles || !may_hide[s]) continue;
-    number[s] = static_cast<std::uint32_t>(things_.size());
-    things_.push_back(std::move(sets[s]));
-  }
-  for (std::uint32_t& thing : thing_of_) thing = number[thing];
-}
-
-/// Triangles that are seen from behind count against those that are seen from the front.
-double Hiding::solid_angle(const Thing& thing, const Vec3d& point) {
-  double angle = 0;
-  for (const auto& corner : thing.corners) angle += vec::solid_angle(corner, point);
-  return angle;
+  return lit;
 }
 
 bool Hiding::hides(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side, const PlanePoint& point) const {
@@ -118,7 +145,7 @@ bool Hiding::hides(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side,
   for (std::size_t i = 0; i < things_.size(); ++i) {
     if (thing_of_[triangle] == i || !contains(things_[i].box, at)) continue;
     // What stands on the triangle fills half a sphere, whether it has a bottom of its own or not.
-    if (std::abs(solid_angle(things_[i], at)) > 2 * std::numbers::pi - kOpening) return true;
+    if (std::abs(things_[i].angle.seen_from(at)) > 2 * std::numbers::pi - kOpening) return true;
   }
   return false;
 }

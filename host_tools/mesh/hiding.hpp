@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "host_tools/mesh/solid_angle.hpp"
 #include "host_tools/mesh/walls.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -30,9 +31,11 @@ class Hiding {
   /// Triangles that hang together by edges.
   struct Thing {
     vec::Box box;
-    std::vector<std::array<Vec3d, 3>> corners;
+    SolidAngle angle;
   };
-  static double solid_angle(const Thing& thing, const Vec3d& point);
+
+  /// By thing: whether an emitter is inside.
+  std::vector<bool> lit_inside(const Mesh& mesh, const Scene& scene) const;
 
   std::vector<Thing> things_;            ///< that may hide
   std::vector<std::uint32_t> thing_of_;  ///< by triangle; >= things_.size(): none of them

@@ -148,11 +148,23 @@ Walls::Walls(const Mesh& mesh, const std::vector<bool>& wanted) : of_side_(mesh.
       add_walls(plane, side == 0 ? 1 : -1, corners[other], of_side_[triangle][side]);
     }
   };
+  const auto close = [&](std::size_t i, std::size_t j) { return boxes[j].box.low[0] <= boxes[i].box.high[0] + kClose; };
+  const auto look_at = [&](std::size_t i, std::size_t j) {
+    if (!near(boxes[i].box, boxes[j].box)) return;
+    stand_on(boxes[i].triangle, boxes[j].triangle);
+    stand_on(boxes[j].triangle, boxes[i].triangle);
+  };
+  // Of two neither of which is wanted nothing is asked: a fine mesh has a million of them, side by side.
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (wanted[boxes[i].triangle]) asked.push_back(i);
+  std::size_t next = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].box.low[0] <= boxes[i].box.high[0] + kClose; ++j) {
-      if (!near(boxes[i].box, boxes[j].box)) continue;
-      stand_on(boxes[i].triangle, boxes[j].triangle);
-      stand_on(boxes[j].triangle, boxes[i].triangle);
+    while (next < asked.size() && asked[next] <= i) ++next;
+    if (wanted[boxes[i].triangle]) {
+      for (std::size_t j = i + 1; j < boxes.size() && close(i, j); ++j) look_at(i, j);
+    } else {
+      for (std::size_t k = next; k < asked.size() && close(i, asked[k]); ++k) look_at(i, asked[k]);
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "host_tools/scene/build_scene.hpp"
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/obj.hpp"
+#include "host_tools/scene/part_overlaps.hpp"
 #include "host_tools/scene/plain_text.hpp"
 #include "host_tools/scene/scene_file.hpp"
 #include "host_tools/scene/statements.hpp"
@@ -117,6 +118,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
     add_studio(builder, scene.camera);
   }
   builder.finish(scene, whole);
+  part_overlaps(scene, notices, whole);
   std::vector<std::string> used;
   for (const SceneMaterial& material : scene.materials) used.push_back(material.name);
   note_unused_overrides(file, used, notices);

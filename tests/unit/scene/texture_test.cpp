@@ -309,7 +309,7 @@ TEST(Texture, PointsThatAreMissingAreRefusedWhereATextureNeedsThem) {
 
 TEST(Texture, OneImageIsReadOnceAndOnlyWhereItIsUsed) {
   Texts two = texts("map_Kd my tiles.png\nnewmtl n\nmap_Kd my tiles.png\nnewmtl unused\nmap_Kd gone.png\n");
-  two["a.obj"] += "usemtl n\nf 3/1 2/2 1/3\n";
+  two["a.obj"] += "v 0 0 5\nv 1 0 5\nv 0 1 5\nusemtl n\nf -3/1 -2/2 -1/3\n";
   const Scene scene = load_texts(two, "a.obj");
   EXPECT_EQ(scene.textures.size(), 1U);
   EXPECT_EQ(scene.materials[1].texture, 0U);
