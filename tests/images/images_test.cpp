@@ -74,6 +74,20 @@ TEST_P(ExampleImages, TokenTakesTheSameCyclesEachTime) {
   EXPECT_EQ(once.figures.now, again.figures.now);
 }
 
+TEST(Jumps, EveryLegalOneIsTheSameOnAllEngines) {
+  const char* expected[] = {"other link 42 ", "own link 42 ", "labels 4721 ", "squares 385 ", "paths 252 "};
+  const Outcome qemu = run("qemu", "jumps", 1, 1);
+  const Outcome translated = run("translated", "jumps", 1, 1);
+  ASSERT_EQ(qemu.texts.size(), std::size(expected));
+  ASSERT_EQ(translated.texts.size(), std::size(expected));
+  for (std::size_t n = 0; n < std::size(expected); ++n) {
+    EXPECT_THAT(qemu.texts[n].text, testing::StartsWith(expected[n]));
+    EXPECT_EQ(translated.texts[n].text, qemu.texts[n].text);  // the clock, too
+  }
+  EXPECT_EQ(translated.figures.trace_hash, qemu.figures.trace_hash);
+  EXPECT_EQ(translated.figures.instructions(), qemu.figures.instructions());
+}
+
 // What the fault is, and what the message must hold. mtval where it is a fixed address.
 class Faults : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Engines, Faults, testing::Values("qemu", "translated"));

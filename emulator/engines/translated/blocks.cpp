@@ -83,8 +83,7 @@ void Blocks::find_roots(const Image& image) {
   for (const ImageSymbol& symbol : image.symbols) {
     if (symbol.function) end_of_functions_ = std::max(end_of_functions_, symbol.address + symbol.bytes);
   }
-  has_function_symbols_ = end_of_functions_ != 0;
-  if (!has_function_symbols_) end_of_functions_ = code_.end();
+  if (end_of_functions_ == 0) end_of_functions_ = code_.end();
   lead(image.entry, true);
   at(image.entry).function = true;
   for (const ImageSymbol& symbol : image.symbols) {

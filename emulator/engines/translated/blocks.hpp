@@ -50,8 +50,6 @@ class Blocks {
   const std::vector<std::uint32_t>& functions() const { return functions_; }
   /// The one that holds this address, by number; what lies before the first belongs to it.
   std::size_t function_of(std::uint32_t address) const;
-  /// Whether the image says what is a function: it comes from a compiler.
-  bool has_function_symbols() const { return has_function_symbols_; }
 
  private:
   struct Traits {
@@ -79,7 +77,6 @@ class Blocks {
   std::vector<std::uint32_t> functions_;
   std::uint32_t end_of_functions_ = 0;  // constants may lie behind
   bool observed_ = false;
-  bool has_function_symbols_ = false;
 };
 
 }  // namespace torolux::translated

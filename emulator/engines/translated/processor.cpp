@@ -102,10 +102,6 @@ std::string Processor::failure() const {
            " cycles: an endless loop? (processor.most_cycles_between_hints = " +
            std::to_string(setup_.machine.processor.most_cycles_between_hints) + ")";
   }
-  if (pe_.stray) {
-    return who + "jumped to pc " + setup_.image.describe(pe_.pc) +
-           ", which no call and no function's address leads to: translated code cannot go on there, --engine qemu can";
-  }
   if (pe_.mcause == 0) {
     return who + "executes no instructions any more: it waits for an interrupt at pc " + setup_.image.describe(pe_.pc) +
            ", and there are none";
