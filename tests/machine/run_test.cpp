@@ -126,6 +126,24 @@ TEST(Run, FourThousandPesStartAndHalt) {
   EXPECT_THAT(run.errors, HasSubstr("4096 PEs halted"));
 }
 
+/// A PATH without any program, as long as it lives.
+class EmptyPath {
+ public:
+  EmptyPath() { setenv("PATH", "/nonexistent", 1); }  // NOLINT(concurrency-mt-unsafe): one thread
+  EmptyPath(const EmptyPath&) = delete;
+  EmptyPath& operator=(const EmptyPath&) = delete;
+  ~EmptyPath() { setenv("PATH", path_.c_str(), 1); }  // NOLINT(concurrency-mt-unsafe)
+
+ private:
+  std::string path_ = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe)
+};
+
+TEST(Run, InterpretedNeedsNoCompilerAndIsTheSame) {
+  const std::string translated = result_of("token", "3x2", {"--engine", "translated"});
+  const EmptyPath no_compiler;
+  EXPECT_EQ(result_of("token", "3x2", {"--engine", "interpreted"}), translated);
+}
+
 TEST(Run, TheMachineFileChangesTheCycles) {
   const TemporaryName machine("machine.toml");
   std::ofstream(machine.text()) << "[torus]\nlink_cycles = 20\n";
