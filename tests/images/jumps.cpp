@@ -135,6 +135,7 @@ void say(pe::Niu& niu, const char* what, std::uint32_t value) {
 
 void torolux::pe::pe_main(Niu& niu) {
   using namespace torolux::tests;
+  using examples::Text;
   say(niu, "other link", by_other_link(14));
   say(niu, "own link", by_own_link(2));
   std::uint32_t labels = 0;
@@ -142,4 +143,8 @@ void torolux::pe::pe_main(Niu& niu) {
   say(niu, "labels", labels);
   say(niu, "squares", sum_of_squares(10));
   say(niu, "paths", paths(5, 5, 1));
+  Text numbers;
+  numbers << "numbers " << -1 << " " << 2.5F << " " << -0.000001F << " " << 0.9999999F << " " << true << " " << 'x'
+          << " " << (std::int64_t{1} << 40U) << " " << 7U;
+  numbers.send(niu);
 }

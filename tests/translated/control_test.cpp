@@ -262,6 +262,30 @@ TEST(TranslatedControl, JumpsThatNobodyCouldForeseeGoOn) {
   }
 }
 
+/// QEMU's own counters are the computer's: not compared.
+TEST(TranslatedControl, CountersAreThePesClockAndInstructions) {
+  Code code;
+  code.li(kLog, kData);
+  const Word numbers[] = {0xC00, 0xC01, 0xB00, 0xC02, 0xB02, 0xC80, 0xC81, 0xB80, 0xC82, 0xB82};
+  std::int32_t offset = 0;
+  for (const Word number : numbers) code << csrrs(kT0, number, 0) << sw(kT0, kLog, 4 * offset++);
+  code << csrrs(kT0, 0xC00, 0) << csrrs(kT1, 0xC00, 0) << sw(kT0, kLog, 40) << sw(kT1, kLog, 44);
+  code << hint(protocol::Hint::halt);
+  const Outcome translated = run_to_halt(image_of(code), Way::translated);
+  const Outcome interpreted = run_to_halt(image_of(code), Way::interpreted);
+  ASSERT_TRUE(translated.halted && interpreted.halted);
+  EXPECT_EQ(translated.memory, interpreted.memory);
+  EXPECT_EQ(translated.clock, interpreted.clock);
+  const auto word = [&](Word n) { return translated.word(kData + 4 * n); };
+  EXPECT_EQ(word(3), 2U + 2 * 3 + 1);  // li is two; csrr, sw three times; and itself
+  EXPECT_EQ(word(4), word(3) + 2);
+  for (Word high = 5; high < 10; ++high) EXPECT_EQ(word(high), 0U);
+  EXPECT_GT(word(1), word(0));
+  EXPECT_GT(word(2), word(1));
+  EXPECT_LT(word(11), translated.clock);
+  EXPECT_EQ(word(11) - word(10), 1U);  // one instruction of the class `integer`
+}
+
 TEST(TranslatedControl, RegistersKeepWhatTheyCan) {
   Code code = begin_with_handler();
   turn_float_on(code);
