@@ -65,6 +65,7 @@ class Blocks {
   void follow(std::uint32_t from);
   void follow_all();
   void fill_functions(const Image& image);
+  void divide_long_functions();
   void follow_flow(const Instruction& i, std::uint32_t pc);
   void find_roots(const Image& image);
   void find_constants(std::uint32_t pc, const Instruction& first);
