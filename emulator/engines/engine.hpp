@@ -68,7 +68,8 @@ inline constexpr const char* kQemuEngine = "qemu";  ///< the reference
 /// Where the user names none.
 inline constexpr const char* kDefaultEngine = "translated";
 
-/// Engines by name. `qemu` and `translated` are always there; others register before main's work (tests add `native`).
+/// Engines by name. `qemu`, `translated` and `interpreted` are always there; others register before main's work (tests
+/// add `native`).
 void register_engine(std::string_view name, EngineFactory factory);
 /// Whether its PEs need no memory that other processes can map. Throws as engine_named.
 bool engine_runs_here(std::string_view name);

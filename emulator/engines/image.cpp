@@ -4,10 +4,14 @@
 
 #include <elf.h>
 
+#include <cxxabi.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "emulator/errors.hpp"
@@ -278,11 +282,19 @@ Image parse_image(std::span<const std::byte> contents, const std::filesystem::pa
   return image;
 }
 
+/// A C++ name as it stands in the source.
+static std::string demangled(const std::string& name) {
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
+                                                         &std::free);
+  return status == 0 && text != nullptr ? std::string(text.get()) : name;
+}
+
 std::string Image::describe(std::uint32_t address) const {
   constexpr std::uint32_t kNear = 4096;  // a label without a size speaks for this many bytes behind it
   const auto name_of = [&](const ImageSymbol& symbol) {
     const std::uint32_t distance = address - symbol.address;
-    return distance == 0 ? symbol.name : symbol.name + "+" + hexadecimal(distance);
+    return distance == 0 ? demangled(symbol.name) : demangled(symbol.name) + "+" + hexadecimal(distance);
   };
   const ImageSymbol* label = nullptr;
   for (const ImageSymbol& symbol : symbols) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "emulator/hexadecimal.hpp"
+#include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/messages.hpp"
 
 namespace torolux {
@@ -32,6 +33,24 @@ std::string cause_in_words(std::uint32_t mcause) {
                                                         "store page fault"};
   if (mcause < kCauses.size()) return std::string(kCauses[mcause]);
   return "cause " + hexadecimal(mcause);
+}
+
+constexpr std::uint32_t kStoreAccess = 7;  // mcause
+
+/// What a store does that is refused: the code and the stack below it have pages of their own (linker/pe.ld).
+std::string store_in_words(std::uint32_t address, const Image& image) {
+  constexpr std::uint32_t kPage = protocol::kPageBytes;
+  for (const ImageSymbol& symbol : image.symbols) {
+    const bool below = address < symbol.address && address + kPage > symbol.address;
+    if ((symbol.name == "image_stack_begin" || symbol.name == "image_code_end") && below) {
+      return "store below the stack, into a page of code: a stack overflow?";
+    }
+  }
+  for (const ImageSegment& segment : image.segments) {
+    const std::uint32_t end = (segment.address + segment.memory_bytes + kPage - 1) / kPage * kPage;
+    if (segment.executable && address >= segment.address && address < end) return "store into a page of code";
+  }
+  return "store outside local memory";
 }
 
 std::string_view name_of(protocol::FaultCode code) {
@@ -103,8 +122,10 @@ std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Imag
   const std::string who = "PE " + std::to_string(pe) + ": ";
   const auto code = static_cast<protocol::FaultCode>(fault.code);
   if (code == protocol::FaultCode::trap) {
-    return who + "trap: " + cause_in_words(fault.detail[0]) + " at pc " + hexadecimal(fault.detail[1]) + " (" +
-           image.describe(fault.detail[1]) + "), mtval " + hexadecimal(fault.detail[2]);
+    const std::string what =
+        fault.detail[0] == kStoreAccess ? store_in_words(fault.detail[2], image) : cause_in_words(fault.detail[0]);
+    return who + "trap: " + what + " at pc " + hexadecimal(fault.detail[1]) + " (" + image.describe(fault.detail[1]) +
+           "), mtval " + hexadecimal(fault.detail[2]);
   }
   return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
          "), details " + details(fault.detail);

@@ -119,7 +119,8 @@ class Niu {
     execute<Hint::receive_due>();
     return window().arrival;
   }
-  /// `receive` lets records gather until `cycles` after the first one came, or until there are `records` of them.
+  /// From now on `receive` lets records gather until a multiple of `cycles` of the clock, or until there are `records`
+  /// of them; 0 cycles: it waits for the first one alone.
   void gather(std::uint32_t cycles, std::uint32_t records) { window().gather = {cycles, records}; }
   /// The message of the last arrival of kind `message`; valid until the next one.
   const protocol::MessageHeader& message() const { return window().message; }

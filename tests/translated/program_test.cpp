@@ -2,6 +2,7 @@
 // Whole images: what they send, leave in memory and take in cycles is the same on all ways of running them.
 #include <gtest/gtest.h>
 
+#include "emulator/engines/translated/generator.hpp"
 #include "tests/translated/runs.hpp"
 #include "tests/unit/engines/engine_support.hpp"
 
@@ -15,6 +16,28 @@ TEST(TranslatedProgram, HelloIsTheSame) {
 }
 
 constexpr Reg kLog = 20, kT0 = 5;
+
+/// The work of the host's compiler grows faster than a function does, so none may be long: here, of 20,000.
+TEST(TranslatedProgram, StraightCodeIsDivided) {
+  Code code;
+  for (int n = 0; n < 20'000; ++n) code << addi(kT0, kT0, 1);
+  code << hint(protocol::Hint::halt);
+  const Image image = image_of(code);
+  const translated::CodeMap map(image, MachineDescription{}.processor.latency);
+  translated::Blocks blocks(image, map);
+  constexpr std::uint32_t kMostBytes = 4 * 4096;
+  for (const translated::GuestFunction& function : translated::make_functions(map, blocks)) {
+    EXPECT_LE(function.bytes, kMostBytes + 4);
+  }
+}
+
+TEST(TranslatedProgram, DividedCodeRunsOn) {
+  Code code;
+  code.li(kLog, kData);
+  for (int n = 0; n < 4500; ++n) code << addi(kT0, kT0, 1);
+  code << sw(kT0, kLog, 0) << hint(protocol::Hint::halt);
+  EXPECT_EQ(run_on_all(image_of(code), "divided").word(kData), 0x8000'0000U + 4500);  // from the boot ROM's t0
+}
 
 /// A NaN from memory keeps its bits; one that was computed is RISC-V's. Here one register may hold either.
 TEST(TranslatedProgram, ANanFromMemoryKeepsItsBitsWhereWaysMeet) {

@@ -43,6 +43,7 @@ class Drawer {
   Word rounding();
   void add_atomic(Code& code);
   void add_jump(Code& code);
+  void add_wild_jump(Code& code);
   void add_compressed(Code& code);
   void add_csr(Code& code);
 
@@ -144,6 +145,18 @@ void Drawer::add_jump(Code& code) {
   for (std::int32_t i = 0; i < skipped; ++i) code << (below(2) == 0 ? integer() : floating());
 }
 
+/// To one of the four instructions behind it, as a register says that nobody can foresee: by `ret` or otherwise.
+void Drawer::add_wild_jump(Code& code) {
+  const bool returns = below(2) == 0;
+  constexpr Reg kRa = 1;
+  const Reg to = returns ? kRa : kAddress;
+  const Reg which = 5 + below(27);
+  code << i_type(0x13, 7, which, any(), 12);                            // andi which, any, 12
+  code << (to << 7U | 0x17U) << r_type(0x33, 0, 0, to, to, which);      // auipc to, 0; add to, to, which
+  code << addi(to, to, 16) << jalr(returns ? 0 : below(2) * 5, to, 0);  // to the instruction behind this, or later
+  for (int i = 0; i < 4; ++i) code << (below(2) == 0 ? integer() : floating());
+}
+
 /// Two compressed instructions that any operands suit: c.addi, c.li, c.slli, c.mv, c.add, or arithmetic.
 void Drawer::add_compressed(Code& code) {
   const auto one = [&]() -> Word {
@@ -190,8 +203,10 @@ void Drawer::add_one(Code& code) {
     code << memory();
   } else if (kind < 86) {
     code << floating();
-  } else if (kind < 91) {
+  } else if (kind < 90) {
     add_jump(code);
+  } else if (kind < 91) {
+    add_wild_jump(code);
   } else if (kind < 97) {
     add_compressed(code);
   } else if (kind < 98) {

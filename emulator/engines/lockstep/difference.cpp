@@ -55,8 +55,7 @@ std::string describe_markers(const MarkerTrail& qemu, const MarkerTrail& transla
 std::string what_differs(const HintMeeting& qemu, Shadow& shadow, TranslatedImage::Stop stop, bool memory_differs) {
   const TranslatedPe& pe = shadow.pe();
   if (stop == TranslatedImage::Stop::stuck) {
-    return pe.stray ? "the translated engine alone cannot go on (a jump that it did not foresee)"
-                    : "the translated engine alone cannot go on";
+    return "the translated engine alone cannot go on";
   }
   if (stop == TranslatedImage::Stop::cycle_limit) return "the translated engine alone has met no HINT";
   if (pe.hint_immediate != qemu.immediate) return "the HINTs differ";

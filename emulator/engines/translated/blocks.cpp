@@ -53,6 +53,7 @@ Blocks::Blocks(const Image& image, const CodeMap& code) : code_(code), traits_((
   find_roots(image);
   follow_all();
   fill_functions(image);
+  divide_long_functions();
   for (std::uint32_t address = code.begin(); address < code.end(); address += 2) {
     // In code that seems out of reach, too: it may be interpreted.
     const PlacedInstruction* placed = code.at(address);
@@ -60,6 +61,18 @@ Blocks::Blocks(const Image& image, const CodeMap& code) : code_(code), traits_((
     const Traits& traits = at(address);
     if (traits.reached && traits.leader) blocks_.emplace(address, make_block(address));
     if (traits.reached && traits.function) functions_.push_back(address);
+  }
+}
+
+/// Host compilers take more than linear time for a function: what is very long is made of several.
+void Blocks::divide_long_functions() {
+  constexpr unsigned kMostInstructions = 4096;  // of code from a compiler, few functions have half as many
+  unsigned count = 0;
+  for (std::uint32_t address = code_.begin(); address < code_.end(); address += 2) {
+    Traits& traits = at(address);
+    if (!traits.reached) continue;
+    if (++count > kMostInstructions) traits.leader = traits.function = true;
+    if (traits.function) count = 0;
   }
 }
 
@@ -83,8 +96,7 @@ void Blocks::find_roots(const Image& image) {
   for (const ImageSymbol& symbol : image.symbols) {
     if (symbol.function) end_of_functions_ = std::max(end_of_functions_, symbol.address + symbol.bytes);
   }
-  has_function_symbols_ = end_of_functions_ != 0;
-  if (!has_function_symbols_) end_of_functions_ = code_.end();
+  if (end_of_functions_ == 0) end_of_functions_ = code_.end();
   lead(image.entry, true);
   at(image.entry).function = true;
   for (const ImageSymbol& symbol : image.symbols) {

@@ -50,8 +50,6 @@ class Blocks {
   const std::vector<std::uint32_t>& functions() const { return functions_; }
   /// The one that holds this address, by number; what lies before the first belongs to it.
   std::size_t function_of(std::uint32_t address) const;
-  /// Whether the image says what is a function: it comes from a compiler.
-  bool has_function_symbols() const { return has_function_symbols_; }
 
  private:
   struct Traits {
@@ -67,6 +65,7 @@ class Blocks {
   void follow(std::uint32_t from);
   void follow_all();
   void fill_functions(const Image& image);
+  void divide_long_functions();
   void follow_flow(const Instruction& i, std::uint32_t pc);
   void find_roots(const Image& image);
   void find_constants(std::uint32_t pc, const Instruction& first);
@@ -79,7 +78,6 @@ class Blocks {
   std::vector<std::uint32_t> functions_;
   std::uint32_t end_of_functions_ = 0;  // constants may lie behind
   bool observed_ = false;
-  bool has_function_symbols_ = false;
 };
 
 }  // namespace torolux::translated

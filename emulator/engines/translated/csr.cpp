@@ -25,6 +25,8 @@ constexpr std::uint32_t kFflags = 0x001, kFrm = 0x002, kFcsr = 0x003;
 constexpr std::uint32_t kMstatus = 0x300, kMisaNumber = 0x301, kMie = 0x304, kMtvec = 0x305, kMstatush = 0x310;
 constexpr std::uint32_t kMscratch = 0x340, kMepc = 0x341, kMcause = 0x342, kMtval = 0x343, kMip = 0x344;
 constexpr std::uint32_t kPmpcfg0 = 0x3A0, kPmpcfg3 = 0x3A3, kPmpaddr0 = 0x3B0, kPmpaddr15 = 0x3BF;
+constexpr std::uint32_t kMcycle = 0xB00, kMinstret = 0xB02, kCycle = 0xC00, kTime = 0xC01, kInstret = 0xC02;
+constexpr std::uint32_t kHighHalf = 0x80;  // added to each of these
 constexpr std::uint32_t kMvendorid = 0xF11, kMhartid = 0xF14;
 }  // namespace number
 
@@ -152,6 +154,23 @@ void mark_float_dirty(TranslatedPe& pe) {
   pe.mstatus |= kFs;
 }
 
+/// The PE's clock and its number of instructions, the reading one counted: not to be set.
+std::optional<std::uint32_t> read_counter(const TranslatedPe& pe, std::uint32_t which) {
+  const bool high = (which & number::kHighHalf) != 0;
+  const auto half = [high](std::uint64_t value) { return static_cast<std::uint32_t>(high ? value >> 32U : value); };
+  switch (which & ~number::kHighHalf) {
+    case number::kMcycle:
+    case number::kCycle:
+    case number::kTime:
+      return half(pe.cycles);
+    case number::kMinstret:
+    case number::kInstret:
+      return half(pe.instructions);
+    default:
+      return std::nullopt;
+  }
+}
+
 std::optional<std::uint32_t> read_csr(const TranslatedPe& pe, std::uint32_t which) {
   if (is_float_csr(which)) {
     if (float_is_off(pe)) return std::nullopt;
@@ -166,6 +185,7 @@ std::optional<std::uint32_t> read_csr(const TranslatedPe& pe, std::uint32_t whic
   if (is_pmpaddr(which)) return pe.pmpaddr[which - number::kPmpaddr0];
   if (which == number::kMstatus) return status(pe);
   if (which == number::kMisaNumber) return kMisa;
+  if (const auto counter = read_counter(pe, which)) return counter;
   if (which >= number::kMvendorid && which <= number::kMhartid) return 0;
   const Plain found = plain(which);
   return found.place != nullptr ? std::optional(pe.*found.place) : std::nullopt;
@@ -173,7 +193,7 @@ std::optional<std::uint32_t> read_csr(const TranslatedPe& pe, std::uint32_t whic
 
 bool write_csr(TranslatedPe& pe, std::uint32_t which, std::uint32_t value) {
   constexpr std::uint32_t kReadOnly = 0xC00;
-  if ((which & kReadOnly) == kReadOnly || !read_csr(pe, which)) return false;
+  if ((which & kReadOnly) == kReadOnly || !read_csr(pe, which) || read_counter(pe, which)) return false;
   if (is_float_csr(which)) {
     write_float_csr(pe, which, value);
   } else if (is_pmpcfg(which)) {

@@ -24,7 +24,10 @@ FunctionFlow::FunctionFlow(const CodeMap& code, const Blocks& blocks, const Live
     }
   };
   repeat(&FunctionFlow::update_dirty);
-  repeat(&FunctionFlow::update_needed);
+  for (bool changed = true; changed;) {  // against the flow of control, so few rounds suffice
+    changed = false;
+    for (auto at = at_.rbegin(); at != at_.rend(); ++at) changed |= update_needed(blocks_.all().at(at->first));
+  }
   if (blocks.observed()) return;
   for (auto& [address, sets] : at_) sets.unsettled = kFloatRegisters;
   for (const std::uint32_t address : entered()) at_[address].unsettled = 0;

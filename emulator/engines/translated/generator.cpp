@@ -105,13 +105,6 @@ void FunctionWriter::write_indirect(const Block& block, const Instruction& i, Re
     return;
   }
   writer_.line(writer_.save(save));
-  const Reach reach = reach_of(code_, blocks_, block);
-  if (reach != Reach::anywhere) {
-    const std::string why = reach == Reach::function ? "Exit::stray" : "Exit::indirect";
-    writer_.line("if (static_cast<std::uint32_t>(at) - " + hexadecimal(function_.first) +
-                 " >= " + hexadecimal(function_.bytes) + ") return {count, left_for(" + why +
-                 ", static_cast<std::uint32_t>(at))};");
-  }
   writer_.line("goto dispatch;");
 }
 
@@ -215,9 +208,8 @@ std::string tables(bool observed, const std::string& called, const std::string& 
 
 }  // namespace
 
-std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
+std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks, const Liveness& liveness,
                                  const std::vector<GuestFunction>& functions) {
-  const Liveness liveness(code, blocks);
   const std::string header = std::string("#include \"emulator/engines/translated/semantics/") +
                              (blocks.observed() ? "flagged" : "translated_code") +
                              ".hpp\"\nusing namespace torolux::translated;\n";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/engines/translated/blocks.hpp"
+#include "emulator/engines/translated/liveness.hpp"
 #include "emulator/engines/translated/semantics_text.hpp"
 
 namespace torolux::translated {
@@ -30,7 +31,7 @@ std::vector<GuestFunction> make_functions(const CodeMap& code, Blocks& blocks);
 
 /// Translation units with, for each function of the program, two of the host: one is called at its beginning, one goes
 /// on in the middle, at any entry. The first is the fast one: its flow of control is that of the program's source.
-std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks,
+std::vector<SourceText> generate(const CodeMap& code, const Blocks& blocks, const Liveness& liveness,
                                  const std::vector<GuestFunction>& functions);
 
 }  // namespace torolux::translated

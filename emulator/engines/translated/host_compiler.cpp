@@ -109,8 +109,8 @@ class Process {
 
 [[noreturn]] void fail(const std::string& what, const std::string& output) {
   constexpr std::size_t kMost = 2000;
-  throw MachineFailure("translating the firmware: " + what + " failed; the engine qemu works without it.\n" +
-                       output.substr(0, kMost));
+  throw MachineFailure("translating the firmware: " + what +
+                       " failed; --engine interpreted works without it, but is slow.\n" + output.substr(0, kMost));
 }
 
 /// What the compiler may use of this computer's processor.
@@ -140,7 +140,8 @@ HostCompiler::HostCompiler() {
   }
   if (program_.empty()) {
     throw MachineFailure(
-        "no C++ compiler on PATH (g++ or clang++): the translated engine needs one; --engine qemu does without");
+        "no C++ compiler on PATH (g++ or clang++): the translated engine needs one; --engine interpreted does without, "
+        "but is slow");
   }
   std::string name = (std::filesystem::temp_directory_path() / "torolux-compiler-XXXXXX").string();
   const int descriptor = mkstemp(name.data());

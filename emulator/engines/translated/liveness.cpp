@@ -38,10 +38,6 @@ bool ends_flow(Op op) {
   return op == Op::illegal || op == Op::ecall || op == Op::ebreak || op == Op::mret || op == Op::wfi;
 }
 
-bool may_write_mtvec(const Instruction& i) {
-  return is_csr(i.op) && i.immediate == kMtvec && (i.op == Op::csrrw || i.op == Op::csrrwi || i.rs1 != 0);
-}
-
 /// x registers whose value is known where the code runs straight on.
 class Constants {
  public:
@@ -80,6 +76,10 @@ RegisterSet writes_of(const Instruction& i) {
   return writes_x(i.op) ? x_register(i.rd) : 0;
 }
 
+bool may_write_mtvec(const Instruction& i) {
+  return is_csr(i.op) && i.immediate == kMtvec && (i.op == Op::csrrw || i.op == Op::csrrwi || i.rs1 != 0);
+}
+
 bool may_trap(const Instruction& i) {
   return between(i.op, Op::lb, Op::fsw) || is_interpreted(i);
 }
@@ -88,21 +88,7 @@ bool is_return(const Instruction& i) {
   return i.op == Op::jalr && i.rd == 0 && i.rs1 == 1 && i.immediate == 0;
 }
 
-Reach reach_of(const CodeMap& code, const Blocks& blocks, const Block& block) {
-  const Instruction& jump = code.at(block.last)->instruction;
-  if (is_return(jump)) return Reach::behind_calls;
-  if (!blocks.has_function_symbols()) return Reach::anywhere;
-  // A table of a switch holds distances: its base is added. A pointer to a function is never a sum.
-  bool is_sum = false;
-  for (const std::uint32_t pc : addresses_in(code, block)) {
-    const Instruction& i = code.at(pc)->instruction;
-    if (pc != block.last && writes_of(i) == x_register(jump.rs1)) is_sum = i.op == Op::add;
-  }
-  return is_sum && jump.rd == 0 ? Reach::function : Reach::entries;
-}
-
-Liveness::Liveness(const CodeMap& code, const Blocks& blocks)
-    : code_(code), blocks_(blocks), in_functions_(blocks.functions().size()) {
+Liveness::Liveness(const CodeMap& code, const Blocks& blocks) : code_(code), blocks_(blocks) {
   find_trap_handlers();
   for (const auto& [address, block] : blocks.all()) live_[address] = 0;
   while (update()) {
@@ -143,7 +129,7 @@ RegisterSet Liveness::behind(const Block& block) const {
     case Ending::jump:
       return at(block.target);
     case Ending::indirect:
-      return behind_indirect(block) | in_traps_;  // no code may be there
+      return kAllRegisters;
     case Ending::interpreted: {
       const PlacedInstruction* placed = code_.at(block.end);
       if (placed == nullptr || ends_flow(placed->instruction.op)) return kAllRegisters;
@@ -151,19 +137,6 @@ RegisterSet Liveness::behind(const Block& block) const {
     }
     default:
       return at(block.end);
-  }
-}
-
-RegisterSet Liveness::behind_indirect(const Block& block) const {
-  switch (reach_of(code_, blocks_, block)) {
-    case Reach::behind_calls:
-      return behind_returns_;
-    case Reach::function:
-      return in_functions_[blocks_.function_of(block.last)];
-    case Reach::entries:
-      return in_functions_[blocks_.function_of(block.last)] | at_entries_;
-    default:
-      return kAllRegisters;
   }
 }
 
@@ -177,15 +150,8 @@ bool Liveness::update() {
     const Block& block = found->second;
     RegisterSet live = behind(block);
     const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
-    for (auto pc = addresses.rbegin(); pc != addresses.rend(); ++pc) {
-      live = before(code_.at(*pc)->instruction, live);
-      grow(in_functions_[blocks_.function_of(block.begin)], live);
-    }
+    for (auto pc = addresses.rbegin(); pc != addresses.rend(); ++pc) live = before(code_.at(*pc)->instruction, live);
     grow(live_[block.begin], live);
-    const bool is_call =
-        (block.ending == Ending::jump || block.ending == Ending::indirect) && code_.at(block.last)->instruction.rd != 0;
-    if (block.taken || blocks_.functions()[blocks_.function_of(block.begin)] == block.begin) grow(at_entries_, live);
-    if (is_call) grow(behind_returns_, at(block.end));
   }
   RegisterSet in_traps = foreign_trap_handler_ ? kAllRegisters : 0;
   for (const std::uint32_t handler : trap_handlers_) in_traps |= at(handler);

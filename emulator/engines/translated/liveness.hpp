@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -27,21 +28,13 @@ RegisterSet reads_of(const Instruction& i);
 RegisterSet writes_of(const Instruction& i);
 /// Whether it may trap, so that a handler sees the registers.
 bool may_trap(const Instruction& i);
+/// Whether it may set another trap handler.
+bool may_write_mtvec(const Instruction& i);
 /// `ret`.
 bool is_return(const Instruction& i);
 
-/// Where an indirect jump goes, as far as anybody can tell.
-enum class Reach : std::uint8_t {
-  behind_calls,  ///< `ret`
-  function,      ///< the function it stands in: a table of a `switch`
-  entries,       ///< the function it stands in, where functions begin, and addresses that stand somewhere
-  anywhere,
-};
-/// Programs without symbols of functions may jump anywhere.
-Reach reach_of(const CodeMap& code, const Blocks& blocks, const Block& block);
-
-/// Follows the flow of control through the whole program. That indirect jumps go where Reach says is checked when they
-/// do (TranslatedImage).
+/// Follows the flow of control through the whole program. An indirect jump, `ret` too, may go to any instruction: all
+/// registers are read behind it. So whatever it leads to, the registers there are the program's.
 class Liveness {
  public:
   Liveness(const CodeMap& code, const Blocks& blocks);
@@ -52,14 +45,19 @@ class Liveness {
   RegisterSet behind(const Block& block) const;
   /// Before instruction i, if `behind` is read after it.
   RegisterSet before(const Instruction& i, RegisterSet behind) const {
+    if (may_write_mtvec(i)) return kAllRegisters;
     return (behind & ~writes_of(i)) | reads_of(i) | (may_trap(i) ? in_traps_ : 0);
   }
   /// Read by the trap handler.
   RegisterSet in_traps() const { return in_traps_; }
+  /// Where traps may go; nothing: anywhere. With another handler translated code may not go on: it has not kept what
+  /// that may read.
+  std::optional<std::set<std::uint32_t>> trap_handlers() const {
+    return foreign_trap_handler_ ? std::nullopt : std::optional(trap_handlers_);
+  }
 
  private:
   void find_trap_handlers();
-  RegisterSet behind_indirect(const Block& block) const;
   bool update();
 
   const CodeMap& code_;
@@ -68,9 +66,6 @@ class Liveness {
   std::set<std::uint32_t> trap_handlers_;
   bool foreign_trap_handler_ = false;  // the program computes its address in ways that are not understood
   RegisterSet in_traps_ = 0;
-  RegisterSet behind_returns_ = 0;
-  RegisterSet at_entries_ = 0;
-  std::vector<RegisterSet> in_functions_;  // at any of its instructions
 };
 
 }  // namespace torolux::translated

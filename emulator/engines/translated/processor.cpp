@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "emulator/hexadecimal.hpp"
 #include "emulator/machine/faults.hpp"
 #include "emulator/niu/channel.hpp"
 #include "firmware/protocol/messages.hpp"
@@ -98,13 +99,10 @@ Processor::Stop Processor::run(const Goal* goal) {
 std::string Processor::failure() const {
   const std::string who = "PE " + std::to_string(number_) + ": ";
   if (!stuck_) {
-    return who + "no HINT for " + std::to_string(pe_.cycles - channel_.processor.last_hint) +
-           " cycles: an endless loop? (processor.most_cycles_between_hints = " +
+    return who + "no HINT for " + std::to_string(pe_.cycles - channel_.processor.last_hint) + " cycles, now at pc " +
+           hexadecimal(pe_.pc) + " (" + setup_.image.describe(pe_.pc) +
+           "): an endless loop? (processor.most_cycles_between_hints = " +
            std::to_string(setup_.machine.processor.most_cycles_between_hints) + ")";
-  }
-  if (pe_.stray) {
-    return who + "jumped to pc " + setup_.image.describe(pe_.pc) +
-           ", which no call and no function's address leads to: translated code cannot go on there, --engine qemu can";
   }
   if (pe_.mcause == 0) {
     return who + "executes no instructions any more: it waits for an interrupt at pc " + setup_.image.describe(pe_.pc) +

@@ -48,6 +48,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
  public:
   TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
       : setup_(setup),
+        interprets_(options.interpret),
         code_(setup.image, setup.machine.processor.latency, options),
         queue_(setup.pes.size(), setup.threads - 1) {
     for (unsigned pe = 0; pe < setup.pes.size(); ++pe) {
@@ -58,7 +59,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   TranslatedEngine& operator=(const TranslatedEngine&) = delete;
   ~TranslatedEngine() override { end(); }
 
-  std::string_view name() const override { return "translated"; }
+  std::string_view name() const override { return interprets_ ? "interpreted" : "translated"; }
 
   void start() override {
     for (unsigned pe = 0; pe < setup_.pes.size(); ++pe) processors_.emplace_back(code_, setup_, pe);
@@ -85,6 +86,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   void end();
 
   EngineSetup setup_;
+  bool interprets_;
   TranslatedImage code_;
   RunQueue queue_;
   std::deque<Processor> processors_;

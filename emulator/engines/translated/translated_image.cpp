@@ -76,15 +76,14 @@ void TranslatedImage::load(const Image& image, const TranslationOptions& options
   const std::vector<GuestFunction> functions = make_functions(code_, blocks);
   ways_.resize((code_.end() - code_.begin()) / 2);
   for (std::size_t number = 0; number < functions.size(); ++number) {
-    function_begins_.push_back(functions[number].first);
     for (const std::uint32_t address : functions[number].blocks) {
       const Block& block = blocks.all().at(address);
       find_ways(block, number, address == functions[number].begin);
-      if (block.ending == Ending::indirect)
-        ways_[(block.last - code_.begin()) / 2].reach = reach_of(code_, blocks, block);
     }
   }
-  const std::vector<SourceText> units = generate(code_, blocks, functions);
+  const Liveness liveness(code_, blocks);
+  trap_handlers_ = liveness.trap_handlers();
+  const std::vector<SourceText> units = generate(code_, blocks, liveness, functions);
   const std::vector<SourceText> headers = semantics_texts();
   const HostCompiler compiler;
   const Cache cache(options.cache_folder);
@@ -105,14 +104,10 @@ void TranslatedImage::load(const Image& image, const TranslationOptions& options
 
 void TranslatedImage::find_ways(const Block& block, std::size_t function, bool begins_function) {
   const auto way = [&](std::uint32_t pc) -> Way& { return ways_[(pc - code_.begin()) / 2]; };
-  way(block.begin).known = block.taken || begins_function;
   if (block.entry) {
     way(block.begin).function = static_cast<std::uint16_t>(function);
     way(block.begin).begins_function = begins_function;
   }
-  const bool calls =
-      (block.ending == Ending::jump || block.ending == Ending::indirect) && code_.at(block.last)->instruction.rd != 0;
-  if (calls && code_.at(block.end) != nullptr) way(block.end).behind_call = true;
   Cost rest = block.cost;
   for (const std::uint32_t pc : addresses_in(code_, block)) {
     const PlacedInstruction& placed = *code_.at(pc);
@@ -136,7 +131,7 @@ void TranslatedImage::start(TranslatedPe& pe, std::span<std::byte> local_memory,
   pe.marker = nullptr;
   pe.hint = nullptr;
   pe.context = nullptr;
-  pe.stray = false;
+  pe.interpreted = interpret_;
   set_boot_registers(pe, mapped_bytes);
   refresh(pe);
 }
@@ -159,7 +154,7 @@ void TranslatedImage::refresh(TranslatedPe& pe) const {
 }
 
 bool TranslatedImage::may_run_translated(const TranslatedPe& pe) const {
-  return pe.may_fetch && pe.frm == 0 && (!has_float_ || !float_is_off(pe));
+  return !pe.interpreted && pe.may_fetch && pe.frm == 0 && (!has_float_ || !float_is_off(pe));
 }
 
 Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
@@ -168,41 +163,12 @@ Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
   const bool may_change_rights =
       placed != nullptr &&
       ((is_csr(placed->instruction.op) && placed->instruction.immediate > kFcsr) || placed->instruction.op == Op::mret);
-  const Way* jump = !interpret_ && placed != nullptr && placed->instruction.op == Op::jalr ? way_at(pe.pc) : nullptr;
-  const std::uint32_t from = pe.pc;
-  const std::uint64_t instructions = pe.instructions;
+  const bool may_move_handler = placed != nullptr && may_write_mtvec(placed->instruction);
   const Interpreter::Step step = interpreter_.step(pe);
   if (may_change_rights) refresh(pe);
-  const bool refused = pe.instructions == instructions;  // it could not be fetched: a trap, and no jump
-  if (jump == nullptr || refused || is_foreseen(jump->reach, from, pe.pc)) return step;
-  pe.stray = true;
-  return Interpreter::Step::stuck;
-}
-
-/// Translated code keeps registers only as far as somebody reads them: it has to know where jumps may go.
-bool TranslatedImage::is_foreseen(Reach reach, std::uint32_t from, std::uint32_t to) const {
-  const auto function_of = [&](std::uint32_t address) {
-    return std::upper_bound(function_begins_.begin(), function_begins_.end(), address);
-  };
-  const Way* way = way_at(to);
-  if (code_.at(to) == nullptr || way == nullptr) return true;  // traps
-  const bool stays = function_of(from) == function_of(to);
-  switch (reach) {
-    case Reach::behind_calls:
-      return way->behind_call;
-    case Reach::function:
-      return stays;
-    case Reach::entries:
-      return stays || way->known;
-    default:
-      return true;
-  }
-}
-
-bool TranslatedImage::is_foreseen(Exit why, std::uint32_t to) const {
-  constexpr std::uint32_t kElsewhere = 0;  // in no function
-  if (why == Exit::ret) return is_foreseen(Reach::behind_calls, kElsewhere, to);
-  return why != Exit::stray && (why != Exit::indirect || is_foreseen(Reach::entries, kElsewhere, to));
+  constexpr std::uint32_t kMode = 3;  // bits of mtvec
+  if (may_move_handler && trap_handlers_) pe.interpreted |= !trap_handlers_->contains(pe.mtvec & ~kMode);
+  return step;
 }
 
 /// The block has been counted whole, but it was left at pe.pc.
@@ -223,14 +189,11 @@ Exit TranslatedImage::run_translated(TranslatedPe& pe, const Way& way) const {
 }
 
 TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
-  const bool translated = !interpret_;
   while (pe.cycles < pe.cycle_limit) {
-    const Way* way = translated && may_run_translated(pe) ? way_at(pe.pc) : nullptr;
+    const Way* way = may_run_translated(pe) ? way_at(pe.pc) : nullptr;
     if (way != nullptr && way->function != kNone) {
       const Exit why = run_translated(pe, *way);
       if (why == Exit::hint) return Stop::hint;
-      pe.stray = !is_foreseen(why, pe.pc);
-      if (pe.stray) return Stop::stuck;
       if (why != Exit::look) continue;
       give_back_rest(pe);
     }

@@ -5,13 +5,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
 #include "emulator/engines/image.hpp"
+#include "emulator/engines/translated/blocks.hpp"
 #include "emulator/engines/translated/code_map.hpp"
 #include "emulator/engines/translated/interpreter.hpp"
-#include "emulator/engines/translated/liveness.hpp"
 #include "emulator/engines/translated/semantics/pe_state.hpp"
 #include "emulator/machine/description.hpp"
 
@@ -43,7 +45,7 @@ class TranslatedImage {
                   ///< code is translated. Set pe.cycles if it waits
     cycle_limit,  ///< pe.cycles >= pe.cycle_limit
     stuck,        ///< it will never execute anything again: wfi, or a trap while mtvec points to nothing
-                  ///< (mcause, mepc and mtval tell of the last trap), or pe.stray
+                  ///< (mcause, mepc and mtval tell of the last trap)
   };
   /// Goes on from where the PE stands. Call it again after each HINT.
   Stop run(TranslatedPe& pe) const;
@@ -54,10 +56,7 @@ class TranslatedImage {
   struct Way {
     std::uint16_t function = kNone;  ///< kNone: not an entry
     bool begins_function = false;
-    bool behind_call = false;
-    bool known = false;             ///< an indirect jump may be foreseen to go there
-    Reach reach = Reach::anywhere;  ///< of the indirect jump that stands there
-    Cost rest{0, 0};                ///< of its block from this instruction on
+    Cost rest{0, 0};  ///< of its block from this instruction on
   };
 
   void load(const Image& image, const TranslationOptions& options);
@@ -67,14 +66,12 @@ class TranslatedImage {
   void give_back_rest(TranslatedPe& pe) const;
   const Way* way_at(std::uint32_t address) const;
   void find_ways(const Block& block, std::size_t function, bool begins_function);
-  bool is_foreseen(Reach reach, std::uint32_t from, std::uint32_t to) const;
-  bool is_foreseen(Exit why, std::uint32_t to) const;
   Exit run_translated(TranslatedPe& pe, const Way& way) const;
 
   CodeMap code_;
   Interpreter interpreter_;
   std::vector<Way> ways_;
-  std::vector<std::uint32_t> function_begins_;
+  std::optional<std::set<std::uint32_t>> trap_handlers_;  // of Liveness
   EnterFunction enter_ = nullptr;
   const HostFunction* called_ = nullptr;   // by number of the function
   const HostFunction* resumed_ = nullptr;  // likewise

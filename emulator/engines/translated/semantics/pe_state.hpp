@@ -34,9 +34,7 @@ struct TranslatedPe {
   std::uint32_t store_limit;   ///< likewise stores, from the translation's store base
 
   // Between `run` and translated code.
-  /// The program jumped to pc, where translated code did not foresee it: by `ret` behind no call, or by another
-  /// indirect jump to what is no function. Registers may lack values there, so only the engine qemu can go on.
-  bool stray;
+  bool interpreted;     ///< from now on: its traps go where translated code has not foreseen it
   bool may_fetch;       ///< all code may be executed
   std::uint64_t slice;  ///< packed: translated code returns at a jump back or a call once it has counted so much
 
@@ -60,13 +58,11 @@ inline constexpr std::uint32_t kNoReservation = 0xFFFF'FFFFU;
 
 /// Why translated code returned. An address says where to go on.
 enum class Exit : std::uint32_t {
-  ret,       ///< to where a function returns. 0: who called it compares with the address it expects, alone
-  jump,      ///< to a place outside the function
-  hint,      ///< a HINT, already counted, at which the PE is to stop; the address is behind it
-  look,      ///< the instruction there is for the interpreter; its block's cost from there on has been counted already
-  slice,     ///< pe.slice cycles have been counted
-  indirect,  ///< to a place outside the function that must be a known one
-  stray,     ///< out of the function where nobody could foresee it
+  ret,    ///< by `ret`. 0: who called it compares with the address it expects, alone
+  jump,   ///< to a place outside the function
+  hint,   ///< a HINT, already counted, at which the PE is to stop; the address is behind it
+  look,   ///< the instruction there is for the interpreter; its block's cost from there on has been counted already
+  slice,  ///< pe.slice cycles have been counted
 };
 
 /// Cycles and instructions of a stretch of code.
