@@ -129,7 +129,9 @@ std::string copies_text(const RunDescription& run, const RenderFigures& figures)
   const StageCopies& rays = figures.ray_tracing_copies;
   return left("on every PE", kLabel) + "  " + grouped(radiosity.cells) + " and " + grouped(rays.cells) + " of " +
          grouped(figures.filled_subspaces) + " subspaces, " + percent(copies_share(radiosity, figures), 0) + " and " +
-         percent(copies_share(rays, figures), 0) + " of memory\n";
+         percent(copies_share(rays, figures), 0) + " of memory\n" +
+         (rays.kept > 0 ? left("on one PE alone", kLabel) + "  the light of " + grouped(rays.kept) + " surfaces\n"
+                        : "");
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ inline RenderFigures made_up_figures() {
   figures.subspaces = {8, 4, 8};
   figures.filled_subspaces = 200;
   figures.radiosity_copies = {150, 512U << 10U};
-  figures.ray_tracing_copies = {30, 1U << 20U};
+  figures.ray_tracing_copies = {30, 1U << 20U, 1234};
   MachineFigures& machine = figures.machine;
   machine.now = 27'457'289;
   machine.trace_hash = 0xABCD;

@@ -19,6 +19,7 @@ picture                 out/room.exr (320 x 240)
 machine                 2 x 1 PEs of 2 MiB on qemu
 subspaces               8 x 4 x 8, balanced
 on every PE             150 and 30 of 200 subspaces, 25 % and 50 % of memory
+on one PE alone         the light of 1 234 surfaces
 network memory          NIU 54.7 KiB, router 20.3 KiB of each PE
 virtual time                     cycles               ms
   load                        1 000 000           10.000
