@@ -71,12 +71,28 @@ void ClusterVertices::link() {
 }
 
 void ClusterVertices::find_near(const Mesh& mesh, Vertex& vertex, const Place& place) {
-  const double reach = kReach * mesh.lengths.cluster * mesh.space.scale;
+  double reach = kReach * mesh.lengths.cluster * mesh.space.scale;
   vertex.first_near = static_cast<std::uint32_t>(near_.size());
+  const std::size_t most = std::max(kMostNear, place.touching.size());
+  while (!take_near(vertex, place, reach, most)) {
+    near_.resize(vertex.first_near);
+    reach /= 2;
+  }
+  vertex.near = static_cast<std::uint32_t>(near_.size()) - vertex.first_near;
+}
+
+bool ClusterVertices::take_near(const Vertex& vertex, const Place& place, double reach, std::size_t most) {
+  ++search_;
   // Light does not pass from one cluster to another that it does not touch.
-  std::vector<std::uint32_t> seen = place.touching;
-  for (std::size_t n = 0; n < seen.size(); ++n) {
-    const Cluster& cluster = clusters_[seen[n]];
+  seen_.clear();
+  const auto see = [this](std::uint32_t cluster) {
+    if (seen_in_[cluster] == search_) return;
+    seen_in_[cluster] = search_;
+    seen_.push_back(cluster);
+  };
+  for (const std::uint32_t cluster : place.touching) see(cluster);
+  for (std::size_t n = 0; n < seen_.size(); ++n) {
+    const Cluster& cluster = clusters_[seen_[n]];
     const Vec3d offset = vec::scale(vec::subtract(cluster.centre, place.point), 1 / reach);
     const double far = vec::length(offset);
     const double close = far < 1 ? (1 - far * far) * (1 - far * far) : 0;
@@ -86,16 +102,16 @@ void ClusterVertices::find_near(const Mesh& mesh, Vertex& vertex, const Place& p
     // A little of what it touches in any case: a cluster may be longer than its reach.
     const double weight = std::max(close * alike * alike, touches ? 1e-3 : 0.0) * cluster.area;
     if (!(weight > 0)) continue;
-    near_.push_back({seen[n], offset, weight});
-    for (const std::uint32_t other : beside_[seen[n]]) {
-      if (std::find(seen.begin(), seen.end(), other) == seen.end()) seen.push_back(other);
-    }
+    if (near_.size() - vertex.first_near == most) return false;
+    near_.push_back({seen_[n], offset, weight});
+    for (const std::uint32_t other : beside_[seen_[n]]) see(other);
   }
-  vertex.near = static_cast<std::uint32_t>(near_.size()) - vertex.first_near;
+  return true;
 }
 
 void ClusterVertices::finish(const Mesh& mesh) {
   link();
+  seen_in_.assign(clusters_.size(), 0);
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     find_near(mesh, vertices_[v], places_[v]);
     for (const std::uint32_t c : places_[v].touching) vertices_[v].area += clusters_[c].area;
@@ -105,6 +121,8 @@ void ClusterVertices::finish(const Mesh& mesh) {
   vertices_of_ = {};
   beside_ = {};
   vertex_of_ = {};
+  seen_ = {};
+  seen_in_ = {};
 }
 
 void ClusterVertices::add_areas(std::vector<double>& areas) const {

@@ -21,10 +21,15 @@ class ClusterVertices {
     Vec3d normal{0, 0, 0};      ///< mean, likewise
     double area = 0;            ///< [user units^2]
   };
+  /// So many clusters count at a vertex at most, or those that touch it. Where more are near, as on a very dense mesh,
+  /// whose clusters end at a number of triangles and not at a length, the reach is halved until they are no more: else
+  /// all lists together would grow with the vertices times the clusters.
+  static constexpr std::size_t kMostNear = 64;
+
   /// A cluster that counts at a vertex.
   struct Near {
     std::uint32_t cluster;
-    Vec3d offset;  ///< of its centre, in units of the reach
+    Vec3d offset;  ///< of its centre, in units of the reach there
     double weight;
   };
   struct Vertex {
@@ -65,7 +70,10 @@ class ClusterVertices {
   };
 
   void link();
+  /// Appends to `near_` in time that grows with what it appends.
   void find_near(const Mesh& mesh, Vertex& vertex, const Place& place);
+  /// Appends what counts within the reach [normalised]; false: it is more than `most`.
+  bool take_near(const Vertex& vertex, const Place& place, double reach, std::size_t most);
 
   std::vector<Cluster> clusters_;
   std::vector<Facet> facets_;
@@ -75,6 +83,9 @@ class ClusterVertices {
   std::vector<std::vector<std::uint32_t>> vertices_of_;  ///< by cluster; until `finish`
   std::vector<std::vector<std::uint32_t>> beside_;       ///< by cluster: which meet it at a vertex; until `finish`
   std::vector<std::uint32_t> vertex_of_;                 ///< by vertex of the surface, or kNoSide; until `finish`
+  std::vector<std::uint32_t> seen_;                      ///< clusters, by the search in progress
+  std::vector<std::uint64_t> seen_in_;                   ///< by cluster: number of the last search that saw it
+  std::uint64_t search_ = 0;
 };
 
 }  // namespace torolux
