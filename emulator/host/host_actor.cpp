@@ -106,6 +106,7 @@ void HostActor::step() {
     events_.push(clock_.now(), source_, EventKind::host_queue, block.destination, 1, index);
   } else {
     program_.on_message(*this, block.source, block.message_kind, block.payload());
+    ++messages_read_;
     pool_.give_back(index);
   }
   schedule_step(clock_.now());

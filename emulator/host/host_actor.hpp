@@ -74,6 +74,7 @@ class HostActor final : public HostPort {
 
   bool idle() const { return inbox_.empty() && !stepping_; }
   std::size_t inbox() const { return inbox_.size(); }
+  std::uint64_t messages_read() const { return messages_read_; }  ///< by the program, so far
   std::size_t waiting(unsigned pe) const { return lines_[pe].queues[0].size() + lines_[pe].queues[1].size(); }
   /// Broadcasts, and what waits for them.
   std::size_t waiting_for_all() const { return behind_.size(); }
@@ -116,6 +117,7 @@ class HostActor final : public HostPort {
   std::size_t broadcasts_made_ = 0;  // not yet taken by the bus
   std::deque<BlockIndex> inbox_;
   bool stepping_ = false;  // a host_step is scheduled
+  std::uint64_t messages_read_ = 0;
   std::uint32_t numbers_ = 0;
   unsigned next_pe_ = 0;  // round robin
 };

@@ -107,8 +107,7 @@ void Emulation::command(unsigned pe, const PendingCommand& command) {
       break;
     }
     case CommandKind::send_message:
-      parts_[pe].outgoing.push(pool_, command.block);
-      bus_.request(BusRequester::outgoing(pe), first_request(pe), now_);
+      send_message(pe, command.block);
       break;
     case CommandKind::release:
       break;
@@ -123,7 +122,7 @@ void Emulation::command(unsigned pe, const PendingCommand& command) {
       SlotsCommand slots{};
       std::memcpy(&slots, pool_[command.block].data.data(), sizeof slots);
       if (niu.slots_used() != 0) {
-        throw MachineFailure(describe_fault(pe, NiuFault{NiuFaultCode::slots_in_use, {niu.slots_used(), 0, 0}}));
+        return fail(describe_fault(pe, NiuFault{NiuFaultCode::slots_in_use, {niu.slots_used(), 0, 0}}, image_));
       }
       niu.set_slots(slots.niu);
       pool_.give_back(command.block);
@@ -135,22 +134,46 @@ void Emulation::command(unsigned pe, const PendingCommand& command) {
       break;
     case CommandKind::fail:
       fail_program(pe, command.block);
+      break;
     case CommandKind::fault:
       fail_niu(pe, command.block);
+      break;
   }
   if (command.released != 0) slots_changed(pe);
 }
 
+/// What comes after a failure nobody reads any more.
+void Emulation::send_message(unsigned pe, BlockIndex block) {
+  if (pool_[block].destination == protocol::kHost) {
+    if (!failure_.empty()) return pool_.give_back(block);
+    ++messages_to_host_;
+  }
+  parts_[pe].outgoing.push(pool_, block);
+  bus_.request(BusRequester::outgoing(pe), first_request(pe), now_);
+}
+
+// ---- Failures ----
+
 void Emulation::fail_program(unsigned pe, BlockIndex block) {
   protocol::Fault fault{};
   std::memcpy(&fault, pool_[block].data.data(), sizeof fault);
-  throw MachineFailure(describe_fault(pe, fault, image_) + " (cycle " + std::to_string(now_) + ")");
+  fail(describe_fault(pe, fault, image_));
 }
 
 void Emulation::fail_niu(unsigned pe, BlockIndex block) {
   NiuFault fault{};
   std::memcpy(&fault, pool_[block].data.data(), sizeof fault);
-  throw MachineFailure(describe_fault(pe, fault) + " (cycle " + std::to_string(now_) + ")");
+  fail(describe_fault(pe, fault, image_));
+}
+
+/// Of several, the first in virtual time counts. The machine goes on until all that PEs had sent the host before is
+/// read: it may say why.
+void Emulation::fail(std::string text) {
+  if (failure_.empty()) failure_ = std::move(text) + " (cycle " + std::to_string(now_) + ")";
+}
+
+void Emulation::end_if_failed() const {
+  if (!failure_.empty() && host_.messages_read() == messages_to_host_) throw MachineFailure(failure_);
 }
 
 /// Slots of a PE's NIU have become free: packets may leave the torus, the host may send records.

@@ -76,8 +76,11 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   BusRequest first_request(unsigned pe) const;
   void host_queue(unsigned pe, BlockIndex block);
   void update_host();
-  [[noreturn]] void fail_program(unsigned pe, BlockIndex block);
-  [[noreturn]] void fail_niu(unsigned pe, BlockIndex block);
+  void send_message(unsigned pe, BlockIndex block);
+  void fail_program(unsigned pe, BlockIndex block);
+  void fail_niu(unsigned pe, BlockIndex block);
+  void fail(std::string text);
+  void end_if_failed() const;
 
   // ---- TorusClient, BusClient ----
   void injected(unsigned pe, Cycles tail) override;
@@ -116,6 +119,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   double slept_ = 0;
   Cycles now_ = 0;
   std::uint64_t trace_hash_ = 0;
+  std::uint64_t messages_to_host_ = 0;  // sent so far, on their way or read
+  std::string failure_;                 // of the first PE that failed; the run ends once the host has read those
   /// Stages of the host's program so far; before: what the network's side had counted when it began.
   struct Stage {
     std::string name;

@@ -107,9 +107,28 @@ std::string_view name_of(NiuFaultCode code) {
     case phase_mismatch:
       return "phase markers do not nest (phase, innermost open phase)";
     case too_long_without_hint:
-      return "too many cycles without a HINT: an endless loop? (cycles low, high; limit)";
+      return "an endless loop";
+    case no_trap_handler:
+      return "a trap without a handler";
   }
   return "fault";
+}
+
+std::string place_in_words(std::uint32_t pc, const Image& image) {
+  return "pc " + hexadecimal(pc) + " (" + image.describe(pc) + ")";
+}
+
+/// mcause, mepc, mtval.
+std::string trap_in_words(const std::uint32_t (&detail)[3], const Image& image) {
+  const std::string what = detail[0] == kStoreAccess ? store_in_words(detail[2], image) : cause_in_words(detail[0]);
+  return "trap: " + what + " at " + place_in_words(detail[1], image) + ", mtval " + hexadecimal(detail[2]);
+}
+
+std::string loop_in_words(const std::uint32_t (&detail)[3], const Image& image) {
+  const std::string most = std::to_string((std::uint64_t{detail[1]} << 32U) | detail[0]);
+  const std::string place = detail[2] != 0 ? ", now at " + place_in_words(detail[2], image) : "";
+  return "no HINT for more than " + most + " cycles" + place +
+         ": an endless loop? (processor.most_cycles_between_hints = " + most + ")";
 }
 
 std::string details(const std::uint32_t (&detail)[3]) {
@@ -121,18 +140,19 @@ std::string details(const std::uint32_t (&detail)[3]) {
 std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image) {
   const std::string who = "PE " + std::to_string(pe) + ": ";
   const auto code = static_cast<protocol::FaultCode>(fault.code);
-  if (code == protocol::FaultCode::trap) {
-    const std::string what =
-        fault.detail[0] == kStoreAccess ? store_in_words(fault.detail[2], image) : cause_in_words(fault.detail[0]);
-    return who + "trap: " + what + " at pc " + hexadecimal(fault.detail[1]) + " (" + image.describe(fault.detail[1]) +
-           "), mtval " + hexadecimal(fault.detail[2]);
-  }
+  if (code == protocol::FaultCode::trap) return who + trap_in_words(fault.detail, image);
   return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
          "), details " + details(fault.detail);
 }
 
-std::string describe_fault(unsigned pe, const NiuFault& fault) {
-  return "PE " + std::to_string(pe) + ": " + std::string(name_of(fault.code)) + ": " + details(fault.detail);
+std::string describe_fault(unsigned pe, const NiuFault& fault, const Image& image) {
+  const std::string who = "PE " + std::to_string(pe) + ": ";
+  if (fault.code == NiuFaultCode::too_long_without_hint) return who + loop_in_words(fault.detail, image);
+  if (fault.code == NiuFaultCode::no_trap_handler) {
+    return who + trap_in_words(fault.detail, image) +
+           "; it executes no instructions any more: mtvec leads to no handler";
+  }
+  return who + std::string(name_of(fault.code)) + ": " + details(fault.detail);
 }
 
 }  // namespace torolux

@@ -12,7 +12,7 @@ namespace torolux {
 
 /// A program that has ended the run (Hint::fail), traps included.
 std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image);
-/// A program that has used its NIU wrongly.
-std::string describe_fault(unsigned pe, const NiuFault& fault);
+/// A program that has used its NIU wrongly, or that would never again have used it.
+std::string describe_fault(unsigned pe, const NiuFault& fault, const Image& image);
 
 }  // namespace torolux

@@ -99,8 +99,10 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
     now_ = event.time;
     trace_hash_ = mix(mix(trace_hash_, event.time), event.order);
     handle(event);
+    end_if_failed();
     if (--until_attend_ == 0) attend_now_and_then();
   }
+  if (!failure_.empty()) throw MachineFailure(failure_);
   torus_.check_slots();
   if (!empty() || !program_.finished()) throw MachineFailure(deadlock_report());
 }

@@ -94,18 +94,19 @@ struct SlotsCommand {
 
 /// What a program may do wrong with its NIU; each ends the run. details as listed.
 enum class NiuFaultCode : std::uint32_t {
-  unknown_hint = 1,      ///< immediate
-  bad_count,             ///< records in a packet, bytes of a record
-  bad_slot,              ///< slot, own slots, NIU's slots
-  slot_not_in_use,       ///< slot
-  bad_destination,       ///< destination
-  bad_address,           ///< address, bytes
-  bad_message_length,    ///< bytes
-  bad_slots,             ///< address, own, NIU's (set_slots)
-  slots_in_use,          ///< slots in use (set_slots)
-  too_many_released,     ///< released
-  phase_mismatch,        ///< phase, innermost open phase or kPhases
-  too_long_without_hint  ///< cycles (low, high word), limit (low word)
+  unknown_hint = 1,       ///< immediate
+  bad_count,              ///< records in a packet, bytes of a record
+  bad_slot,               ///< slot, own slots, NIU's slots
+  slot_not_in_use,        ///< slot
+  bad_destination,        ///< destination
+  bad_address,            ///< address, bytes
+  bad_message_length,     ///< bytes
+  bad_slots,              ///< address, own, NIU's (set_slots)
+  slots_in_use,           ///< slots in use (set_slots)
+  too_many_released,      ///< released
+  phase_mismatch,         ///< phase, innermost open phase or kPhases
+  too_long_without_hint,  ///< limit (low, high word), pc or 0
+  no_trap_handler         ///< mcause, mepc, mtval
 };
 struct NiuFault {
   NiuFaultCode code;

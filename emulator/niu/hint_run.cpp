@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "emulator/niu/ending.hpp"
 #include "emulator/niu/slot_list.hpp"
 
 namespace torolux {
@@ -51,10 +52,8 @@ bool HintRun::wait_for_room() {
 bool HintRun::execute(Hint hint) {
   if (!channel_.commands.has_room(kLargestCommands) && !wait_for_room()) return false;
   if (clock_ - state_.last_hint > channel_.most_cycles_between_hints) {
-    const std::uint64_t cycles = clock_ - state_.last_hint;
-    end_with_fault(NiuFaultCode::too_long_without_hint, static_cast<std::uint32_t>(cycles),
-                   static_cast<std::uint32_t>(cycles >> 32U),
-                   static_cast<std::uint32_t>(channel_.most_cycles_between_hints));
+    end_endless_loop(channel_, 0);
+    end();
     return false;
   }
   switch (hint) {

@@ -125,5 +125,71 @@ TEST_P(Faults, MisalignedAccessAndTheLastWordWork) {
   EXPECT_EQ(failure_of_fault(GetParam(), 8), "no failure");
 }
 
+// ---- What was said before an end ----
+
+struct LastWords {
+  std::vector<std::string> of_pe_0;
+  std::string failure;
+};
+
+/// Two columns of PEs say eight lines each; then PE 0 ends as the number of rows says.
+LastWords last_words(const char* engine, unsigned how, unsigned threads) {
+  const Image image = load_image(std::filesystem::path(TOROLUX_FIRMWARE_DIR) / "last_words.elf");
+  MachineSetup setup;
+  setup.columns = 2;
+  setup.rows = how;
+  setup.local_memory_bytes = protocol::kSmallestLocalMemory;
+  setup.engine = engine;
+  setup.threads = threads;
+  setup.description.processor.most_cycles_between_hints = 1'000'000;
+  LastWords result;
+  const auto hear = [&](const PeText& text) {
+    if (text.pe == 0) result.of_pe_0.push_back(text.text);
+  };
+  try {
+    run_image(setup, image, hear, {});
+  } catch (const MachineFailure& failure) {
+    result.failure = failure.what();
+  }
+  return result;
+}
+
+class LastWordsOn : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Engines, LastWordsOn, testing::Values("qemu", "translated", "interpreted"));
+
+TEST_P(LastWordsOn, AreHeardBeforeEachKindOfFailure) {
+  const char* what[] = {"trap: illegal instruction", "an endless loop?", "", "HINT unknown to the NIU"};
+  for (const unsigned how : {1U, 2U, 4U}) {
+    for (const unsigned threads : {1U, 2U}) {
+      const LastWords words = last_words(GetParam(), how, threads);
+      EXPECT_THAT(words.failure, AllOf(testing::StartsWith("PE 0: "), HasSubstr(what[how - 1])));
+      ASSERT_EQ(words.of_pe_0.size(), 8U) << words.failure;
+      for (unsigned line = 0; line < 8; ++line) {
+        EXPECT_EQ(words.of_pe_0[line], "line " + std::to_string(line) + " of PE 0");
+      }
+    }
+  }
+}
+
+std::string cycle_of(const std::string& failure) {
+  const std::size_t at = failure.rfind(" (cycle ");
+  return at == std::string::npos ? "no cycle: " + failure : failure.substr(at);
+}
+
+TEST(LastWords, AnEndlessLoopEndsInTheSameCycleOnAllEngines) {
+  const std::string qemu = cycle_of(last_words("qemu", 2, 1).failure);
+  EXPECT_EQ(cycle_of(last_words("translated", 2, 1).failure), qemu);
+  EXPECT_EQ(cycle_of(last_words("interpreted", 2, 1).failure), qemu);
+  EXPECT_EQ(last_words("translated", 2, 2).failure, last_words("translated", 2, 1).failure);  // the pc, too
+}
+
+TEST(LastWords, AreHeardBeforeATrapThatNothingHandles) {
+  for (const char* engine : {"translated", "interpreted"}) {
+    const LastWords words = last_words(engine, 5, 1);
+    EXPECT_THAT(words.failure, AllOf(HasSubstr("trap: "), HasSubstr("mtvec leads to no handler"))) << engine;
+    EXPECT_EQ(words.of_pe_0.size(), 8U) << engine;
+  }
+}
+
 }  // namespace
 }  // namespace torolux

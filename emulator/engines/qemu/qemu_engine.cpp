@@ -13,6 +13,8 @@
 #include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/engines/qemu/qemu_process.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/niu/channel.hpp"
+#include "emulator/niu/ending.hpp"
 #include "emulator/niu/processor_side.hpp"
 
 namespace torolux {
@@ -89,6 +91,7 @@ class QemuPe {
   double cpu_seconds() const { return process_.cpu_seconds(); }
 
  private:
+  void end_loop(std::uint64_t cycles);
   void watch_progress(std::uint64_t cycles, Clock::duration tick);
   [[noreturn]] void fail(const std::string& what) const;
   static PluginShare& prepare(SharedMemory& memory, std::size_t number, const Launch& launch, bool debugged);
@@ -96,7 +99,10 @@ class QemuPe {
                            const GdbSocket* debugger);
 
   std::size_t number_;
+  NiuChannel& channel_;
   bool debugged_;
+  bool ended_ = false;  // by us
+  bool loops_ = false;  // ended for that, and the network does not know yet
   SharedMemory share_memory_;
   PluginShare& share_;
   QemuProcess process_;
@@ -108,6 +114,7 @@ class QemuPe {
 
 QemuPe::QemuPe(std::size_t number, const Launch& launch, const GdbSocket* debugger)
     : number_(number),
+      channel_(*niu_channel_at(launch.setup.pes[number].channel.bytes().data())),
       debugged_(debugger != nullptr),
       share_memory_("torolux-share", sizeof(PluginShare)),
       share_(prepare(share_memory_, number, launch, debugged_)),
@@ -178,6 +185,8 @@ void QemuPe::fail(const std::string& what) const {
 }
 
 void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick) {
+  if (loops_) loops_ = !end_endless_loop(channel_, 0);
+  if (ended_) return;
   const bool had_stopped = share_.stopped.load(std::memory_order_acquire) != 0;
   if (had_stopped) {
     if (share_.diverged.load(std::memory_order_relaxed) != 0) {
@@ -195,12 +204,22 @@ void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick
   const std::uint64_t cycles = __atomic_load_n(&share_.cycles, __ATOMIC_ACQUIRE);
   const auto since_hint = static_cast<std::int64_t>(cycles - share_.cycles_at_hint.load(std::memory_order_relaxed));
   if (since_hint > 0 && static_cast<std::uint64_t>(since_hint) > most_cycles_between_hints) {
-    fail("no HINT for " + std::to_string(since_hint) +
-         " cycles: an endless loop? (processor.most_cycles_between_hints = " +
-         std::to_string(most_cycles_between_hints) + ")");
+    end_loop(static_cast<std::uint64_t>(since_hint));
+    return;
   }
   // Whoever debugs a PE may take any time.
   if (!debugged_) watch_progress(cycles, tick);
+}
+
+/// The process is dead before its place at the channel is taken. In lock step that place is another's.
+void QemuPe::end_loop(std::uint64_t cycles) {
+  if (share_.meeting_descriptor >= 0) {
+    fail("no HINT for " + std::to_string(cycles) + " cycles: an endless loop? (processor.most_cycles_between_hints = " +
+         std::to_string(channel_.most_cycles_between_hints) + ")");
+  }
+  process_.kill();
+  loops_ = !end_endless_loop(channel_, 0);
+  ended_ = true;
 }
 
 void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {

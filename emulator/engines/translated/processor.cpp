@@ -4,10 +4,8 @@
 
 #include <algorithm>
 
-#include "emulator/hexadecimal.hpp"
-#include "emulator/machine/faults.hpp"
 #include "emulator/niu/channel.hpp"
-#include "firmware/protocol/messages.hpp"
+#include "emulator/niu/ending.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
 namespace torolux::translated {
@@ -70,12 +68,26 @@ Processor::AtHint Processor::ask(std::int32_t immediate, std::uint64_t clock, st
 
 /// Whether it has run for longer without a HINT than the machine allows.
 bool Processor::loops() const {
-  return pe_.cycles - channel_.processor.last_hint > setup_.machine.processor.most_cycles_between_hints;
+  return pe_.cycles >= end_of_patience(channel_);
+}
+
+Processor::Stop Processor::give_up(const NiuFault& fault) {
+  fault_ = fault;
+  return end();
+}
+
+/// Its turn comes again where the network has no room for this yet.
+Processor::Stop Processor::end() {
+  const bool loop = fault_->code == NiuFaultCode::too_long_without_hint;
+  const std::uint64_t clock = loop ? end_of_patience(channel_) : pe_.cycles;
+  return end_with_fault(channel_, clock, *fault_) ? Stop::finished : Stop::slice;
 }
 
 Processor::Stop Processor::run(const Goal* goal) {
+  if (fault_) return end();
   goal_ = goal;
-  pe_.cycle_limit = pe_.cycles + kSliceCycles;
+  // A loop ends at the same instruction, whoever ran it how often.
+  pe_.cycle_limit = std::min(pe_.cycles + kSliceCycles, std::max(end_of_patience(channel_), pe_.cycles + 1));
   if (at_hint_ == AtHint::waits) at_hint_ = AtHint::reached;
   for (;;) {
     if (at_hint_ == AtHint::reached) at_hint_ = ask(pe_.hint_immediate, pe_.cycles, pe_.instructions);
@@ -88,29 +100,11 @@ Processor::Stop Processor::run(const Goal* goal) {
         if (!asked_) at_hint_ = AtHint::reached;
         break;
       case TranslatedImage::Stop::cycle_limit:
-        return loops() ? Stop::failed : Stop::slice;
+        return loops() ? give_up(endless_loop(channel_, pe_.pc)) : Stop::slice;
       case TranslatedImage::Stop::stuck:
-        stuck_ = true;
-        return Stop::failed;
+        return give_up({NiuFaultCode::no_trap_handler, {pe_.mcause, pe_.mepc, pe_.mtval}});
     }
   }
-}
-
-std::string Processor::failure() const {
-  const std::string who = "PE " + std::to_string(number_) + ": ";
-  if (!stuck_) {
-    return who + "no HINT for " + std::to_string(pe_.cycles - channel_.processor.last_hint) + " cycles, now at pc " +
-           hexadecimal(pe_.pc) + " (" + setup_.image.describe(pe_.pc) +
-           "): an endless loop? (processor.most_cycles_between_hints = " +
-           std::to_string(setup_.machine.processor.most_cycles_between_hints) + ")";
-  }
-  if (pe_.mcause == 0) {
-    return who + "executes no instructions any more: it waits for an interrupt at pc " + setup_.image.describe(pe_.pc) +
-           ", and there are none";
-  }
-  protocol::Fault trap{static_cast<std::uint32_t>(protocol::FaultCode::trap), {pe_.mcause, pe_.mepc, pe_.mtval}};
-  return describe_fault(number_, trap, setup_.image) +
-         "; it executes no instructions any more: mtvec leads to no handler";
 }
 
 }  // namespace torolux::translated

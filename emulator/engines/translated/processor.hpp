@@ -4,10 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <optional>
 
 #include "emulator/engines/engine.hpp"
 #include "emulator/engines/translated/translated_image.hpp"
+#include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
 
 namespace torolux::translated {
@@ -31,15 +32,12 @@ class Processor {
     waits,     ///< for the network: go on when the waker has been called
     enough,    ///< what the scheduler waits for has come
     slice,     ///< it has run long enough; others have their turn
-    finished,  ///< it has halted, or the machine has stopped
-    failed,    ///< it can never go on: see failure()
+    finished,  ///< it has halted or can never go on, or the machine has stopped
   };
   /// Runs until one of these; goal: none.
   Stop run(const Goal* goal);
   /// To be looked at by others: its bound, and what it waits for.
   const NiuChannel& channel() const { return channel_; }
-  /// Why it failed, for people.
-  std::string failure() const;
 
  private:
   /// Where a HINT stands at which the code has stopped.
@@ -51,6 +49,8 @@ class Processor {
   };
   AtHint ask(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   bool loops() const;
+  Stop give_up(const NiuFault& fault);
+  Stop end();
   static void marker(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   static bool hint(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
 
@@ -62,7 +62,7 @@ class Processor {
   AtHint at_hint_ = AtHint::none;
   bool asked_ = false;  // by the code itself, at the HINT at which it has stopped
   const Goal* goal_ = nullptr;
-  bool stuck_ = false;
+  std::optional<NiuFault> fault_;  // why it executes nothing more
   TranslatedPe pe_{};
 };
 

@@ -6,12 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
-#include <mutex>
 #include <thread>
 
 #include "emulator/engines/translated/processor.hpp"
 #include "emulator/engines/translated/run_queue.hpp"
-#include "emulator/errors.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/pause.hpp"
 
@@ -66,11 +64,8 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
     for (unsigned i = 1; i < setup_.threads; ++i) threads_.emplace_back([this] { work(); });
   }
 
-  void check() override {
-    if (!failed_.load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(mutex_);
-    throw MachineFailure(failure_);
-  }
+  /// A PE that can never go on tells the network itself.
+  void check() override {}
 
   void stop() override { end(); }
 
@@ -82,7 +77,6 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   void wake(unsigned pe) override { queue_.wake(pe); }
   void work();
   void run(unsigned pe, const Goal* goal);
-  void fail(unsigned pe);
   void end();
 
   EngineSetup setup_;
@@ -92,9 +86,6 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   std::deque<Processor> processors_;
   std::vector<std::thread> threads_;
   std::atomic<bool> ending_ = false;
-  std::atomic<bool> failed_ = false;
-  std::mutex mutex_;
-  std::string failure_;  // of the first PE that failed; guarded by mutex_
   Clock::duration helped_{};
 };
 
@@ -110,9 +101,6 @@ void TranslatedEngine::run(unsigned pe, const Goal* goal) {
         return queue_.put_back(pe);
       case Processor::Stop::finished:
         return queue_.finish(pe);
-      case Processor::Stop::failed:
-        queue_.finish(pe);
-        return fail(pe);
     }
   }
 }
@@ -140,14 +128,7 @@ bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
   run(pe, threads_.empty() ? nullptr : &news);
   queue_.scheduler_runs_pe(false);
   helped_ += Clock::now() - begin;
-  check();
   return true;
-}
-
-void TranslatedEngine::fail(unsigned pe) {
-  const std::lock_guard lock(mutex_);
-  if (failure_.empty()) failure_ = processors_[pe].failure();
-  failed_.store(true, std::memory_order_release);
 }
 
 void TranslatedEngine::end() {

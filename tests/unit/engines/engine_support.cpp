@@ -28,7 +28,6 @@ PeMemory make_pe(const Image& image, std::size_t number, std::size_t count) {
   channel.bus_queue = 4;
   channel.bus_departures.set_places(channel.bus_queue);
   channel.pes = static_cast<std::uint32_t>(count);
-  channel.most_cycles_between_hints = 1'000'000'000;
   channel.wanted = kNever;
   return pe;
 }
@@ -39,6 +38,7 @@ BarePes::BarePes(const Image& image, std::size_t count, const MachineDescription
     : machine_(machine), image_(image) {
   for (std::size_t i = 0; i < count; ++i) {
     pes_.push_back(make_pe(image, i, count));
+    channel(i).most_cycles_between_hints = machine_.processor.most_cycles_between_hints;
   }
   engine_ = factory(EngineSetup{machine_, image_, pes_, 1});
 }

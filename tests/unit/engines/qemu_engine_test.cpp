@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <thread>
 
@@ -225,7 +226,15 @@ TEST(QemuEngine, AnEndlessLoopIsNoticed) {
   machine.processor.most_cycles_between_hints = 1'000'000;
   BarePes pes(image_of({kNop, kJumpToSelf}), 1, machine);
   pes.engine().start();
-  EXPECT_THAT(failure(pes.engine(), 10'000ms), testing::HasSubstr("PE 0: no HINT for "));
+  const auto end = pes.next_command(0);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->head.kind, CommandKind::fault);
+  EXPECT_EQ(end->head.time, 1'000'001 + kCommandCycles);  // whenever we looked
+  NiuFault fault{};
+  ASSERT_EQ(end->payload.size(), sizeof fault);
+  std::memcpy(&fault, end->payload.data(), sizeof fault);
+  EXPECT_EQ(fault.code, NiuFaultCode::too_long_without_hint);
+  EXPECT_EQ(fault.detail[0], 1'000'000U);
 }
 
 TEST(QemuEngine, ATrapToNowhereIsNoticed) {
