@@ -26,8 +26,6 @@ static_assert(sizeof(Processor) <= 2048);
 
 Processor::Processor(const TranslatedImage& code, const EngineSetup& setup, unsigned number)
     : code_(code),
-      setup_(setup),
-      number_(number),
       channel_(*niu_channel_at(setup.pes[number].channel.bytes().data())),
       niu_(channel_, local_memory(setup, number), setup.image.niu_window - protocol::kLocalMemoryBase,
            NiuProcessorSide::Waiting::returns) {

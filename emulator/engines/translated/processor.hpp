@@ -55,8 +55,6 @@ class Processor {
   static bool hint(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
 
   const TranslatedImage& code_;
-  const EngineSetup& setup_;
-  unsigned number_;
   NiuChannel& channel_;
   NiuProcessorSide niu_;
   AtHint at_hint_ = AtHint::none;
