@@ -94,7 +94,7 @@ struct RenderProgress {
 struct StageCopies {
   std::uint64_t cells = 0;
   std::uint64_t bytes = 0;  ///< that they take of each PE's memory, surfaces that all have included
-  std::uint64_t kept = 0;   ///< surfaces of their polygons that one PE alone has (ray tracing stage)
+  std::uint64_t kept = 0;   ///< surfaces that one PE alone has (ray tracing stage)
 };
 
 /// [W], R G B.
