@@ -63,9 +63,12 @@ std::vector<bool> in_solids(const Scene& scene, double size) {
   return solid;
 }
 
+/// Whole numbers. As doubles: a small scene far from the origin is more steps away than an integer counts.
+using Cell = std::array<double, 4>;
+
 /// A plane's normal and distance in steps, its signs chosen so that both ways round are one. Surfaces near the border
 /// between two steps are in both.
-std::vector<std::array<int, 4>> cells_of(const FlatSurface& surface, const Vec3d& point, double size) {
+std::vector<Cell> cells_of(const FlatSurface& surface, const Vec3d& point, double size) {
   constexpr double step = 1.0 / 512;
   constexpr double near = 0.1;
   std::size_t largest = 0;
@@ -74,14 +77,14 @@ std::vector<std::array<int, 4>> cells_of(const FlatSurface& surface, const Vec3d
   const Vec3d normal = vec::scale(surface.normal, surface.normal[largest] < 0 ? -1 : 1);
   const std::array<double, 4> value{normal[0] / step, normal[1] / step, normal[2] / step,
                                     vec::dot(normal, point) / size / step};
-  std::vector<std::array<int, 4>> cells{{}};
+  std::vector<Cell> cells{{}};
   for (std::size_t i = 0; i < 4; ++i) {
     const double below = std::floor(value[i] + 0.5);
     const double rest = value[i] + 0.5 - below;
     const int beside = rest < near ? -1 : rest > 1 - near ? 1 : 0;
     const std::size_t count = cells.size();
     for (std::size_t k = 0; k < count; ++k) {
-      cells[k][i] = static_cast<int>(below);
+      cells[k][i] = below;
       if (beside == 0) continue;
       cells.push_back(cells[k]);
       cells.back()[i] += beside;
@@ -166,7 +169,7 @@ bool lies_on(const std::vector<FlatSurface>& surfaces, std::uint32_t upper, std:
 std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_in_one_plane(const Scene& scene,
                                                                         const std::vector<FlatSurface>& surfaces,
                                                                         double size) {
-  std::vector<std::pair<std::array<int, 4>, std::uint32_t>> entries;
+  std::vector<std::pair<Cell, std::uint32_t>> entries;
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
     if (surfaces[s].glass) continue;
     const Vec3d& point = scene.positions[scene.triangles[surfaces[s].triangles[0]].position[0]];
