@@ -26,7 +26,7 @@ InterruptionGuard::InterruptionGuard() {
     const bool ends = kSignals[i] == SIGINT || kSignals[i] == SIGTERM || kSignals[i] == SIGHUP;
     action.sa_handler = ends ? &torolux_set_interrupted : SIG_IGN;
     sigemptyset(&action.sa_mask);
-    action.sa_flags = SA_RESTART;
+    action.sa_flags = ends ? SA_RESTART | static_cast<int>(SA_RESETHAND) : SA_RESTART;
     ::sigaction(kSignals[i], &action, &before_[i]);
     // Started by nohup: leave it so.
     if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) ::sigaction(kSignals[i], &before_[i], nullptr);

@@ -324,5 +324,17 @@ TEST(Interruption, SignalsSetTheFlagAndHandlersComeBack) {
   EXPECT_FALSE(interrupted()) << "a new command begins without it";
 }
 
+// Not every long computation looks at the flag.
+TEST(Interruption, TheSecondSignalEndsTheProcess) {
+  EXPECT_EXIT(
+      {
+        const InterruptionGuard guard;
+        ::raise(SIGTERM);
+        ::raise(SIGTERM);
+        std::_Exit(0);
+      },
+      testing::KilledBySignal(SIGTERM), "");
+}
+
 }  // namespace
 }  // namespace torolux
