@@ -24,10 +24,9 @@ enum class State : std::uint32_t { empty, configured, running };
 struct Choice {
   std::int64_t unshot;
   std::uint32_t number;  ///< global patch
-  std::uint32_t patch;   ///< local
-  std::uint32_t side;
-  protocol::ShotKind kind;
+  std::uint32_t way;     ///< local patch * 4 + side * 2 + (1: reflected)
 };
+static_assert(sizeof(Choice) == 16);
 
 struct Pe {
   State state = State::empty;
@@ -46,7 +45,7 @@ struct Pe {
   std::array<Choice, protocol::kMostShooters> choices{};
 };
 /// All that the program keeps outside the stores: part of the image, never of the stores' memory.
-static_assert(sizeof(Pe) <= 16U * 1024U);
+static_assert(sizeof(Pe) <= 24U * 1024U);
 
 /// Receives and handles until the host says stop. `pe` is as constructed.
 void run_pe(Pe& pe, Niu& niu);

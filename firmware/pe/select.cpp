@@ -19,8 +19,11 @@ using protocol::ShotKind;
 bool better(const Choice& a, const Choice& b) {
   if (a.unshot != b.unshot) return a.unshot > b.unshot;
   if (a.number != b.number) return a.number < b.number;
-  if (a.side != b.side) return a.side < b.side;
-  return a.kind == ShotKind::emitted && b.kind == ShotKind::reflected;
+  return a.way < b.way;  // of one patch
+}
+
+std::uint32_t way_of(std::uint32_t patch, std::uint32_t side, ShotKind kind) {
+  return patch * 4U + side * 2U + (kind == ShotKind::reflected ? 1U : 0U);
 }
 
 /// What a side could shoot, before reflectance.
@@ -85,9 +88,11 @@ void send_candidates(Pe& pe, Niu& niu, std::uint32_t count, const Flux& unshot) 
     out.unshot = unshot;
     for (std::uint32_t i = 0; i < out.count; ++i) {
       const Choice& choice = pe.choices[sent + i];
-      const protocol::Patch& patch = pe.scene.patches[choice.patch];
-      const Flux amount = amount_of(pe.scene.patch_sides[patch.side[choice.side]], choice.kind);
-      out.candidate[i] = {amount, choice.unshot, choice.number, choice.patch, choice.side, choice.kind};
+      const std::uint32_t patch = choice.way / 4U;
+      const std::uint32_t side = choice.way / 2U % 2U;
+      const ShotKind kind = choice.way % 2U == 1U ? ShotKind::reflected : ShotKind::emitted;
+      const Flux amount = amount_of(pe.scene.patch_sides[pe.scene.patches[patch].side[side]], kind);
+      out.candidate[i] = {amount, choice.unshot, choice.number, patch, side, kind};
     }
     sent += out.count;
     out.last = sent == count ? 1U : 0U;
@@ -115,7 +120,7 @@ void select_shooters(Pe& pe, Niu& niu, const protocol::Select& select) {
         add_flux(unshot, flux);
         const std::int64_t sum = flux[0] + flux[1] + flux[2];
         if (sum <= threshold) continue;
-        best.offer({sum, patch.number, p, side, kind});
+        best.offer({sum, patch.number, way_of(p, side, kind)});
         if (kind == ShotKind::reflected) note_unshot(pe.scene, patch, side);
       }
     }

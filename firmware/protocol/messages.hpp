@@ -63,7 +63,7 @@ struct Select {
   std::uint32_t unused;
   std::int64_t threshold;  ///< [quanta, R + G + B] only sides with more than this
 };
-inline constexpr std::uint32_t kMostShooters = 256;
+inline constexpr std::uint32_t kMostShooters = 1024;
 
 enum class ShotKind : std::uint32_t { reflected = 0, emitted = 1 };
 

@@ -42,8 +42,8 @@ inline constexpr std::uint8_t kEntryAxisMask = 0x30;
 
 /// Of a point: 0: all pixels of its hemi-cube; 1..kPointParts: that part of them only.
 inline constexpr std::uint32_t kPartShift = 4;
-inline constexpr std::uint8_t kPartMask = 0x70;
-inline constexpr std::uint32_t kPointParts = 4;
+inline constexpr std::uint8_t kPartMask = 0xF0;
+inline constexpr std::uint32_t kPointParts = 8;
 
 /// Radiosity stage: one hemi-cube pixel's flux.
 struct RadiosityRecord {

@@ -12,6 +12,16 @@ void CreditPool::take_home(HostPort& port, std::span<const std::byte> contents) 
   if (home_ > credits_) throw MachineFailure("more credits came home than were handed out");
 }
 
+bool CreditPool::grant_all(HostPort& port) {
+  const std::uint64_t each = home_ / pes_ / 2;
+  if (each == 0) return false;
+  port.work(HostWork::entry, 1);
+  home_ -= each * pes_;
+  const protocol::Grant grant{static_cast<std::uint32_t>(each)};
+  port.broadcast(static_cast<std::uint16_t>(protocol::MessageKind::grant), std::as_bytes(std::span(&grant, 1)));
+  return true;
+}
+
 void CreditPool::grant_share(HostPort& port, PeNumber pe) {
   if (home_ > 0) grant(port, pe, std::max<std::uint64_t>(1, credits_ / pes_));
 }

@@ -167,8 +167,10 @@ void RadiosityPhase::begin_round(HostPort& port) {
   for (std::uint32_t i = 0; i < kSupply; ++i) {
     for (unsigned pe = 0; pe < settings_.pes; ++pe) wanting_.push_back(static_cast<PeNumber>(pe));
   }
+  // Credits wait at the PEs until the points have been made; with those that have nothing to do, until the recall.
+  const bool granted = settings_.points_travel && credits_.grant_all(port);
   deal(port);
-  for (unsigned pe = 0; pe < settings_.pes; ++pe) {
+  for (unsigned pe = 0; pe < settings_.pes && !granted; ++pe) {
     if (supplied_[pe] > 0) credits_.grant_share(port, static_cast<PeNumber>(pe));
   }
   credits_.note(port);

@@ -335,11 +335,12 @@ TEST(Malformed, MessagesOutOfTurnOrShapeAreRefused) {
 
 // A shot has one point here: it can be dealt once, to a PE that there is; another shot must wait for that.
 TEST(Malformed, PointsAreDealtAsOftenAsThereAre) {
+  constexpr std::uint16_t kPes = 4;
   const protocol::Shoot shoot{{0, 0, 0}, 0, 0, protocol::ShotKind::emitted, 0};
   const auto fault = [&](const std::function<void(FakeMachine&)>& act) {
-    FakeMachine machine(2);
+    FakeMachine machine(kPes);
     TestScene scene = small_scene();
-    scene.pes = 2;
+    scene.pes = kPes;
     machine.begin(scene, Stage::radiosity);
     machine.message(0, MessageKind::shoot, shoot);
     machine.run();
@@ -352,18 +353,22 @@ TEST(Malformed, PointsAreDealtAsOftenAsThereAre) {
     return [to = std::move(to), parts](FakeMachine& machine) { machine.deal(0, to, parts); };
   };
   EXPECT_EQ(fault(deal({1})), 0U);
-  EXPECT_EQ(fault(deal({2})), code(FaultCode::outside_store)) << "of two PEs";
+  EXPECT_EQ(fault(deal({kPes})), code(FaultCode::outside_store));
   EXPECT_EQ(fault(deal({0, 1})), code(FaultCode::outside_store)) << "of one point";
-  EXPECT_EQ(fault(deal({1, 0, 1, 1}, 4)), 0U) << "in parts";
-  EXPECT_EQ(fault(deal({1, 0, 1, 1, 0}, 4)), code(FaultCode::outside_store)) << "of four parts";
+  std::vector<std::uint16_t> parts;
+  for (std::uint16_t i = 0; i < protocol::kPointParts; ++i) parts.push_back(i % kPes);
+  EXPECT_EQ(fault(deal(parts, protocol::kPointParts)), 0U);
+  std::vector<std::uint16_t> too_many = parts;
+  too_many.push_back(0);
+  EXPECT_EQ(fault(deal(too_many, protocol::kPointParts)), code(FaultCode::outside_store));
   EXPECT_EQ(fault(deal({1}, 3)), code(FaultCode::outside_store));
   EXPECT_EQ(fault(deal({1}, 0)), code(FaultCode::outside_store));
   EXPECT_EQ(fault([](FakeMachine& machine) {
-              machine.deal(0, std::array<std::uint16_t, 2>{1, 1}, 4);
+              machine.deal(0, std::array<std::uint16_t, 2>{1, 1}, protocol::kPointParts);
               machine.deal(0, std::array<std::uint16_t, 1>{1}, 1);
             }),
             code(FaultCode::outside_store))
-      << "whole, when half of it is dealt";
+      << "whole, when two parts of it are dealt";
   EXPECT_EQ(fault(deal({})), code(FaultCode::short_message)) << "nobody";
   EXPECT_EQ(fault([&](FakeMachine& machine) {
               machine.message(0, MessageKind::deal, protocol::Deal{65, 1, {}});
@@ -476,8 +481,9 @@ TEST(Malformed, PointsThatDoNotHoldAreRefused) {
   EXPECT_EQ(fault([](protocol::PointRecord&) {}), 0U);
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.place = protocol::cell_code(1, 1, 2); }), bad);
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flux[2] = -1; }), bad);
-  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = 4U << protocol::kPartShift; }), 0U);
-  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = 5U << protocol::kPartShift; }), bad);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = protocol::kPointParts << protocol::kPartShift; }), 0U);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = (protocol::kPointParts + 1U) << protocol::kPartShift; }),
+            bad);
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flux[0] = (std::int64_t{1} << 56U) + 1; }), bad);
   // As many as there are places, with the one whose records are being made.
   EXPECT_EQ(fault([](protocol::PointRecord&) {}, protocol::kPointPlaces), 0U);

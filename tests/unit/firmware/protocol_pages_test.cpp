@@ -198,7 +198,7 @@ TEST(PagesOfTheProtocol, FlagsHaveTheirBits) {
   EXPECT_EQ(protocol::kEntryAxisMask, 3U << protocol::kEntryAxisShift);
   expect_says("entry axis in bits " + std::to_string(protocol::kEntryAxisShift) + " and " +
               std::to_string(protocol::kEntryAxisShift + 1));
-  expect_says("in bits " + std::to_string(protocol::kPartShift) + " to " + std::to_string(protocol::kPartShift + 2) +
+  expect_says("in bits " + std::to_string(protocol::kPartShift) + " to " + std::to_string(protocol::kPartShift + 3) +
               " which part");
   expect_says("at most " + std::to_string(protocol::kMostVisits) + " |");
 }

@@ -166,13 +166,13 @@ TEST(Radiosity, SameSumsWhateverTheMachine) {
     bool stop_everywhere, copy_all, points_travel;
     std::uint32_t open_batches, parts;
   };
-  for (const Machine& m :
-       {Machine{1, {5, 3, 4}, 64, 77, true, true, true, 64, 1},
-        Machine{2, {2, 2, 2}, 64, 100, false, false, true, 2, 4},
-        Machine{5, {4, 7, 3}, 200, 999, true, false, true, 8, 1},
-        Machine{12, {6, 6, 6}, 16, 300, false, true, true, 16, 4},
-        Machine{4, {6, 6, 6}, 64, 50, true, false, false, 1, 4}, Machine{4, {6, 6, 6}, 64, 1, false, true, true, 4, 1},
-        Machine{7, {3, 9, 5}, 64, 64, false, false, false, 4, 1}}) {
+  for (const Machine& m : {Machine{1, {5, 3, 4}, 64, 77, true, true, true, 64, 1},
+                           Machine{2, {2, 2, 2}, 64, 100, false, false, true, 2, protocol::kPointParts},
+                           Machine{5, {4, 7, 3}, 200, 999, true, false, true, 8, 1},
+                           Machine{12, {6, 6, 6}, 16, 300, false, true, true, 16, protocol::kPointParts},
+                           Machine{4, {6, 6, 6}, 64, 50, true, false, false, 1, protocol::kPointParts},
+                           Machine{4, {6, 6, 6}, 64, 1, false, true, true, 4, 1},
+                           Machine{7, {3, 9, 5}, 64, 64, false, false, false, 4, 1}}) {
     TestScene scene = room_with_balls(m.pes, m.cells);
     scene.stop_everywhere = m.stop_everywhere;
     scene.copy_all = m.copy_all;
@@ -265,7 +265,8 @@ TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
     s.copy_all = pick(0, 2) == 1;
     s.open_batches = 1U << pick(0, 7);
     s.credits_kept = pick(1, 100);
-    expect_balance(radiate(s, 3, pick(16, 65), pick(1, 200), pick(0, 2) == 1, pick(0, 2) == 1 ? 1 : 4));
+    expect_balance(
+        radiate(s, 3, pick(16, 65), pick(1, 200), pick(0, 2) == 1, pick(0, 2) == 1 ? 1 : protocol::kPointParts));
     RC_ASSERT(!::testing::Test::HasFailure());
   });
   EXPECT_TRUE(holds);
@@ -422,8 +423,10 @@ TEST(Points, SameRecordsWhoeverMakesThem) {
        {std::vector<std::uint16_t>{1, 1, 1, 1}, {2, 2, 2, 2}, {0, 1, 2, 0}, {2, 1, 0, 1}}) {
     expect_same(shot_by(to, 1));
   }
-  expect_same(shot_by(std::vector<std::uint16_t>(16, 1), protocol::kPointParts));
-  expect_same(shot_by({0, 1, 2, 0, 2, 2, 1, 1, 0, 0, 0, 2, 1, 0, 2, 1}, protocol::kPointParts));
+  std::vector<std::uint16_t> to(4 * protocol::kPointParts, 1);
+  expect_same(shot_by(to, protocol::kPointParts));
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = static_cast<std::uint16_t>(i * i % 7 % 3);
+  expect_same(shot_by(to, protocol::kPointParts));
 }
 
 // A shot without flux has points all the same, and they are done without a record.

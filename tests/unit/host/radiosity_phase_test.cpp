@@ -57,11 +57,16 @@ std::vector<std::pair<PeNumber, Shoot>> shots_in(const std::vector<Sent>& sent) 
   return shots;
 }
 
-/// Credits granted, by PE.
-std::map<PeNumber, std::uint32_t> grants_in(const std::vector<Sent>& sent) {
+/// Credits granted to PEs 0..pes-1, by PE: to one, or by broadcast to each.
+std::map<PeNumber, std::uint32_t> grants_in(const std::vector<Sent>& sent, unsigned pes) {
   std::map<PeNumber, std::uint32_t> grants;
   for (const Sent& one : sent) {
-    if (one.is(MessageKind::grant)) grants[one.pe] += one.as<protocol::Grant>().credits;
+    if (!one.is(MessageKind::grant)) continue;
+    for (unsigned pe = 0; pe < pes; ++pe) {
+      if (one.pe == pe || one.pe == protocol::kHost) {
+        grants[static_cast<PeNumber>(pe)] += one.as<protocol::Grant>().credits;
+      }
+    }
   }
   return grants;
 }
@@ -101,7 +106,7 @@ std::vector<Sent> finish_round(RadiosityPhase& phase, FakePort& port) {
     all.insert(all.end(), sent.begin(), sent.end());
     if (sent.back().is(MessageKind::select)) break;
     for (const PeNumber to : deals_in(sent)) tell(phase, port, to, MessageKind::work_done, protocol::WorkDone{1, 5});
-    for (const auto& [pe, credits] : grants_in(sent)) tell(phase, port, pe, MessageKind::credits, credits);
+    for (const auto& [pe, credits] : grants_in(sent, port.pes())) tell(phase, port, pe, MessageKind::credits, credits);
   }
   return all;
 }
@@ -142,8 +147,8 @@ TEST(RadiosityPhase, SaysWhatItComputes) {
   port.take();  // what was asked is on its way
   offer(phase, port, 2, {}, 1000);
   EXPECT_EQ(port.done(HostWork::compare), 5U * 3) << "five are sorted";
-  // Each of the three PEs gets two parts of the four shots' points, and credits.
-  EXPECT_EQ(port.done(HostWork::entry), 5U + 6 + 3);
+  // Each of the three PEs gets two parts of the four shots' points; all get credits at once.
+  EXPECT_EQ(port.done(HostWork::entry), 5U + 6 + 1);
 }
 
 TEST(RadiosityPhase, TheBestOfAllPesShootAndTheirNumbersFollowTheOrderOfChoice) {
@@ -298,14 +303,15 @@ TEST(RadiosityPhase, PointsAreDealtToAllPesAndMoreToWhoHasDoneSome) {
   FakePort port(3);
   RadiosityPhase phase = one_shot(port, settings(3), 1);
   auto sent = port.take();
-  ASSERT_TRUE(sent.front().is(MessageKind::shoot)) << "the owner hears what it is before whom it goes to";
-  EXPECT_EQ(sent.front().pe, 1);
+  ASSERT_TRUE(sent.at(0).is(MessageKind::grant)) << "credits wait for the points";
+  ASSERT_TRUE(sent.at(1).is(MessageKind::shoot)) << "the owner hears what it is before whom it goes to";
+  EXPECT_EQ(sent.at(1).pe, 1);
   EXPECT_EQ(deals_in(sent, PeNumber{1}), (std::vector<PeNumber>{0, 1, 2, 0, 1, 2}));
   EXPECT_EQ(deals_in(sent).size(), 6U) << "nobody else deals";
   tell(phase, port, 2, MessageKind::work_done, protocol::WorkDone{2, 100});
   EXPECT_EQ(deals_in(port.take(), PeNumber{1}), (std::vector<PeNumber>{2, 2}));
   std::uint32_t dealt = 8 * protocol::kPointParts;
-  std::vector<std::uint32_t> of_pe{2 * 4, 2 * 4, 4 * 4};
+  std::vector<std::uint32_t> of_pe{2 * protocol::kPointParts, 2 * protocol::kPointParts, 4 * protocol::kPointParts};
   std::vector<std::uint32_t> has{2, 2, 2};
   std::uint32_t in_parts = 0;
   for (PeNumber pe = 0; has != std::vector<std::uint32_t>{0, 0, 0}; pe = static_cast<PeNumber>((pe + 1) % 3)) {
@@ -328,16 +334,16 @@ TEST(RadiosityPhase, PointsAreDealtToAllPesAndMoreToWhoHasDoneSome) {
 
 // At the end nobody has two pieces while another has none.
 TEST(RadiosityPhase, TheLastPiecesGoToWhoHasNothing) {
-  FakePort port(5);
-  RadiosityPhase phase(settings(5));
+  FakePort port(9);
+  RadiosityPhase phase(settings(9));
   phase.start(port);
   port.take();
-  for (PeNumber pe = 0; pe < 5; ++pe) {
+  for (PeNumber pe = 0; pe < 9; ++pe) {
     std::vector<Candidate> candidates;
     if (pe == 3) candidates.push_back(candidate(400, 1, 0, ShotKind::emitted));
     offer(phase, port, pe, candidates, 1000);
   }
-  EXPECT_EQ(deals_in(port.take()), (std::vector<PeNumber>{0, 1, 2, 3})) << "the four parts of one point";
+  EXPECT_EQ(deals_in(port.take()), (std::vector<PeNumber>{0, 1, 2, 3, 4, 5, 6, 7})) << "the eight parts of one point";
 }
 
 TEST(RadiosityPhase, PointsStayAtTheirOwnersWhereTheyDoNotTravel) {
@@ -347,7 +353,7 @@ TEST(RadiosityPhase, PointsStayAtTheirOwnersWhereTheyDoNotTravel) {
   RadiosityPhase phase = one_shot(port, some, 1);
   const auto sent = port.take();
   EXPECT_EQ(deals_in(sent), (std::vector<PeNumber>{1, 1}));
-  EXPECT_EQ(grants_in(sent).size(), 1U) << "nobody else has work";
+  EXPECT_EQ(grants_in(sent, 3).size(), 1U) << "nobody else has work";
   tell(phase, port, 1, MessageKind::work_done, protocol::WorkDone{1, 100});
   EXPECT_EQ(deals_in(port.take()), (std::vector<PeNumber>{1}));
   const auto whole = [](const Piece& piece) { return piece.of_point == protocol::kPointParts; };
@@ -457,9 +463,11 @@ class RandomPes {
         recalled_ = true;
       } else {
         EXPECT_TRUE(sent.is(MessageKind::grant));
-        held_[sent.pe] += sent.as<protocol::Grant>().credits;
-        out_ += sent.as<protocol::Grant>().credits;
-        asked_[sent.pe] = false;
+        for (const auto& [pe, credits] : grants_in({sent}, 3)) {
+          held_[pe] += credits;
+          out_ += credits;
+          asked_[pe] = false;
+        }
       }
     }
     return true;
@@ -520,12 +528,21 @@ TEST(RadiosityPhase, CreditsAreNeverMoreThanThereAreAndAllComeHome) {
   }
 }
 
+// Half of what there is goes to all, in one message; the rest is for those who have more work than others.
 TEST(RadiosityPhase, WhoNeedsCreditsGetsThemInTheOrderOfAsking) {
   FakePort port(4);
   RadiosityPhase phase = one_shot(port, settings(4), 2);
-  const auto grants = grants_in(port.take());
-  EXPECT_EQ(grants, (std::map<PeNumber, std::uint32_t>{{0, 25}, {1, 25}, {2, 25}, {3, 25}})) << "an equal share";
-  EXPECT_EQ(phase.credits_home(), 0U);
+  const auto begin = port.take();
+  EXPECT_EQ(std::ranges::count_if(begin, [](const Sent& one) { return one.is(MessageKind::grant); }), 1);
+  EXPECT_EQ(grants_in(begin, 4), (std::map<PeNumber, std::uint32_t>{{0, 12}, {1, 12}, {2, 12}, {3, 12}}));
+  EXPECT_EQ(phase.credits_home(), 52U);
+  for (const std::uint32_t left : {40U, 28U, 16U, 4U}) {
+    tell(phase, port, 3, MessageKind::need);
+    EXPECT_EQ(grants_in(port.take(), 4), (std::map<PeNumber, std::uint32_t>{{3, 12}})) << "half a share";
+    EXPECT_EQ(phase.credits_home(), left);
+  }
+  tell(phase, port, 1, MessageKind::need);
+  EXPECT_EQ(grants_in(port.take(), 4), (std::map<PeNumber, std::uint32_t>{{1, 4}})) << "what there is";
   tell(phase, port, 3, MessageKind::need);
   const auto recall = port.take();
   ASSERT_EQ(recall.size(), 1U) << "there are none";
@@ -533,11 +550,19 @@ TEST(RadiosityPhase, WhoNeedsCreditsGetsThemInTheOrderOfAsking) {
   tell(phase, port, 0, MessageKind::need);
   EXPECT_TRUE(port.take().empty()) << "once is enough";
   tell(phase, port, 1, MessageKind::credits, protocol::Credits{5});
-  EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{3, 5}}));
-  tell(phase, port, 1, MessageKind::credits, protocol::Credits{20});
-  EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{0, 12}})) << "half a share, and no more";
-  tell(phase, port, 2, MessageKind::need);
-  EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{2, 8}}));
+  EXPECT_EQ(grants_in(port.take(), 4), (std::map<PeNumber, std::uint32_t>{{3, 5}}));
+  tell(phase, port, 1, MessageKind::credits, protocol::Credits{11});
+  EXPECT_EQ(grants_in(port.take(), 4), (std::map<PeNumber, std::uint32_t>{{0, 11}}));
+}
+
+// One credit for each PE cannot be halved; neither can fewer than there are PEs.
+TEST(RadiosityPhase, FewCreditsGoToWhoHasWork) {
+  FakePort port(4);
+  RadiositySettings some = settings(4);
+  some.credits = 7;
+  RadiosityPhase phase = one_shot(port, some, 2);
+  EXPECT_EQ(grants_in(port.take(), 4), (std::map<PeNumber, std::uint32_t>{{0, 1}, {1, 1}, {2, 1}, {3, 1}}));
+  EXPECT_EQ(phase.credits_home(), 3U);
 }
 
 // Both must be there: every point done, every credit home.
@@ -548,11 +573,11 @@ TEST(RadiosityPhase, ARoundEndsWithTheLastPointAndTheLastCredit) {
     phase.start(port);
     port.take();
     offer(phase, port, 0, {candidate(400, 1)}, 1000);
-    EXPECT_EQ(grants_in(port.take()), (std::map<PeNumber, std::uint32_t>{{0, 100}}));
-    for (int part = 0; part < 3; ++part) tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 10});
-    EXPECT_EQ(deals_in(port.take()).size(), 2U) << "four in all";
+    EXPECT_EQ(grants_in(port.take(), 1), (std::map<PeNumber, std::uint32_t>{{0, 50}}));
+    for (int part = 0; part < 7; ++part) tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 10});
+    EXPECT_EQ(deals_in(port.take()).size(), 6U) << "eight in all";
     const auto done = [&] { tell(phase, port, 0, MessageKind::work_done, protocol::WorkDone{1, 12}); };
-    const auto home = [&] { tell(phase, port, 0, MessageKind::credits, protocol::Credits{100}); };
+    const auto home = [&] { tell(phase, port, 0, MessageKind::credits, protocol::Credits{50}); };
     credits_last ? done() : home();
     const auto before = port.take();
     EXPECT_EQ(before.size(), credits_last ? 1U : 0U);
@@ -561,7 +586,7 @@ TEST(RadiosityPhase, ARoundEndsWithTheLastPointAndTheLastCredit) {
     const auto sent = port.take();
     ASSERT_EQ(sent.size(), 1U);
     EXPECT_TRUE(sent[0].is(MessageKind::select)) << "the next round";
-    EXPECT_EQ(phase.rounds().front().records, 42U);
+    EXPECT_EQ(phase.rounds().front().records, 82U);
   }
 }
 
