@@ -110,6 +110,8 @@ std::string_view name_of(NiuFaultCode code) {
       return "an endless loop";
     case no_trap_handler:
       return "a trap without a handler";
+    case wait_for_interrupt:
+      return "wait for an interrupt";
   }
   return "fault";
 }
@@ -151,6 +153,10 @@ std::string describe_fault(unsigned pe, const NiuFault& fault, const Image& imag
   if (fault.code == NiuFaultCode::no_trap_handler) {
     return who + trap_in_words(fault.detail, image) +
            "; it executes no instructions any more: mtvec leads to no handler";
+  }
+  if (fault.code == NiuFaultCode::wait_for_interrupt) {
+    return who + "trap: wfi at " + place_in_words(fault.detail[0], image) +
+           " waits for an interrupt, and there are none: call receive() to wait";
   }
   return who + std::string(name_of(fault.code)) + ": " + details(fault.detail);
 }

@@ -106,7 +106,8 @@ enum class NiuFaultCode : std::uint32_t {
   too_many_released,      ///< released
   phase_mismatch,         ///< phase, innermost open phase or kPhases
   too_long_without_hint,  ///< limit (low, high word), pc or 0
-  no_trap_handler         ///< mcause, mepc, mtval
+  no_trap_handler,        ///< mcause, mepc, mtval
+  wait_for_interrupt      ///< pc: of `wfi`
 };
 struct NiuFault {
   NiuFaultCode code;

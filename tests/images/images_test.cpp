@@ -119,7 +119,8 @@ TEST_P(Faults, UnknownInstructionTraps) {
               AllOf(HasSubstr("PE "), HasSubstr("trap"), HasSubstr("illegal instruction")));
 }
 TEST_P(Faults, AProgramsOwnFailureEndsTheRun) {
-  EXPECT_THAT(failure_of_fault(GetParam(), 7), AllOf(HasSubstr("PE "), HasSubstr("5"), HasSubstr("6")));
+  EXPECT_THAT(failure_of_fault(GetParam(), 7),
+              AllOf(HasSubstr("PE "), HasSubstr("5"), HasSubstr("6")));
 }
 TEST_P(Faults, MisalignedAccessAndTheLastWordWork) {
   EXPECT_EQ(failure_of_fault(GetParam(), 8), "no failure");
@@ -158,8 +159,8 @@ class LastWordsOn : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Engines, LastWordsOn, testing::Values("qemu", "translated", "interpreted"));
 
 TEST_P(LastWordsOn, AreHeardBeforeEachKindOfFailure) {
-  const char* what[] = {"trap: illegal instruction", "an endless loop?", "", "HINT unknown to the NIU"};
-  for (const unsigned how : {1U, 2U, 4U}) {
+  const char* what[] = {"trap: illegal instruction", "an endless loop?", "trap: wfi", "HINT unknown to the NIU"};
+  for (const unsigned how : {1U, 2U, 3U, 4U}) {
     for (const unsigned threads : {1U, 2U}) {
       const LastWords words = last_words(GetParam(), how, threads);
       EXPECT_THAT(words.failure, AllOf(testing::StartsWith("PE 0: "), HasSubstr(what[how - 1])));
@@ -181,6 +182,14 @@ TEST(LastWords, AnEndlessLoopEndsInTheSameCycleOnAllEngines) {
   EXPECT_EQ(cycle_of(last_words("translated", 2, 1).failure), qemu);
   EXPECT_EQ(cycle_of(last_words("interpreted", 2, 1).failure), qemu);
   EXPECT_EQ(last_words("translated", 2, 2).failure, last_words("translated", 2, 1).failure);  // the pc, too
+}
+
+TEST(LastWords, WaitingForAnInterruptIsTheSameTrapOnAllEngines) {
+  const std::string qemu = last_words("qemu", 3, 1).failure;
+  EXPECT_THAT(qemu, AllOf(testing::StartsWith("PE 0: trap: wfi at pc 0x"), HasSubstr("(torolux::pe::pe_main"),
+                          HasSubstr("there are none"), HasSubstr(" (cycle ")));
+  EXPECT_EQ(last_words("translated", 3, 1).failure, qemu);  // pc and cycle, too
+  EXPECT_EQ(last_words("interpreted", 3, 1).failure, qemu);
 }
 
 TEST(LastWords, AreHeardBeforeATrapThatNothingHandles) {

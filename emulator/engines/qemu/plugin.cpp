@@ -7,15 +7,19 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <thread>
 
 #include "emulator/engines/isa/instruction_class.hpp"
 #include "emulator/engines/qemu/hint_log.hpp"
 #include "emulator/engines/qemu/hint_meeting.hpp"
 #include "emulator/engines/qemu/plugin_api.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
+#include "emulator/niu/channel.hpp"
+#include "emulator/niu/ending.hpp"
 #include "emulator/niu/futex.hpp"
 #include "emulator/niu/processor_side.hpp"
 #include "firmware/protocol/hints.hpp"
@@ -70,16 +74,27 @@ struct CountedPlace {
   static constexpr std::uint32_t kMostCycles = 0xFF'FFFFU;
 };
 
+/// RISC-V privileged architecture, "Wait for Interrupt".
+constexpr std::uint32_t kWaitForInterrupt = 0x1050'0073;
+
+/// A `wfi` that the program may come to: what stands behind it in its block, and its address.
+struct WaitPlace {
+  HintPlace rest;
+  std::uint32_t address;
+};
+
 /// While it waits for the emulator it shows that it is alive.
 constexpr std::chrono::microseconds kLongestSleep{50'000};
 
 class Plugin {
  public:
-  Plugin(PluginShare& share, NiuProcessorSide side) : share_(share), side_(side) {}
+  Plugin(PluginShare& share, NiuChannel& channel, NiuProcessorSide side)
+      : share_(share), channel_(channel), side_(side) {}
 
   void translated(qemu_plugin_tb* block);
   void count(const CountedPlace& place);
   void hint(const HintPlace& place);
+  [[noreturn]] void wait_for_interrupt(const WaitPlace& place);
 
   // At most one of these is there.
   std::optional<HintRecorder> recorder;
@@ -90,12 +105,15 @@ class Plugin {
  private:
   void count_block(qemu_plugin_tb* block);
   void count_each(qemu_plugin_tb* block);
+  void look_for_wait(qemu_plugin_insn* instruction, const HintPlace& rest, std::uint32_t address);
   NiuProcessorSide::Result answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   NiuProcessorSide::Result meet(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   [[noreturn]] void end();
 
   PluginShare& share_;
+  NiuChannel& channel_;
   NiuProcessorSide side_;
+  std::deque<WaitPlace> waits_;  // each time one is translated: they are rare
   // PE clock = counted cycles - cycle_offset_; the same for instructions. Modulo 2^64: waiting makes it "negative".
   std::uint64_t cycle_offset_ = 0;
   std::uint64_t instruction_offset_ = 0;
@@ -120,6 +138,10 @@ void on_hint(unsigned /*vcpu*/, void* user_data) {
 
 void on_instruction(unsigned /*vcpu*/, void* user_data) {
   plugin->count(CountedPlace::unpack(user_data));
+}
+
+void on_wait(unsigned /*vcpu*/, void* user_data) {
+  plugin->wait_for_interrupt(*static_cast<const WaitPlace*>(user_data));
 }
 
 void on_translated(qemu_plugin_id_t /*id*/, qemu_plugin_tb* block) {
@@ -152,6 +174,7 @@ void Plugin::count_each(qemu_plugin_tb* block) {
       const HintPlace hint{protocol::hint_immediate(bits), 0, 0};
       qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_hint, QEMU_PLUGIN_CB_NO_REGS, hint.pack());
     }
+    look_for_wait(instruction, {}, address);
     address += static_cast<std::uint32_t>(qemu_plugin_insn_size(instruction));
   }
 }
@@ -166,6 +189,10 @@ void Plugin::count(const CountedPlace& place) {
 
 void Plugin::count_block(qemu_plugin_tb* block) {
   HintPlace rest{};
+  auto address = static_cast<std::uint32_t>(qemu_plugin_tb_vaddr(block));
+  for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
+    address += static_cast<std::uint32_t>(qemu_plugin_insn_size(qemu_plugin_tb_get_insn(block, i)));
+  }
   for (std::size_t i = qemu_plugin_tb_n_insns(block); i-- > 0;) {
     qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);
     const std::uint32_t bits = bits_of(instruction);
@@ -173,12 +200,20 @@ void Plugin::count_block(qemu_plugin_tb* block) {
       rest.immediate = protocol::hint_immediate(bits);
       qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_hint, QEMU_PLUGIN_CB_NO_REGS, rest.pack());
     }
+    address -= static_cast<std::uint32_t>(qemu_plugin_insn_size(instruction));
+    look_for_wait(instruction, rest, address);
     rest.cycles_left += cycles_of(bits, share_.latency);
     rest.instructions_left += is_phase_marker(bits) ? 0 : 1;
   }
   qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.cycles, rest.cycles_left);
   qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.instructions,
                                            rest.instructions_left);
+}
+
+void Plugin::look_for_wait(qemu_plugin_insn* instruction, const HintPlace& rest, std::uint32_t address) {
+  if (bits_of(instruction) != kWaitForInterrupt) return;
+  waits_.push_back({rest, address});
+  qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_wait, QEMU_PLUGIN_CB_NO_REGS, &waits_.back());
 }
 
 NiuProcessorSide::Result Plugin::answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
@@ -218,6 +253,17 @@ void Plugin::end() {
   share_.diverged.store(replayer && !replayer->at_end() ? 1 : 0, std::memory_order_relaxed);
   share_.stopped.store(1, std::memory_order_release);
   _exit(0);
+}
+
+/// There are no interrupts: it is the end of the PE, on this engine as on the others.
+void Plugin::wait_for_interrupt(const WaitPlace& place) {
+  const std::uint64_t clock = share_.cycles - place.rest.cycles_left - cycle_offset_;
+  const NiuFault fault{NiuFaultCode::wait_for_interrupt, {place.address, 0, 0}};
+  while (!end_with_fault(channel_, clock, fault) && channel_.stopping.load(std::memory_order_seq_cst) == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    share_.hints.fetch_add(1, std::memory_order_relaxed);
+  }
+  end();
 }
 
 void Plugin::hint(const HintPlace& place) {
@@ -283,8 +329,8 @@ const char* install(qemu_plugin_id_t id, const qemu_info_t& info, std::string_vi
     return "channel or local memory cannot be mapped";
   }
   const std::span<std::byte> memory = local->first(share.local_memory_bytes);
-  plugin =
-      std::make_unique<Plugin>(share, NiuProcessorSide(*niu_channel_at(channel->data()), memory, share.window_offset));
+  plugin = std::make_unique<Plugin>(share, *niu_channel_at(channel->data()),
+                                    NiuProcessorSide(*niu_channel_at(channel->data()), memory, share.window_offset));
   if (share.log_use != HintLogUse::none) {
     const auto log = map_descriptor(share.log_descriptor);
     if (!log || log->size() < sizeof(HintLogHead)) {
