@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "emulator/hexadecimal.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/messages.hpp"
 
@@ -137,6 +138,28 @@ std::string details(const std::uint32_t (&detail)[3]) {
   return std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + ", " + std::to_string(detail[2]);
 }
 
+/// What pe.elf has found wrong, with value and limit; nothing where the numbers alone tell.
+std::string in_words(protocol::FaultCode code, const std::uint32_t (&detail)[3]) {
+  using enum protocol::FaultCode;
+  const auto named = [&](std::string_view name) { return name.empty() ? std::string() : ": " + std::string(name); };
+  const std::string value = " = " + std::to_string(detail[1]);
+  const std::string limit = std::to_string(detail[2]);
+  switch (code) {
+    case protocol_version:
+      return ": the image's is " + std::to_string(detail[0]) + ", the emulator's " + std::to_string(detail[1]);
+    case bad_layout:
+      return named(protocol::name_in(protocol::kLayoutFieldNames, detail[0])) + value + ", " + limit;
+    case outside_store:
+      return named(protocol::name_in(protocol::kStoreIndexNames, detail[0])) + value + ", limit " + limit;
+    case bad_record:
+      return named(protocol::name_in(protocol::kRecordFieldNames, detail[0])) + value;
+    case short_message:
+      return ": kind " + std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + " bytes instead of " + limit;
+    default:
+      return "";
+  }
+}
+
 }  // namespace
 
 std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image) {
@@ -144,7 +167,7 @@ std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Imag
   const auto code = static_cast<protocol::FaultCode>(fault.code);
   if (code == protocol::FaultCode::trap) return who + trap_in_words(fault.detail, image);
   return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
-         "), details " + details(fault.detail);
+         in_words(code, fault.detail) + "), details " + details(fault.detail) + "; see docs/errors.md";
 }
 
 std::string describe_fault(unsigned pe, const NiuFault& fault, const Image& image) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "firmware/pe/pe.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/store_names.hpp"
 
 namespace torolux::pe {
@@ -14,24 +15,7 @@ using protocol::Stage;
 using protocol::StageLayout;
 using protocol::Store;
 
-/// First detail of FaultCode::bad_layout: a StoreName, or one of the layout's other fields.
-enum class LayoutField : std::uint32_t {
-  stage = protocol::kStores,
-  cells,
-  own_slots,
-  open_batches,
-  credits_kept,
-  bounces,
-  hemicube_size,
-  shot_points,
-  emission_points,
-  points_per_quantum,
-  cell_size,
-  pixel_scale,
-  layers,
-  view,
-};
-
+using protocol::LayoutField;
 using Extents = std::array<protocol::StoreExtent, protocol::kStores>;
 
 void require(Niu& niu, bool holds, LayoutField field, std::uint32_t value, std::uint32_t count = 0) {

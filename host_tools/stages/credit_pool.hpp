@@ -23,7 +23,7 @@ class CreditPool {
   void spend() { --home_; }
 
   /// A `credits` message. Throws MachineFailure where more come than went out.
-  void take_home(HostPort& port, std::span<const std::byte> contents);
+  void take_home(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   /// At the beginning: an equal share, or what is left.
   void grant_share(HostPort& port, PeNumber pe);
   /// A `need` message: the PE has work and no credits.
