@@ -138,23 +138,34 @@ std::string details(const std::uint32_t (&detail)[3]) {
   return std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + ", " + std::to_string(detail[2]);
 }
 
+/// The words, with the second and the third detail where a % stands; nothing of no words.
+std::string filled(std::string_view words, const std::uint32_t (&detail)[3]) {
+  std::string text = words.empty() ? "" : ": ";
+  std::size_t next = 1;
+  for (const char c : words) text += c == '%' ? std::to_string(detail[next++]) : std::string(1, c);
+  return text;
+}
+
 /// What pe.elf has found wrong, with value and limit; nothing where the numbers alone tell.
 std::string in_words(protocol::FaultCode code, const std::uint32_t (&detail)[3]) {
   using enum protocol::FaultCode;
-  const auto named = [&](std::string_view name) { return name.empty() ? std::string() : ": " + std::string(name); };
-  const std::string value = " = " + std::to_string(detail[1]);
-  const std::string limit = std::to_string(detail[2]);
   switch (code) {
     case protocol_version:
       return ": the image's is " + std::to_string(detail[0]) + ", the emulator's " + std::to_string(detail[1]);
     case bad_layout:
-      return named(protocol::name_in(protocol::kLayoutFieldNames, detail[0])) + value + ", " + limit;
+      return filled(protocol::words_in(protocol::kLayoutFieldWords, detail[0]), detail);
     case outside_store:
-      return named(protocol::name_in(protocol::kStoreIndexNames, detail[0])) + value + ", limit " + limit;
+      return filled(protocol::words_in(protocol::kStoreIndexWords, detail[0]), detail);
     case bad_record:
-      return named(protocol::name_in(protocol::kRecordFieldNames, detail[0])) + value;
+      return filled(protocol::words_in(protocol::kRecordFieldWords, detail[0]), detail);
+    case unknown_message:
+    case unexpected_message:
+      return ": kind " + std::to_string(detail[0]);
+    case own_slots_exhausted:
+      return ": all " + std::to_string(detail[0]) + " are in use";
     case short_message:
-      return ": kind " + std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + " bytes instead of " + limit;
+      return ": kind " + std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + " bytes instead of " +
+             std::to_string(detail[2]);
     default:
       return "";
   }
@@ -174,7 +185,8 @@ std::string describe_fault(unsigned pe, const NiuFault& fault, const Image& imag
   const std::string who = "PE " + std::to_string(pe) + ": ";
   if (fault.code == NiuFaultCode::too_long_without_hint) return who + loop_in_words(fault.detail, image);
   if (fault.code == NiuFaultCode::no_trap_handler) {
-    return who + trap_in_words(fault.detail, image) +
+    const bool known = fault.detail[0] != kUnknownTrap;
+    return who + (known ? trap_in_words(fault.detail, image) : "a trap of which this engine knows no more") +
            "; it executes no instructions any more: mtvec leads to no handler";
   }
   if (fault.code == NiuFaultCode::wait_for_interrupt) {

@@ -73,9 +73,10 @@ LoadBlock checked_block(Niu& niu) {
   const bool fits = block.bytes > 0 && block.bytes <= protocol::kMostLoadBytes && block.bytes % 4U == 0 &&
                     block.address % 4U == 0 && block.address >= begin && block.address < end &&
                     block.bytes <= end - block.address;
-  if (!fits)
-    niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(protocol::StoreIndex::load_address), block.address,
-             end);
+  if (!fits) {
+    niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(protocol::StoreIndex::load_block), block.address,
+             block.bytes);
+  }
   return block;
 }
 
@@ -101,9 +102,10 @@ void load_store(Pe& pe, Niu& niu) {
               block.bytes <= protocol::kMostLoadStoreBytes;
   const std::uint64_t room = fits ? (extents[block.store].bytes() + 3U) / 4U * 4U : 0;
   fits = fits && block.offset <= room && block.bytes <= room - block.offset;
-  if (!fits)
+  if (!fits) {
     niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(protocol::StoreIndex::load_offset), block.offset,
              block.bytes);
+  }
   if (bytes.size() < sizeof block + block.bytes) {
     niu.fail(FaultCode::short_message, niu.message().kind, static_cast<std::uint32_t>(bytes.size()),
              sizeof block + block.bytes);

@@ -20,15 +20,19 @@ using protocol::ShotKind;
 
 using protocol::StoreIndex;
 
-void require(Niu& niu, bool holds, StoreIndex field, std::uint32_t value) {
-  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
+/// limit: where the words of the index have one.
+void require(Niu& niu, bool holds, StoreIndex index, std::uint32_t value, std::size_t limit = 0) {
+  if (!holds) {
+    niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(index), value, static_cast<std::uint32_t>(limit));
+  }
 }
 
 /// Takes exactly `amount` out of the side's unshot flux and returns the flux to shoot.
 Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
-  require(niu, shoot.patch < pe.scene.patches.size(), StoreIndex::shoot_patch, shoot.patch);
+  require(niu, shoot.patch < pe.scene.patches.size(), StoreIndex::shoot_patch, shoot.patch, pe.scene.patches.size());
   require(niu, shoot.side < 2, StoreIndex::shoot_side, shoot.side);
-  require(niu, shoot.kind <= ShotKind::emitted, StoreIndex::shoot_kind, static_cast<std::uint32_t>(shoot.kind));
+  require(niu, shoot.kind <= ShotKind::emitted, StoreIndex::shoot_kind, static_cast<std::uint32_t>(shoot.kind),
+          static_cast<std::uint32_t>(ShotKind::emitted));
   const Patch& patch = pe.scene.patches[shoot.patch];
   require(niu, patch.side[shoot.side] != protocol::kNoSide, StoreIndex::shoot_side, shoot.side);
   protocol::PatchSide& side = pe.scene.patch_sides[patch.side[shoot.side]];
@@ -86,11 +90,12 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
 void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal) {
   const PhaseMark<Phase::shoot> mark(niu);
   Shot& shot = pe.shot;
-  require(niu, deal.parts == 1U || deal.parts == protocol::kPointParts, StoreIndex::deal, deal.parts);
+  require(niu, deal.parts == 1U || deal.parts == protocol::kPointParts, StoreIndex::deal_parts, deal.parts,
+          protocol::kPointParts);
   for (std::uint32_t i = 0; i < deal.count; ++i) {
-    require(niu, deal.pe[i] < niu.pes(), StoreIndex::deal, deal.pe[i]);
+    require(niu, deal.pe[i] < niu.pes(), StoreIndex::deal_pe, deal.pe[i], niu.pes());
     if (shot.part == 0) {
-      require(niu, shot.point < shot.points, StoreIndex::deal, i);
+      require(niu, shot.point < shot.points, StoreIndex::deal_point, i, shot.points);
       shot.divided = make_point(pe.scene, shot);
     }
     protocol::PointRecord point = shot.divided;
@@ -98,7 +103,7 @@ void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal) {
       point.flags = static_cast<std::uint8_t>(point.flags | ((shot.part + 1U) << protocol::kPartShift));
       shot.part = (shot.part + 1U) % protocol::kPointParts;
     } else {
-      require(niu, shot.part == 0, StoreIndex::deal, deal.parts);
+      require(niu, shot.part == 0, StoreIndex::deal_parts, deal.parts, protocol::kPointParts);
     }
     send_point(pe, niu, deal.pe[i], point);
   }

@@ -17,8 +17,8 @@ using protocol::Vec3f;
 
 using protocol::StoreIndex;
 
-void require(Niu& niu, bool holds, StoreIndex field, std::uint32_t value) {
-  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
+void require(Niu& niu, bool holds, StoreIndex index, std::uint32_t value, std::uint32_t limit) {
+  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(index), value, limit);
 }
 
 void begin_pixel(const Scene& scene, Tiles& tiles) {
@@ -108,10 +108,11 @@ void Tiles::set(const protocol::StageLayout& layout) {
 void take_tile(Pe& pe, Niu& niu, const Tile& tile) {
   Tiles& tiles = pe.tiles;
   const CameraView& view = pe.scene.layout.view;
-  require(niu, tiles.held < protocol::kTilePlaces, StoreIndex::tile_places, tiles.held);
+  require(niu, tiles.held < protocol::kTilePlaces, StoreIndex::tile_places, tiles.held, protocol::kTilePlaces);
   require(niu, tile.columns > 0 && std::uint32_t{tile.column} + tile.columns <= view.width, StoreIndex::tile_columns,
-          tile.column);
-  require(niu, tile.rows > 0 && std::uint32_t{tile.row} + tile.rows <= view.height, StoreIndex::tile_rows, tile.row);
+          tile.column, view.width);
+  require(niu, tile.rows > 0 && std::uint32_t{tile.row} + tile.rows <= view.height, StoreIndex::tile_rows, tile.row,
+          view.height);
   tiles.place[(tiles.first + tiles.held) % protocol::kTilePlaces] = tile;
   if (++tiles.held == 1) begin_tile(pe.scene, tiles);
 }

@@ -103,7 +103,7 @@ class Verifier {
       const bool fits = texture.width >= 1 && texture.width <= protocol::kMostTextureEdge && texture.height >= 1 &&
                         texture.height <= protocol::kMostTextureEdge;
       require(fits, StoreIndex::texture_size, texture.width, texture.height);
-      range(StoreIndex::texture, texture.first_texel, texture.width * texture.height, scene_.texels.size());
+      range(StoreIndex::texels, texture.first_texel, texture.width * texture.height, scene_.texels.size());
     }
     for (const protocol::TexturePoint& point : scene_.texture_points) {
       constexpr float most = protocol::kMostTexturePoint;
@@ -132,7 +132,7 @@ class Verifier {
       range(StoreIndex::texture_points, p.texture_points, 3, scene_.texture_points.size());
     }
     if (p.sides == 0) return;
-    require(p.sides <= (protocol::kFrontPresent | protocol::kBackPresent), StoreIndex::surface, p.sides, 3);
+    require(p.sides <= (protocol::kFrontPresent | protocol::kBackPresent), StoreIndex::lit_sides, p.sides, 3);
     if (scene_.layout.stage == Stage::radiosity) {
       const std::uint32_t patches = protocol::triangles_of_level(p.patch_level);
       range(StoreIndex::surface, p.surface, patches, scene_.patch_references.size());
@@ -204,7 +204,7 @@ class Verifier {
 
   void check(const protocol::Material& material) {
     require(material.kind <= protocol::MaterialKind::glossy, StoreIndex::material_kind,
-            static_cast<std::uint32_t>(material.kind), 4);
+            static_cast<std::uint32_t>(material.kind), static_cast<std::uint32_t>(protocol::MaterialKind::glossy));
     const bool bends = material.kind != protocol::MaterialKind::glass || material.refractive_index > 0.0F;
     require(bends, StoreIndex::refractive_index, 0, 0);
     const bool spreads =
@@ -216,7 +216,7 @@ class Verifier {
   }
 
   void check(const protocol::Patch& patch) {
-    require(patch.facets > 0, StoreIndex::facet, patch.number, 0);
+    require(patch.facets > 0, StoreIndex::no_facets, patch.number, 0);
     range(StoreIndex::facet, patch.first_facet, patch.facets, scene_.facets.size());
     for (const protocol::Facet& facet : scene_.facets.subspan(patch.first_facet, patch.facets)) check(patch, facet);
     for (const std::uint32_t side : patch.side) {
