@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "emulator/hexadecimal.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/messages.hpp"
 
@@ -110,6 +111,8 @@ std::string_view name_of(NiuFaultCode code) {
       return "an endless loop";
     case no_trap_handler:
       return "a trap without a handler";
+    case wait_for_interrupt:
+      return "wait for an interrupt";
   }
   return "fault";
 }
@@ -135,6 +138,39 @@ std::string details(const std::uint32_t (&detail)[3]) {
   return std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + ", " + std::to_string(detail[2]);
 }
 
+/// The words, with the second and the third detail where a % stands; nothing of no words.
+std::string filled(std::string_view words, const std::uint32_t (&detail)[3]) {
+  std::string text = words.empty() ? "" : ": ";
+  std::size_t next = 1;
+  for (const char c : words) text += c == '%' ? std::to_string(detail[next++]) : std::string(1, c);
+  return text;
+}
+
+/// What pe.elf has found wrong, with value and limit; nothing where the numbers alone tell.
+std::string in_words(protocol::FaultCode code, const std::uint32_t (&detail)[3]) {
+  using enum protocol::FaultCode;
+  switch (code) {
+    case protocol_version:
+      return ": the image's is " + std::to_string(detail[0]) + ", the emulator's " + std::to_string(detail[1]);
+    case bad_layout:
+      return filled(protocol::words_in(protocol::kLayoutFieldWords, detail[0]), detail);
+    case outside_store:
+      return filled(protocol::words_in(protocol::kStoreIndexWords, detail[0]), detail);
+    case bad_record:
+      return filled(protocol::words_in(protocol::kRecordFieldWords, detail[0]), detail);
+    case unknown_message:
+    case unexpected_message:
+      return ": kind " + std::to_string(detail[0]);
+    case own_slots_exhausted:
+      return ": all " + std::to_string(detail[0]) + " are in use";
+    case short_message:
+      return ": kind " + std::to_string(detail[0]) + ", " + std::to_string(detail[1]) + " bytes instead of " +
+             std::to_string(detail[2]);
+    default:
+      return "";
+  }
+}
+
 }  // namespace
 
 std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image) {
@@ -142,15 +178,20 @@ std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Imag
   const auto code = static_cast<protocol::FaultCode>(fault.code);
   if (code == protocol::FaultCode::trap) return who + trap_in_words(fault.detail, image);
   return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
-         "), details " + details(fault.detail);
+         in_words(code, fault.detail) + "), details " + details(fault.detail) + "; see docs/errors.md";
 }
 
 std::string describe_fault(unsigned pe, const NiuFault& fault, const Image& image) {
   const std::string who = "PE " + std::to_string(pe) + ": ";
   if (fault.code == NiuFaultCode::too_long_without_hint) return who + loop_in_words(fault.detail, image);
   if (fault.code == NiuFaultCode::no_trap_handler) {
-    return who + trap_in_words(fault.detail, image) +
+    const bool known = fault.detail[0] != kUnknownTrap;
+    return who + (known ? trap_in_words(fault.detail, image) : "a trap of which this engine knows no more") +
            "; it executes no instructions any more: mtvec leads to no handler";
+  }
+  if (fault.code == NiuFaultCode::wait_for_interrupt) {
+    return who + "trap: wfi at " + place_in_words(fault.detail[0], image) +
+           " waits for an interrupt, and there are none: call receive() to wait";
   }
   return who + std::string(name_of(fault.code)) + ": " + details(fault.detail);
 }

@@ -106,8 +106,10 @@ enum class NiuFaultCode : std::uint32_t {
   too_many_released,      ///< released
   phase_mismatch,         ///< phase, innermost open phase or kPhases
   too_long_without_hint,  ///< limit (low, high word), pc or 0
-  no_trap_handler         ///< mcause, mepc, mtval
+  no_trap_handler,        ///< mcause, mepc, mtval; or kUnknownTrap
+  wait_for_interrupt      ///< pc: of `wfi`
 };
+inline constexpr std::uint32_t kUnknownTrap = 0xFFFF'FFFFU;
 struct NiuFault {
   NiuFaultCode code;
   std::uint32_t detail[3];

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "firmware/pe/pe.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/store_names.hpp"
 
 namespace torolux::pe {
@@ -72,7 +73,10 @@ LoadBlock checked_block(Niu& niu) {
   const bool fits = block.bytes > 0 && block.bytes <= protocol::kMostLoadBytes && block.bytes % 4U == 0 &&
                     block.address % 4U == 0 && block.address >= begin && block.address < end &&
                     block.bytes <= end - block.address;
-  if (!fits) niu.fail(FaultCode::outside_store, 0, block.address, block.bytes);
+  if (!fits) {
+    niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(protocol::StoreIndex::load_block), block.address,
+             block.bytes);
+  }
   return block;
 }
 
@@ -98,7 +102,10 @@ void load_store(Pe& pe, Niu& niu) {
               block.bytes <= protocol::kMostLoadStoreBytes;
   const std::uint64_t room = fits ? (extents[block.store].bytes() + 3U) / 4U * 4U : 0;
   fits = fits && block.offset <= room && block.bytes <= room - block.offset;
-  if (!fits) niu.fail(FaultCode::outside_store, block.store, block.offset, block.bytes);
+  if (!fits) {
+    niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(protocol::StoreIndex::load_offset), block.offset,
+             block.bytes);
+  }
   if (bytes.size() < sizeof block + block.bytes) {
     niu.fail(FaultCode::short_message, niu.message().kind, static_cast<std::uint32_t>(bytes.size()),
              sizeof block + block.bytes);

@@ -3,6 +3,7 @@
 // followed at once.
 #include "firmware/pe/hemicube.hpp"
 #include "firmware/pe/pe.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
 #include "firmware/protocol/stratified.hpp"
@@ -12,8 +13,6 @@ namespace {
 
 using protocol::Dimension;
 using protocol::PointRecord;
-
-enum class PointField : std::uint32_t { places, part };
 
 /// Two directions at right angles to a unit vector and each other (Duff et al. 2017, Building an Orthonormal Basis,
 /// Revisited, JCGT 6(1)).
@@ -113,11 +112,11 @@ void take_point(Pe& pe, Niu& niu, const PointRecord& point) {
   Points& points = pe.points;
   const std::uint32_t held = points.waiting + (pe.expansion.active ? 1U : 0U);
   if (held >= protocol::kPointPlaces) {
-    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(PointField::places), held);
+    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::point_places), held);
   }
   const std::uint32_t part = (point.flags & protocol::kPartMask) >> protocol::kPartShift;
   if (part > protocol::kPointParts) {
-    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(PointField::part), part);
+    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::point_part), part);
   }
   points.place[(points.first + points.waiting) % protocol::kPointPlaces] = point;
   ++points.waiting;

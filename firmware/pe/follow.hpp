@@ -8,22 +8,11 @@
 #include "firmware/pe/pe.hpp"
 #include "firmware/pe/segment.hpp"
 #include "firmware/pe/traverse.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 
 namespace torolux::pe {
 
-/// First detail of FaultCode::bad_record.
-enum class RecordField : std::uint32_t {
-  kind,
-  place,
-  entry_axis,
-  slot,
-  part,
-  side,
-  flux,
-  waiting,
-  branch_place,
-  surface,
-};
+using protocol::RecordField;
 
 inline void require(Niu& niu, bool holds, RecordField field, std::uint32_t value) {
   if (!holds) niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(field), value);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Checks a stage's layout before anything uses it: stores inside free memory, aligned, apart from each other; sizes and
-// limits as the handlers expect. Faults name the store (its order below) or field, and its address and count.
+// limits as the handlers expect. Faults name the store or field, its value and limit.
 #include <array>
 #include <limits>
 
 #include "firmware/pe/pe.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/store_names.hpp"
 
 namespace torolux::pe {
@@ -14,28 +15,11 @@ using protocol::Stage;
 using protocol::StageLayout;
 using protocol::Store;
 
-/// First detail of FaultCode::bad_layout: a StoreName, or one of the layout's other fields.
-enum class LayoutField : std::uint32_t {
-  stage = protocol::kStores,
-  cells,
-  own_slots,
-  open_batches,
-  credits_kept,
-  bounces,
-  hemicube_size,
-  shot_points,
-  emission_points,
-  points_per_quantum,
-  cell_size,
-  pixel_scale,
-  layers,
-  view,
-};
-
+using protocol::LayoutField;
 using Extents = std::array<protocol::StoreExtent, protocol::kStores>;
 
-void require(Niu& niu, bool holds, LayoutField field, std::uint32_t value, std::uint32_t count = 0) {
-  if (!holds) niu.fail(FaultCode::bad_layout, static_cast<std::uint32_t>(field), value, count);
+void require(Niu& niu, bool holds, LayoutField field, std::uint32_t value, std::uint32_t limit = 0) {
+  if (!holds) niu.fail(FaultCode::bad_layout, static_cast<std::uint32_t>(field), value, limit);
 }
 
 void require(Niu& niu, bool holds, protocol::StoreName store, std::uint32_t value, std::uint32_t count) {
@@ -63,13 +47,15 @@ bool finite_positive(float value) {
 
 void check_radiosity(Niu& niu, const StageLayout& l) {
   const std::uint32_t n = l.hemicube_size;
-  require(niu, n >= 2 && n % 2U == 0 && n <= protocol::kMostHemicubeSize, LayoutField::hemicube_size, n);
+  require(niu, n >= 2 && n % 2U == 0 && n <= protocol::kMostHemicubeSize, LayoutField::hemicube_size, n,
+          protocol::kMostHemicubeSize);
   require(niu, l.hemicube.count == protocol::hemicube_weights(n), protocol::StoreName::hemicube, l.hemicube.address,
           l.hemicube.count);
   const auto from_1 = [](std::uint32_t k, std::uint32_t most) { return k >= 1 && k <= most; };
-  require(niu, from_1(l.shot_points, protocol::kMostShotPoints), LayoutField::shot_points, l.shot_points);
+  require(niu, from_1(l.shot_points, protocol::kMostShotPoints), LayoutField::shot_points, l.shot_points,
+          protocol::kMostShotPoints);
   require(niu, from_1(l.emission_points, protocol::kMostEmissionPoints), LayoutField::emission_points,
-          l.emission_points);
+          l.emission_points, protocol::kMostEmissionPoints);
   require(niu, finite_positive(l.points_per_quantum), LayoutField::points_per_quantum,
           static_cast<std::uint32_t>(bits(l.points_per_quantum)));
 }
@@ -78,13 +64,14 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
 void check_view(Niu& niu, const StageLayout& l) {
   const protocol::CameraView& view = l.view;
   require(niu, view.samples == l.sample_places.count && view.samples <= protocol::kMostPixelSamples,
-          protocol::StoreName::sample_places, view.samples, l.sample_places.count);
-  require(niu, view.filter_bits >= 1 && view.filter_bits <= protocol::kMostFilterBits, LayoutField::view,
-          view.filter_bits);
+          LayoutField::samples, view.samples, l.sample_places.count);
+  require(niu, view.filter_bits >= 1 && view.filter_bits <= protocol::kMostFilterBits, LayoutField::filter_bits,
+          view.filter_bits, protocol::kMostFilterBits);
   require(niu, l.filter.count == (1U << view.filter_bits) + 1U, protocol::StoreName::filter, l.filter.address,
           l.filter.count);
   for (const std::uint32_t edge : {view.width, view.height}) {
-    require(niu, edge >= 1 && edge <= protocol::kMostPictureEdge, LayoutField::view, edge);
+    require(niu, edge >= 1 && edge <= protocol::kMostPictureEdge, LayoutField::picture_edge, edge,
+            protocol::kMostPictureEdge);
   }
 }
 
@@ -94,23 +81,27 @@ void check_layout(Niu& niu, const StageLayout& l) {
   const bool known = l.stage == Stage::radiosity || l.stage == Stage::ray_tracing;
   require(niu, known, LayoutField::stage, static_cast<std::uint32_t>(l.stage));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    require(niu, l.cells[axis] >= 1 && l.cells[axis] <= protocol::kMostCellsPerAxis, LayoutField::cells, l.cells[axis]);
+    require(niu, l.cells[axis] >= 1 && l.cells[axis] <= protocol::kMostCellsPerAxis, LayoutField::cells, l.cells[axis],
+            protocol::kMostCellsPerAxis);
     require(niu, finite_positive(l.cell_size[axis]), LayoutField::cell_size, static_cast<std::uint32_t>(axis));
   }
   check_stores(niu, protocol::store_extents(l));
   const std::uint32_t slots = l.record_slots.count;
   const bool power = l.open_batches != 0 && (l.open_batches & (l.open_batches - 1U)) == 0;
-  require(niu, power && l.open_batches <= protocol::kMostOpenBatches, LayoutField::open_batches, l.open_batches);
+  require(niu, power && l.open_batches <= protocol::kMostOpenBatches, LayoutField::open_batches, l.open_batches,
+          protocol::kMostOpenBatches);
   require(niu, l.own_slots == protocol::own_slots(l.stage, l.open_batches) && l.own_slots < slots && slots <= 0xFFFFU,
           LayoutField::own_slots, l.own_slots, slots);
   // With none it would send home what it has just asked for.
   require(niu, l.credits_kept >= 1, LayoutField::credits_kept, l.credits_kept);
-  require(niu, l.bounces >= 1 && l.bounces <= protocol::kMostBounces, LayoutField::bounces, l.bounces);
+  require(niu, l.bounces >= 1 && l.bounces <= protocol::kMostBounces, LayoutField::bounces, l.bounces,
+          protocol::kMostBounces);
   if (l.stage == Stage::radiosity) {
     check_radiosity(niu, l);
   } else {
-    require(niu, finite_positive(l.pixel_scale), LayoutField::pixel_scale, 0);
-    require(niu, l.layers >> protocol::kPlanes == 0, LayoutField::layers, l.layers);
+    require(niu, finite_positive(l.pixel_scale), LayoutField::pixel_scale,
+            static_cast<std::uint32_t>(bits(l.pixel_scale)));
+    require(niu, l.layers >> protocol::kPlanes == 0, LayoutField::layers, l.layers, protocol::kPlanes);
     if (l.sample_places.count > 0) check_view(niu, l);
   }
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "firmware/pe/pe.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/flux.hpp"
 
 namespace torolux::pe {
@@ -107,7 +108,8 @@ void send_candidates(Pe& pe, Niu& niu, std::uint32_t count, const Flux& unshot) 
 void select_shooters(Pe& pe, Niu& niu, const protocol::Select& select) {
   const std::int64_t threshold = select.threshold;
   if (select.count == 0 || select.count > protocol::kMostShooters) {
-    niu.fail(FaultCode::outside_store, 0, select.count, protocol::kMostShooters);
+    niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(protocol::StoreIndex::select_count), select.count,
+             protocol::kMostShooters);
   }
   Best best(pe.choices.data(), select.count);
   Flux unshot{};

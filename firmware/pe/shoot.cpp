@@ -5,6 +5,7 @@
 
 #include "firmware/pe/pe.hpp"
 #include "firmware/pe/shot_points.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
 #include "firmware/protocol/shot_grid.hpp"
@@ -17,24 +18,29 @@ using protocol::Patch;
 using protocol::Shoot;
 using protocol::ShotKind;
 
-enum class ShootField : std::uint32_t { patch, side, kind, amount, deal };
+using protocol::StoreIndex;
 
-void require(Niu& niu, bool holds, ShootField field, std::uint32_t value) {
-  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
+/// limit: where the words of the index have one.
+void require(Niu& niu, bool holds, StoreIndex index, std::uint32_t value, std::size_t limit = 0) {
+  if (!holds) {
+    niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(index), value, static_cast<std::uint32_t>(limit));
+  }
 }
 
 /// Takes exactly `amount` out of the side's unshot flux and returns the flux to shoot.
 Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
-  require(niu, shoot.patch < pe.scene.patches.size(), ShootField::patch, shoot.patch);
-  require(niu, shoot.side < 2, ShootField::side, shoot.side);
-  require(niu, shoot.kind <= ShotKind::emitted, ShootField::kind, static_cast<std::uint32_t>(shoot.kind));
+  require(niu, shoot.patch < pe.scene.patches.size(), StoreIndex::shoot_patch, shoot.patch, pe.scene.patches.size());
+  require(niu, shoot.side < 2, StoreIndex::shoot_side, shoot.side);
+  require(niu, shoot.kind <= ShotKind::emitted, StoreIndex::shoot_kind, static_cast<std::uint32_t>(shoot.kind),
+          static_cast<std::uint32_t>(ShotKind::emitted));
   const Patch& patch = pe.scene.patches[shoot.patch];
-  require(niu, patch.side[shoot.side] != protocol::kNoSide, ShootField::side, shoot.side);
+  require(niu, patch.side[shoot.side] != protocol::kNoSide, StoreIndex::shoot_side, shoot.side);
   protocol::PatchSide& side = pe.scene.patch_sides[patch.side[shoot.side]];
   Flux flux{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int64_t there = shoot.kind == ShotKind::emitted ? side.emission[c] : side.incident[c] - side.shot[c];
-    require(niu, shoot.amount[c] >= 0 && shoot.amount[c] <= there, ShootField::amount, static_cast<std::uint32_t>(c));
+    require(niu, shoot.amount[c] >= 0 && shoot.amount[c] <= there, StoreIndex::shoot_amount,
+            static_cast<std::uint32_t>(c));
     if (shoot.kind == ShotKind::emitted) {
       side.emission[c] -= shoot.amount[c];
       flux[c] = shoot.amount[c];
@@ -84,11 +90,12 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
 void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal) {
   const PhaseMark<Phase::shoot> mark(niu);
   Shot& shot = pe.shot;
-  require(niu, deal.parts == 1U || deal.parts == protocol::kPointParts, ShootField::deal, deal.parts);
+  require(niu, deal.parts == 1U || deal.parts == protocol::kPointParts, StoreIndex::deal_parts, deal.parts,
+          protocol::kPointParts);
   for (std::uint32_t i = 0; i < deal.count; ++i) {
-    require(niu, deal.pe[i] < niu.pes(), ShootField::deal, deal.pe[i]);
+    require(niu, deal.pe[i] < niu.pes(), StoreIndex::deal_pe, deal.pe[i], niu.pes());
     if (shot.part == 0) {
-      require(niu, shot.point < shot.points, ShootField::deal, i);
+      require(niu, shot.point < shot.points, StoreIndex::deal_point, i, shot.points);
       shot.divided = make_point(pe.scene, shot);
     }
     protocol::PointRecord point = shot.divided;
@@ -96,7 +103,7 @@ void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal) {
       point.flags = static_cast<std::uint8_t>(point.flags | ((shot.part + 1U) << protocol::kPartShift));
       shot.part = (shot.part + 1U) % protocol::kPointParts;
     } else {
-      require(niu, shot.part == 0, ShootField::deal, deal.parts);
+      require(niu, shot.part == 0, StoreIndex::deal_parts, deal.parts, protocol::kPointParts);
     }
     send_point(pe, niu, deal.pe[i], point);
   }

@@ -2,6 +2,7 @@
 // Camera rays of tiles. Enters: tiles and credits; leaves: records, each of which is followed at once. All samples of a
 // pixel come in a row, so that what ends here joins one addition to the frame buffer.
 #include "firmware/pe/tile.hpp"
+#include "firmware/protocol/fault_fields.hpp"
 
 #include "firmware/pe/pe.hpp"
 #include "firmware/protocol/first_cell.hpp"
@@ -14,11 +15,10 @@ using protocol::RayRecord;
 using protocol::Tile;
 using protocol::Vec3f;
 
-/// Details of FaultCode::outside_store.
-enum class TileField : std::uint32_t { places, columns, rows };
+using protocol::StoreIndex;
 
-void require(Niu& niu, bool holds, TileField field, std::uint32_t value) {
-  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(field), value);
+void require(Niu& niu, bool holds, StoreIndex index, std::uint32_t value, std::uint32_t limit) {
+  if (!holds) niu.fail(FaultCode::outside_store, static_cast<std::uint32_t>(index), value, limit);
 }
 
 void begin_pixel(const Scene& scene, Tiles& tiles) {
@@ -108,10 +108,11 @@ void Tiles::set(const protocol::StageLayout& layout) {
 void take_tile(Pe& pe, Niu& niu, const Tile& tile) {
   Tiles& tiles = pe.tiles;
   const CameraView& view = pe.scene.layout.view;
-  require(niu, tiles.held < protocol::kTilePlaces, TileField::places, tiles.held);
-  require(niu, tile.columns > 0 && std::uint32_t{tile.column} + tile.columns <= view.width, TileField::columns,
-          tile.column);
-  require(niu, tile.rows > 0 && std::uint32_t{tile.row} + tile.rows <= view.height, TileField::rows, tile.row);
+  require(niu, tiles.held < protocol::kTilePlaces, StoreIndex::tile_places, tiles.held, protocol::kTilePlaces);
+  require(niu, tile.columns > 0 && std::uint32_t{tile.column} + tile.columns <= view.width, StoreIndex::tile_columns,
+          tile.column, view.width);
+  require(niu, tile.rows > 0 && std::uint32_t{tile.row} + tile.rows <= view.height, StoreIndex::tile_rows, tile.row,
+          view.height);
   tiles.place[(tiles.first + tiles.held) % protocol::kTilePlaces] = tile;
   if (++tiles.held == 1) begin_tile(pe.scene, tiles);
 }

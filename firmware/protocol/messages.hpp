@@ -131,11 +131,11 @@ struct Credits {
 enum class FaultCode : std::uint32_t {
   trap = 1,             ///< detail: mcause, mepc, mtval
   protocol_version,     ///< detail: image, emulator
-  bad_layout,           ///< detail: StoreName or field, address, count
-  outside_store,        ///< detail: which index, value, limit
+  bad_layout,           ///< detail: see fault_fields.hpp
+  outside_store,        ///< detail: see fault_fields.hpp
   unknown_message,      ///< detail: kind
   unexpected_message,   ///< detail: kind, state
-  bad_record,           ///< detail: field, value
+  bad_record,           ///< detail: see fault_fields.hpp
   own_slots_exhausted,  ///< detail: slots
   release_list_full,    ///< detail: slots released since the last send or receive
   short_message,        ///< detail: kind, bytes, bytes expected

@@ -6,10 +6,12 @@
 
 namespace torolux {
 
-void CreditPool::take_home(HostPort& port, std::span<const std::byte> contents) {
+void CreditPool::take_home(HostPort& port, PeNumber source, std::span<const std::byte> contents) {
   port.work(HostWork::entry, 1);
-  home_ += contents_as<protocol::Credits>(contents).count;
-  if (home_ > credits_) throw MachineFailure("more credits came home than were handed out");
+  home_ += contents_as<protocol::Credits>(source, contents).count;
+  if (home_ > credits_)
+    throw MachineFailure("with those of PE " + std::to_string(source) + ", " + std::to_string(home_) +
+                         " credits came home; there are " + std::to_string(credits_));
 }
 
 bool CreditPool::grant_all(HostPort& port) {

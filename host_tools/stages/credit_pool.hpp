@@ -23,7 +23,7 @@ class CreditPool {
   void spend() { --home_; }
 
   /// A `credits` message. Throws MachineFailure where more come than went out.
-  void take_home(HostPort& port, std::span<const std::byte> contents);
+  void take_home(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   /// Half of an equal share to each PE, by broadcast; the other half is for those that ask. False: that would be none.
   bool grant_all(HostPort& port);
   /// At the beginning: an equal share, or what is left.

@@ -26,11 +26,15 @@ class Phase {
   virtual const char* waiting_for() const = 0;
 };
 
-/// A message's contents as the struct that they must be; `least` bytes of it must be there.
+/// The contents of a message from a PE as the struct that they must be; `least` bytes of it must be there.
 template <typename T>
-T contents_as(std::span<const std::byte> contents, std::size_t least = sizeof(T)) {
+T contents_as(PeNumber source, std::span<const std::byte> contents, std::size_t least = sizeof(T)) {
   static_assert(std::is_trivially_copyable_v<T>);
-  if (contents.size() < least) throw MachineFailure("a PE sent a message that is too short");
+  if (contents.size() < least) {
+    throw MachineFailure("PE " + std::to_string(source) +
+                         " sent a message that is too short: " + std::to_string(contents.size()) + " bytes; at least " +
+                         std::to_string(least) + " are needed. Are the image and torolux of one version?");
+  }
   T value{};
   std::memcpy(&value, contents.data(), contents.size() < sizeof(T) ? contents.size() : sizeof(T));
   return value;

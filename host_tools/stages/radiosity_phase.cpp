@@ -98,14 +98,14 @@ void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kin
   if (state_ == State::selecting && kind == MessageKind::candidates) {
     take_candidates(port, source, contents);
   } else if (state_ == State::shooting && kind == MessageKind::credits) {
-    credits_.take_home(port, contents);
+    credits_.take_home(port, source, contents);
     credits_.feed(port);
     end_round_if_over(port);
   } else if (state_ == State::shooting && kind == MessageKind::need) {
     credits_.ask(port, source);
     recall_if_due(port);
   } else if (state_ == State::shooting && kind == MessageKind::work_done) {
-    take_work_done(port, source, contents_as<protocol::WorkDone>(contents));
+    take_work_done(port, source, contents_as<protocol::WorkDone>(source, contents));
     recall_if_due(port);
     end_round_if_over(port);
   } else {
@@ -114,7 +114,7 @@ void RadiosityPhase::on_message(HostPort& port, PeNumber source, MessageKind kin
 }
 
 void RadiosityPhase::take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents) {
-  const auto message = contents_as<protocol::Candidates>(contents, offsetof(protocol::Candidates, candidate));
+  const auto message = contents_as<protocol::Candidates>(source, contents, offsetof(protocol::Candidates, candidate));
   if (message.count > protocol::kMostCandidatesPerMessage ||
       contents.size() < offsetof(protocol::Candidates, candidate) + message.count * sizeof(Candidate)) {
     throw MachineFailure("PE " + std::to_string(source) + " sent candidates that are cut short");

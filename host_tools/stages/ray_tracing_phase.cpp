@@ -33,7 +33,7 @@ void RayTracingPhase::start(HostPort& port) {
 void RayTracingPhase::on_message(HostPort& port, PeNumber source, MessageKind kind,
                                  std::span<const std::byte> contents) {
   if (kind != MessageKind::credits) unexpected(source, kind, "tracing rays");
-  credits_.take_home(port, contents);
+  credits_.take_home(port, source, contents);
   make_rays(port);
 }
 

@@ -40,7 +40,7 @@ void ReadPhase::ask(HostPort& port, PeNumber pe) {
 
 void ReadPhase::on_message(HostPort& port, PeNumber source, MessageKind kind, std::span<const std::byte> contents) {
   if (kind == MessageKind::data) {
-    const auto block = contents_as<protocol::LoadBlock>(contents);
+    const auto block = contents_as<protocol::LoadBlock>(source, contents);
     const std::uint32_t expected = range_of(source).address + static_cast<std::uint32_t>(bytes_[source].size());
     if (block.address != expected || contents.size() != sizeof block + block.bytes) {
       throw MachineFailure("PE " + std::to_string(source) + " answered a read with another block");
@@ -49,7 +49,7 @@ void ReadPhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
     bytes_[source].insert(bytes_[source].end(), data.begin(), data.end());
     ask(port, source);
   } else if (kind == MessageKind::tally) {
-    const auto report = contents_as<protocol::StageReport>(contents);
+    const auto report = contents_as<protocol::StageReport>(source, contents);
     const protocol::Tally& tally = report.tally;
     add_visits(visits_, report.visits);
     protocol::Tally& sum = solution_.tally;

@@ -23,7 +23,7 @@ class ReportPhase : public Phase {
                   std::span<const std::byte> contents) override {
     if (kind != protocol::MessageKind::tally) unexpected(source, kind, "reporting");
     port.work(HostWork::entry, 1);
-    add_visits(visits_, contents_as<protocol::StageReport>(contents).visits);
+    add_visits(visits_, contents_as<protocol::StageReport>(source, contents).visits);
     ++done_;
   }
   bool done() const override { return done_ == pes_; }

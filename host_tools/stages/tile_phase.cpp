@@ -62,12 +62,12 @@ void TilePhase::start(HostPort& port) {
 
 void TilePhase::on_message(HostPort& port, PeNumber source, MessageKind kind, std::span<const std::byte> contents) {
   if (kind == MessageKind::credits) {
-    credits_.take_home(port, contents);
+    credits_.take_home(port, source, contents);
     credits_.feed(port);
   } else if (kind == MessageKind::need) {
     credits_.ask(port, source);
   } else if (kind == MessageKind::work_done) {
-    take_work_done(port, source, contents_as<protocol::WorkDone>(contents));
+    take_work_done(port, source, contents_as<protocol::WorkDone>(source, contents));
   } else {
     unexpected(source, kind, "tracing rays");
   }

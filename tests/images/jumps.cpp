@@ -125,8 +125,12 @@ std::uint32_t sum_of_squares(std::uint32_t count) {
 }
 
 void say(pe::Niu& niu, const char* what, std::uint32_t value) {
+  std::uint32_t cycle = 0;
+  std::uint32_t instructions = 0;
+  asm volatile("rdcycle %0" : "=r"(cycle));
+  asm volatile("rdinstret %0" : "=r"(instructions));
   examples::Text line;
-  line << what << " " << value << " at " << niu.clock();
+  line << what << " " << value << " at " << niu.clock() << ", " << cycle << ", " << instructions;
   line.send(niu);
 }
 
@@ -136,6 +140,8 @@ void say(pe::Niu& niu, const char* what, std::uint32_t value) {
 void torolux::pe::pe_main(Niu& niu) {
   using namespace torolux::tests;
   using examples::Text;
+  // More than the outgoing queue holds: counters are read behind HINTs that waited, too.
+  for (std::uint32_t line = 0; line < 20; ++line) say(niu, "counters", line);
   say(niu, "other link", by_other_link(14));
   say(niu, "own link", by_own_link(2));
   std::uint32_t labels = 0;

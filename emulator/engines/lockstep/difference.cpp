@@ -54,7 +54,7 @@ std::string describe_markers(const MarkerTrail& qemu, const MarkerTrail& transla
 
 std::string what_differs(const HintMeeting& qemu, Shadow& shadow, TranslatedImage::Stop stop, bool memory_differs) {
   const TranslatedPe& pe = shadow.pe();
-  if (stop == TranslatedImage::Stop::stuck) {
+  if (stop == TranslatedImage::Stop::stuck || stop == TranslatedImage::Stop::waits) {
     return "the translated engine alone cannot go on";
   }
   if (stop == TranslatedImage::Stop::cycle_limit) return "the translated engine alone has met no HINT";

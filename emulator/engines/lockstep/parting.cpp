@@ -41,7 +41,7 @@ class SideBySide {
     while (runs && other_.cycles < pe_.cycles) {
       const Interpreter::Step step = interpreter_.step(other_);
       const bool hint = step == Interpreter::Step::hint && !protocol::is_phase_marker(other_.hint_immediate);
-      runs = step != Interpreter::Step::stuck && !hint;
+      runs = step == Interpreter::Step::done || (step == Interpreter::Step::hint && !hint);
     }
     return pe_.pc == other_.pc && pe_.cycles == other_.cycles && memory_ == other_memory_;
   }

@@ -48,7 +48,7 @@ Trace trace_to_hint(const CodeMap& code, TranslatedPe& pe, std::optional<std::ui
       trace.last.push_back({pc, pe.cycles, placed->instruction});
     }
     if (stores) trace.store = {pc, pe.cycles, word_at(pe, *watched)};
-    if (step == Interpreter::Step::stuck) break;
+    if (step == Interpreter::Step::stuck || step == Interpreter::Step::waits) break;
     trace.at_hint = step == Interpreter::Step::hint && !protocol::is_phase_marker(pe.hint_immediate);
   }
   return trace;

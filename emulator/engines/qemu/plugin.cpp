@@ -7,15 +7,21 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <thread>
 
 #include "emulator/engines/isa/instruction_class.hpp"
+#include "emulator/engines/qemu/counters.hpp"
 #include "emulator/engines/qemu/hint_log.hpp"
 #include "emulator/engines/qemu/hint_meeting.hpp"
+#include "emulator/engines/qemu/places.hpp"
 #include "emulator/engines/qemu/plugin_api.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
+#include "emulator/niu/channel.hpp"
+#include "emulator/niu/ending.hpp"
 #include "emulator/niu/futex.hpp"
 #include "emulator/niu/processor_side.hpp"
 #include "firmware/protocol/hints.hpp"
@@ -31,55 +37,23 @@ __attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t 
 namespace torolux {
 namespace {
 
-/// What a HINT's callback must know about the rest of its block, which the block's start has counted already.
-/// Packed into the callback's pointer, so that translating allocates nothing. A block has at most 512 instructions.
-struct HintPlace {
-  std::int32_t immediate;           // 12 bits
-  std::uint32_t instructions_left;  // 12 bits
-  std::uint32_t cycles_left;        // 32 bits
-
-  void* pack() const {
-    const std::uint64_t bits = (static_cast<std::uint64_t>(cycles_left) << 24U) | (instructions_left << 12U) |
-                               (static_cast<std::uint32_t>(immediate) & 0xFFFU);
-    return reinterpret_cast<void*>(bits);  // NOLINT(performance-no-int-to-ptr): never followed
-  }
-  static HintPlace unpack(const void* pointer) {
-    const auto bits = reinterpret_cast<std::uint64_t>(pointer);
-    return {static_cast<std::int32_t>(static_cast<std::uint32_t>(bits) << 20U) >> 20,
-            static_cast<std::uint32_t>(bits >> 12U) & 0xFFFU, static_cast<std::uint32_t>(bits >> 24U)};
-  }
-};
-
-/// An instruction that is counted alone, packed likewise.
-struct CountedPlace {
-  std::uint32_t address;
-  std::uint32_t cycles;  // 24 bits
-  bool is_marker;        // costs nothing, and is not counted
-  bool may_repeat;       // accesses memory: a watchpoint makes QEMU begin it once more
-
-  void* pack() const {
-    const std::uint64_t bits = (static_cast<std::uint64_t>(address) << 32U) | ((cycles & kMostCycles) << 8U) |
-                               (is_marker ? 2U : 0U) | (may_repeat ? 1U : 0U);
-    return reinterpret_cast<void*>(bits);  // NOLINT(performance-no-int-to-ptr): never followed
-  }
-  static CountedPlace unpack(const void* pointer) {
-    const auto bits = reinterpret_cast<std::uint64_t>(pointer);
-    return {static_cast<std::uint32_t>(bits >> 32U), static_cast<std::uint32_t>(bits >> 8U) & kMostCycles,
-            (bits & 2U) != 0, (bits & 1U) != 0};
-  }
-  static constexpr std::uint32_t kMostCycles = 0xFF'FFFFU;
-};
+/// RISC-V privileged architecture, "Wait for Interrupt".
+constexpr std::uint32_t kWaitForInterrupt = 0x1050'0073;
 
 /// While it waits for the emulator it shows that it is alive.
 constexpr std::chrono::microseconds kLongestSleep{50'000};
 
 class Plugin {
  public:
-  Plugin(PluginShare& share, NiuProcessorSide side) : share_(share), side_(side) {}
+  Plugin(PluginShare& share, NiuChannel& channel, std::span<const std::byte> memory, NiuProcessorSide side)
+      : share_(share), channel_(channel), memory_(memory), side_(side) {}
 
   void translated(qemu_plugin_tb* block);
   void count(const CountedPlace& place);
   void hint(const HintPlace& place);
+  [[noreturn]] void wait_for_interrupt(const WaitPlace& place);
+  void read_counter(const CounterPlace& place);
+  void behind_counter(std::uint32_t address);
 
   // At most one of these is there.
   std::optional<HintRecorder> recorder;
@@ -90,12 +64,25 @@ class Plugin {
  private:
   void count_block(qemu_plugin_tb* block);
   void count_each(qemu_plugin_tb* block);
+  void look_for_rare(qemu_plugin_insn* instruction, const HintPlace& rest, std::uint32_t address);
+  void look_behind_counter(qemu_plugin_tb* block, std::uint32_t address);
   NiuProcessorSide::Result answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   NiuProcessorSide::Result meet(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   [[noreturn]] void end();
 
   PluginShare& share_;
+  NiuChannel& channel_;
+  std::span<const std::byte> memory_;
   NiuProcessorSide side_;
+  // Each time one is translated: they are rare.
+  std::deque<WaitPlace> waits_;
+  std::deque<CounterPlace> counters_;
+  struct CounterValue {
+    std::uint32_t next;
+    unsigned destination;
+    std::uint32_t value;
+  };
+  std::optional<CounterValue> counter_value_;  // read, and not yet in its register
   // PE clock = counted cycles - cycle_offset_; the same for instructions. Modulo 2^64: waiting makes it "negative".
   std::uint64_t cycle_offset_ = 0;
   std::uint64_t instruction_offset_ = 0;
@@ -122,6 +109,18 @@ void on_instruction(unsigned /*vcpu*/, void* user_data) {
   plugin->count(CountedPlace::unpack(user_data));
 }
 
+void on_wait(unsigned /*vcpu*/, void* user_data) {
+  plugin->wait_for_interrupt(*static_cast<const WaitPlace*>(user_data));
+}
+
+void on_counter(unsigned /*vcpu*/, void* user_data) {
+  plugin->read_counter(*static_cast<const CounterPlace*>(user_data));
+}
+
+void on_block_behind_counter(unsigned /*vcpu*/, void* user_data) {
+  plugin->behind_counter(static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(user_data)));
+}
+
 void on_translated(qemu_plugin_id_t /*id*/, qemu_plugin_tb* block) {
   plugin->translated(block);
 }
@@ -131,6 +130,7 @@ void Plugin::translated(qemu_plugin_tb* block) {
   if (address < protocol::kLocalMemoryBase || address - protocol::kLocalMemoryBase >= share_.local_memory_bytes) {
     return;  // the boot ROM
   }
+  look_behind_counter(block, static_cast<std::uint32_t>(address));
   if (share_.counts_instructions != 0) {
     count_each(block);
   } else {
@@ -152,6 +152,7 @@ void Plugin::count_each(qemu_plugin_tb* block) {
       const HintPlace hint{protocol::hint_immediate(bits), 0, 0};
       qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_hint, QEMU_PLUGIN_CB_NO_REGS, hint.pack());
     }
+    look_for_rare(instruction, {}, address);
     address += static_cast<std::uint32_t>(qemu_plugin_insn_size(instruction));
   }
 }
@@ -166,6 +167,10 @@ void Plugin::count(const CountedPlace& place) {
 
 void Plugin::count_block(qemu_plugin_tb* block) {
   HintPlace rest{};
+  auto address = static_cast<std::uint32_t>(qemu_plugin_tb_vaddr(block));
+  for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
+    address += static_cast<std::uint32_t>(qemu_plugin_insn_size(qemu_plugin_tb_get_insn(block, i)));
+  }
   for (std::size_t i = qemu_plugin_tb_n_insns(block); i-- > 0;) {
     qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);
     const std::uint32_t bits = bits_of(instruction);
@@ -173,12 +178,55 @@ void Plugin::count_block(qemu_plugin_tb* block) {
       rest.immediate = protocol::hint_immediate(bits);
       qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_hint, QEMU_PLUGIN_CB_NO_REGS, rest.pack());
     }
+    address -= static_cast<std::uint32_t>(qemu_plugin_insn_size(instruction));
+    look_for_rare(instruction, rest, address);
     rest.cycles_left += cycles_of(bits, share_.latency);
     rest.instructions_left += is_phase_marker(bits) ? 0 : 1;
   }
   qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.cycles, rest.cycles_left);
   qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.instructions,
                                            rest.instructions_left);
+}
+
+void Plugin::look_for_rare(qemu_plugin_insn* instruction, const HintPlace& rest, std::uint32_t address) {
+  const std::uint32_t bits = bits_of(instruction);
+  if (bits == kWaitForInterrupt) {
+    waits_.push_back({rest, address});
+    qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_wait, QEMU_PLUGIN_CB_NO_REGS, &waits_.back());
+  } else if (const auto read = counter_read(bits)) {
+    counters_.push_back({rest, *read, address + kCounterReadBytes});
+    qemu_plugin_register_vcpu_insn_exec_cb(instruction, on_counter, QEMU_PLUGIN_CB_NO_REGS, &counters_.back());
+  }
+}
+
+/// QEMU ends a block behind each access to a control register. What stands before this block may be something else
+/// that looks like one: then no value waits.
+void Plugin::look_behind_counter(qemu_plugin_tb* block, std::uint32_t address) {
+  if (address - protocol::kLocalMemoryBase < kCounterReadBytes) return;
+  std::uint32_t before = 0;
+  std::memcpy(&before, &memory_[address - protocol::kLocalMemoryBase - kCounterReadBytes], sizeof before);
+  if (!counter_read(before)) return;
+  void* where = reinterpret_cast<void*>(std::uintptr_t{address});  // NOLINT(performance-no-int-to-ptr): never followed
+  qemu_plugin_register_vcpu_tb_exec_cb(block, on_block_behind_counter, QEMU_PLUGIN_CB_RW_REGS, where);
+}
+
+void Plugin::read_counter(const CounterPlace& place) {
+  const std::uint64_t clock = share_.cycles - place.rest.cycles_left - cycle_offset_;
+  const std::uint64_t instructions = share_.instructions - place.rest.instructions_left - instruction_offset_;
+  counter_value_ = {place.next, place.read.destination, place.read.value(clock, instructions)};
+}
+
+void Plugin::behind_counter(std::uint32_t address) {
+  if (!counter_value_ || counter_value_->next != address) return;
+  if (!set_register(counter_value_->destination, counter_value_->value)) {
+    constexpr std::string_view kWhy =
+        "torolux plugin: a counter (cycle, time, instret, ...) is read, and this QEMU does not export the function "
+        "riscv_cpu_gdb_write_register, by which it would get the PE's value. Debian's QEMU 7.2 does; or use "
+        "`--engine translated`";
+    (void)!write(STDERR_FILENO, kWhy.data(), kWhy.size());
+    _exit(1);
+  }
+  counter_value_.reset();
 }
 
 NiuProcessorSide::Result Plugin::answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions) {
@@ -218,6 +266,17 @@ void Plugin::end() {
   share_.diverged.store(replayer && !replayer->at_end() ? 1 : 0, std::memory_order_relaxed);
   share_.stopped.store(1, std::memory_order_release);
   _exit(0);
+}
+
+/// There are no interrupts: it is the end of the PE, on this engine as on the others.
+void Plugin::wait_for_interrupt(const WaitPlace& place) {
+  const std::uint64_t clock = share_.cycles - place.rest.cycles_left - cycle_offset_;
+  const NiuFault fault{NiuFaultCode::wait_for_interrupt, {place.address, 0, 0}};
+  while (!end_with_fault(channel_, clock, fault) && channel_.stopping.load(std::memory_order_seq_cst) == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    share_.hints.fetch_add(1, std::memory_order_relaxed);
+  }
+  end();
 }
 
 void Plugin::hint(const HintPlace& place) {
@@ -283,8 +342,8 @@ const char* install(qemu_plugin_id_t id, const qemu_info_t& info, std::string_vi
     return "channel or local memory cannot be mapped";
   }
   const std::span<std::byte> memory = local->first(share.local_memory_bytes);
-  plugin =
-      std::make_unique<Plugin>(share, NiuProcessorSide(*niu_channel_at(channel->data()), memory, share.window_offset));
+  plugin = std::make_unique<Plugin>(share, *niu_channel_at(channel->data()), memory,
+                                    NiuProcessorSide(*niu_channel_at(channel->data()), memory, share.window_offset));
   if (share.log_use != HintLogUse::none) {
     const auto log = map_descriptor(share.log_descriptor);
     if (!log || log->size() < sizeof(HintLogHead)) {

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 /// A PE whose plugin shows no sign of life for so long is given up. Generous: a thousand processes may share one core.
 constexpr std::chrono::seconds kLongestSilence{120};
 /// Nor does a PE run that counts nothing and yet uses so much of a host core [s]: it traps to where nothing is.
-constexpr double kMostFruitlessCpuSeconds = 5;
+constexpr double kMostFruitlessCpuSeconds = 2;
 
 /// RV32IMAFC_Zicsr_Zifencei and nothing more, in machine mode alone; everything else traps.
 constexpr const char* kCpu =
@@ -92,6 +92,7 @@ class QemuPe {
 
  private:
   void end_loop(std::uint64_t cycles);
+  void end(std::uint64_t clock, const NiuFault& fault);
   void watch_progress(std::uint64_t cycles, Clock::duration tick);
   [[noreturn]] void fail(const std::string& what) const;
   static PluginShare& prepare(SharedMemory& memory, std::size_t number, const Launch& launch, bool debugged);
@@ -102,7 +103,11 @@ class QemuPe {
   NiuChannel& channel_;
   bool debugged_;
   bool ended_ = false;  // by us
-  bool loops_ = false;  // ended for that, and the network does not know yet
+  struct Ending {
+    std::uint64_t clock;
+    NiuFault fault;
+  };
+  std::optional<Ending> ending_;  // of which the network does not know yet
   SharedMemory share_memory_;
   PluginShare& share_;
   QemuProcess process_;
@@ -185,7 +190,7 @@ void QemuPe::fail(const std::string& what) const {
 }
 
 void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick) {
-  if (loops_) loops_ = !end_endless_loop(channel_, 0);
+  if (ending_ && end_with_fault(channel_, ending_->clock, ending_->fault)) ending_.reset();
   if (ended_) return;
   const bool had_stopped = share_.stopped.load(std::memory_order_acquire) != 0;
   if (had_stopped) {
@@ -211,15 +216,20 @@ void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick
   if (!debugged_) watch_progress(cycles, tick);
 }
 
-/// The process is dead before its place at the channel is taken. In lock step that place is another's.
+/// In lock step the process's place at the channel is another's.
 void QemuPe::end_loop(std::uint64_t cycles) {
   if (share_.meeting_descriptor >= 0) {
     fail("no HINT for " + std::to_string(cycles) + " cycles: an endless loop? (processor.most_cycles_between_hints = " +
          std::to_string(channel_.most_cycles_between_hints) + ")");
   }
+  end(end_of_patience(channel_), endless_loop(channel_, 0));
+}
+
+/// The process is dead before its place at the channel is taken.
+void QemuPe::end(std::uint64_t clock, const NiuFault& fault) {
   process_.kill();
-  loops_ = !end_endless_loop(channel_, 0);
   ended_ = true;
+  if (!end_with_fault(channel_, clock, fault)) ending_ = Ending{clock, fault};
 }
 
 void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
@@ -238,7 +248,9 @@ void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
     fail("its QEMU process has stopped answering");
   }
   if (cpu_seconds() - cpu_seconds_before_silence_ > kMostFruitlessCpuSeconds) {
-    fail("executes no instructions any more: did it trap before mtvec was set?");
+    if (share_.meeting_descriptor >= 0) fail("executes no instructions any more: did it trap before mtvec was set?");
+    const std::uint64_t since_hint = cycles - share_.cycles_at_hint.load(std::memory_order_relaxed);
+    end(channel_.processor.last_hint + since_hint, {NiuFaultCode::no_trap_handler, {kUnknownTrap, 0, 0}});
   }
 }
 

@@ -103,8 +103,7 @@ Interpreter::Step Interpreter::execute(TranslatedPe& pe, const Instruction& i) c
     case Op::mret:
       return return_from_trap(pe) ? Step::done : illegal();
     case Op::wfi:
-      pe.pc += i.bytes;
-      return Step::stuck;
+      return Step::waits;
     case Op::illegal:
       return illegal();
     default:

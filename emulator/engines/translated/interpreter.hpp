@@ -17,7 +17,8 @@ class Interpreter {
   enum class Step : std::uint8_t {
     done,   ///< executed, or trapped into the handler
     hint,   ///< a HINT: counted, pc behind it, pe.hint_immediate set
-    stuck,  ///< nothing will ever be executed again: a trap without a handler, or wfi. pc and mepc say where
+    stuck,  ///< nothing will ever be executed again: a trap without a handler. pc and mepc say where
+    waits,  ///< nor after this: wfi. pc says where
   };
   Step step(TranslatedPe& pe) const;
 

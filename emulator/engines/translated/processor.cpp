@@ -101,6 +101,8 @@ Processor::Stop Processor::run(const Goal* goal) {
         return loops() ? give_up(endless_loop(channel_, pe_.pc)) : Stop::slice;
       case TranslatedImage::Stop::stuck:
         return give_up({NiuFaultCode::no_trap_handler, {pe_.mcause, pe_.mepc, pe_.mtval}});
+      case TranslatedImage::Stop::waits:
+        return give_up({NiuFaultCode::wait_for_interrupt, {pe_.pc, 0, 0}});
     }
   }
 }

@@ -199,6 +199,7 @@ TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
     }
     const Interpreter::Step step = interpret(pe);
     if (step == Interpreter::Step::stuck) return Stop::stuck;
+    if (step == Interpreter::Step::waits) return Stop::waits;
     if (step != Interpreter::Step::hint) continue;
     if (!call_marker(pe)) return Stop::hint;
   }

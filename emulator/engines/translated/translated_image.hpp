@@ -44,8 +44,9 @@ class TranslatedImage {
     hint,         ///< executed and counted, pc behind it; hint_immediate says which. pe.hint has been asked, if the
                   ///< code is translated. Set pe.cycles if it waits
     cycle_limit,  ///< pe.cycles >= pe.cycle_limit
-    stuck,        ///< it will never execute anything again: wfi, or a trap while mtvec points to nothing
-                  ///< (mcause, mepc and mtval tell of the last trap)
+    stuck,        ///< it will never execute anything again: a trap while mtvec points to nothing (mcause, mepc and
+                  ///< mtval tell of the last trap)
+    waits,        ///< nor after this: wfi, counted, at pc
   };
   /// Goes on from where the PE stands. Call it again after each HINT.
   Stop run(TranslatedPe& pe) const;

@@ -296,7 +296,9 @@ TEST(Machine, FaultsNameThePe) {
   };
   EXPECT_THAT(
       failure_of(setup, host, only_pe_2([](Niu& niu, NativeClock&) { niu.fail(protocol::FaultCode::bad_record, 7); })),
-      HasSubstr("PE 2: the program failed: code 7 (in pe.elf: bad record), details 7, 0, 0"));
+      HasSubstr("PE 2: the program failed: code 7 (in pe.elf: bad record: number of waiting branches = 0), details 7, "
+                "0, 0; see "
+                "docs/errors.md"));
   EXPECT_THAT(failure_of(setup, host, only_pe_2([](Niu& niu, NativeClock&) {
                            niu.fail(protocol::FaultCode::trap, 5, 0x8000'0010U, 0x90U);
                          })),

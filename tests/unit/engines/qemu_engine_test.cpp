@@ -240,7 +240,14 @@ TEST(QemuEngine, AnEndlessLoopIsNoticed) {
 TEST(QemuEngine, ATrapToNowhereIsNoticed) {
   BarePes pes(image_of({kNop, 0}), 1);  // illegal, and mtvec is 0
   pes.engine().start();
-  EXPECT_THAT(failure(pes.engine(), 30'000ms), testing::HasSubstr("PE 0: executes no instructions any more"));
+  const auto end = pes.next_command(0);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->head.kind, CommandKind::fault);
+  NiuFault fault{};
+  ASSERT_EQ(end->payload.size(), sizeof fault);
+  std::memcpy(&fault, end->payload.data(), sizeof fault);
+  EXPECT_EQ(fault.code, NiuFaultCode::no_trap_handler);
+  EXPECT_EQ(fault.detail[0], kUnknownTrap);
 }
 
 TEST(QemuEngine, AKilledProcessIsNamedWithinTwoSeconds) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Proves that docs/packets.md tells the truth: its tables of records against sizeof and offsetof, its tables of
-// messages against the enumerators, its sizes against the constants.
+// messages against the enumerators, its sizes against the constants. And docs/errors.md against the fault codes.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/niu/channel.hpp"
 #include "emulator/torus/block.hpp"
 #include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/niu_window.hpp"
@@ -234,6 +235,30 @@ TEST(PagesOfTheProtocol, TablesOfMessagesHaveAllKindsAndNoOthers) {
 
 TEST(PagesOfTheProtocol, TheTableOfKindsHasAllKindsOfRecords) {
   EXPECT_EQ(rows_below("\n## Records\n"), enumerators("firmware/protocol/records.hpp", "RecordKind"));
+}
+
+// ---- docs/errors.md ----
+
+/// Number and name of each fault code, as a header has them, counted from 1.
+std::vector<std::string> numbered(const std::string& header, const std::string& name) {
+  const std::string text = std::regex_replace(text_of(header), std::regex("//[^\n]*"), "");
+  const std::size_t begin = text.find('{', text.find("enum class " + name + " "));
+  std::vector<std::string> result;
+  for (const std::string& code :
+       matches(text.substr(begin, text.find('}', begin) - begin), R"(([a-z_]+)(?: = 1)?\s*(?:,|$))")) {
+    result.push_back(std::to_string(result.size() + 1) + " | `" + code + "`");
+  }
+  return result;
+}
+
+TEST(PageOfErrors, HasEachFaultCodeWithItsNumberAndNoOthers) {
+  const std::string page_of_errors = text_of("docs/errors.md");
+  std::vector<std::string> codes = numbered("firmware/protocol/messages.hpp", "FaultCode");
+  ASSERT_EQ(codes.size(), static_cast<std::size_t>(protocol::FaultCode::short_message));
+  const std::vector<std::string> of_niu = numbered("emulator/niu/channel.hpp", "NiuFaultCode");
+  ASSERT_EQ(of_niu.size(), static_cast<std::size_t>(NiuFaultCode::wait_for_interrupt));
+  codes.insert(codes.end(), of_niu.begin(), of_niu.end());
+  EXPECT_EQ(matches(page_of_errors, "\n\\| ([0-9]+ \\| `[a-z_]+`) \\|"), codes);
 }
 
 }  // namespace
