@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "emulator/engines/source_line.hpp"
 #include "emulator/hexadecimal.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/machine.hpp"
@@ -118,7 +119,8 @@ std::string_view name_of(NiuFaultCode code) {
 }
 
 std::string place_in_words(std::uint32_t pc, const Image& image) {
-  return "pc " + hexadecimal(pc) + " (" + image.describe(pc) + ")";
+  const std::string line = source_line(image.file, pc);
+  return "pc " + hexadecimal(pc) + " (" + image.describe(pc) + (line.empty() ? "" : ", " + line) + ")";
 }
 
 /// mcause, mepc, mtval.

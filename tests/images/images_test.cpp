@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
+#include "emulator/engines/source_line.hpp"
 #include "emulator/errors.hpp"
 #include "host_tools/run/run.hpp"
 
@@ -173,16 +175,13 @@ TEST_P(LastWordsOn, AreHeardBeforeEachKindOfFailure) {
   }
 }
 
-std::string cycle_of(const std::string& failure) {
-  const std::size_t at = failure.rfind(" (cycle ");
-  return at == std::string::npos ? "no cycle: " + failure : failure.substr(at);
-}
-
-TEST(LastWords, AnEndlessLoopEndsInTheSameCycleOnAllEngines) {
-  const std::string qemu = cycle_of(last_words("qemu", 2, 1).failure);
-  EXPECT_EQ(cycle_of(last_words("translated", 2, 1).failure), qemu);
-  EXPECT_EQ(cycle_of(last_words("interpreted", 2, 1).failure), qemu);
-  EXPECT_EQ(last_words("translated", 2, 2).failure, last_words("translated", 2, 1).failure);  // the pc, too
+TEST(LastWords, AnEndlessLoopEndsInTheSameCycleAndPlaceOnAllEngines) {
+  const std::string qemu = last_words("qemu", 2, 1).failure;
+  EXPECT_THAT(qemu, AllOf(HasSubstr(", now at pc 0x"), HasSubstr("(torolux::pe::pe_main"), HasSubstr(" (cycle ")));
+  EXPECT_EQ(last_words("qemu", 2, 2).failure, qemu);
+  EXPECT_EQ(last_words("translated", 2, 1).failure, qemu);
+  EXPECT_EQ(last_words("translated", 2, 2).failure, qemu);
+  EXPECT_EQ(last_words("interpreted", 2, 1).failure, qemu);
 }
 
 TEST(LastWords, WaitingForAnInterruptIsTheSameTrapOnAllEngines) {
@@ -191,6 +190,33 @@ TEST(LastWords, WaitingForAnInterruptIsTheSameTrapOnAllEngines) {
                           HasSubstr("there are none"), HasSubstr(" (cycle ")));
   EXPECT_EQ(last_words("translated", 3, 1).failure, qemu);  // pc and cycle, too
   EXPECT_EQ(last_words("interpreted", 3, 1).failure, qemu);
+}
+
+/// "FILE:LINE" of the only line of a test image's source that holds `text`.
+std::string line_with(const std::string& file, const std::string& text) {
+  std::ifstream source(std::filesystem::path(TOROLUX_SOURCE_DIR) / file);
+  std::string found;
+  std::string line;
+  for (int number = 1; std::getline(source, line); ++number) {
+    if (line.find(text) != std::string::npos) found += file + ":" + std::to_string(number);
+  }
+  return found;
+}
+
+TEST(Places, TrapsAndLoopsAreToldWithFileAndLine) {
+  EXPECT_THAT(failure_of_fault("translated", 6),
+              HasSubstr(", " + line_with("tests/images/faults.cpp", "(\"unimp\")") + "), mtval"));
+  EXPECT_THAT(failure_of_fault("translated", 4), HasSubstr("fill_stack(unsigned long)+0x"));
+  const std::string own = line_with("tests/images/last_words.cpp", "for (;;) asm");
+  const std::string callers = line_with("tests/images/last_words.cpp", "tests::end(niu");
+  ASSERT_FALSE(own.empty() || callers.empty());
+  EXPECT_THAT(last_words("translated", 2, 1).failure,
+              HasSubstr(", " + own + ", inlined at " + callers + "): an endless"));
+}
+
+TEST(Places, AnImageThatIsNotThereHasNoLines) {
+  EXPECT_EQ(source_line("no/such/image.elf", 0x8000'0000U), "");
+  EXPECT_EQ(source_line(std::filesystem::path(TOROLUX_SOURCE_DIR) / "README.md", 0x8000'0000U), "");
 }
 
 TEST(LastWords, AreHeardBeforeATrapThatNothingHandles) {

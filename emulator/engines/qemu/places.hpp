@@ -48,6 +48,13 @@ struct CountedPlace {
   static constexpr std::uint32_t kMostCycles = 0xFF'FFFFU;
 };
 
+/// A block, counted as a whole where it begins.
+struct BlockPlace {
+  std::uint32_t address;
+  std::uint32_t instructions;
+  std::uint64_t cycles;
+};
+
 /// A `wfi` that the program may come to: what stands behind it in its block, and its address.
 struct WaitPlace {
   HintPlace rest;

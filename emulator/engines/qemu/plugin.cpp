@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "emulator/engines/isa/instruction_class.hpp"
 #include "emulator/engines/qemu/counters.hpp"
@@ -46,9 +48,10 @@ constexpr std::chrono::microseconds kLongestSleep{50'000};
 class Plugin {
  public:
   Plugin(PluginShare& share, NiuChannel& channel, std::span<const std::byte> memory, NiuProcessorSide side)
-      : share_(share), channel_(channel), memory_(memory), side_(side) {}
+      : share_(share), channel_(channel), memory_(memory), side_(side), patience_ends_(end_of_patience(channel)) {}
 
   void translated(qemu_plugin_tb* block);
+  void begin(const BlockPlace& block);
   void count(const CountedPlace& place);
   void hint(const HintPlace& place);
   [[noreturn]] void wait_for_interrupt(const WaitPlace& place);
@@ -68,12 +71,16 @@ class Plugin {
   void look_behind_counter(qemu_plugin_tb* block, std::uint32_t address);
   NiuProcessorSide::Result answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   NiuProcessorSide::Result meet(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
+  bool watches_loops() const { return meeting == nullptr && !replayer; }
+  [[noreturn]] void give_up(std::uint64_t clock, const NiuFault& fault);
   [[noreturn]] void end();
 
   PluginShare& share_;
   NiuChannel& channel_;
   std::span<const std::byte> memory_;
   NiuProcessorSide side_;
+  /// By address and length: translated again, a block is the same.
+  std::map<std::pair<std::uint32_t, std::size_t>, BlockPlace> blocks_;
   // Each time one is translated: they are rare.
   std::deque<WaitPlace> waits_;
   std::deque<CounterPlace> counters_;
@@ -86,6 +93,7 @@ class Plugin {
   // PE clock = counted cycles - cycle_offset_; the same for instructions. Modulo 2^64: waiting makes it "negative".
   std::uint64_t cycle_offset_ = 0;
   std::uint64_t instruction_offset_ = 0;
+  std::uint64_t patience_ends_;  // counted cycles; with no HINT until then it is an endless loop
   // While the NIU driver repeats a HINT: clock and count at its first execution, to which they are set back.
   bool retrying_ = false;
   std::uint64_t retry_clock_ = 0;
@@ -103,6 +111,10 @@ std::uint32_t bits_of(const qemu_plugin_insn* instruction) {
 
 void on_hint(unsigned /*vcpu*/, void* user_data) {
   plugin->hint(HintPlace::unpack(user_data));
+}
+
+void on_block(unsigned /*vcpu*/, void* user_data) {
+  plugin->begin(*static_cast<const BlockPlace*>(user_data));
 }
 
 void on_instruction(unsigned /*vcpu*/, void* user_data) {
@@ -161,8 +173,16 @@ void Plugin::count(const CountedPlace& place) {
   const bool repeats = place.may_repeat && place.address == last_counted_;
   last_counted_ = place.address;
   if (repeats) return;
-  share_.cycles += place.cycles;
-  share_.instructions += place.is_marker ? 0 : 1;
+  begin({place.address, place.is_marker ? 0U : 1U, place.cycles});
+}
+
+/// The loop is found where the limit is passed, so each time in the same place.
+void Plugin::begin(const BlockPlace& block) {
+  if (share_.cycles >= patience_ends_ && watches_loops()) {
+    give_up(end_of_patience(channel_), endless_loop(channel_, block.address));
+  }
+  share_.cycles += block.cycles;
+  share_.instructions += block.instructions;
 }
 
 void Plugin::count_block(qemu_plugin_tb* block) {
@@ -183,9 +203,9 @@ void Plugin::count_block(qemu_plugin_tb* block) {
     rest.cycles_left += cycles_of(bits, share_.latency);
     rest.instructions_left += is_phase_marker(bits) ? 0 : 1;
   }
-  qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.cycles, rest.cycles_left);
-  qemu_plugin_register_vcpu_tb_exec_inline(block, QEMU_PLUGIN_INLINE_ADD_U64, &share_.instructions,
-                                           rest.instructions_left);
+  BlockPlace& place = blocks_[{address, qemu_plugin_tb_n_insns(block)}];
+  place = {address, rest.instructions_left, rest.cycles_left};
+  qemu_plugin_register_vcpu_tb_exec_cb(block, on_block, QEMU_PLUGIN_CB_NO_REGS, &place);
 }
 
 void Plugin::look_for_rare(qemu_plugin_insn* instruction, const HintPlace& rest, std::uint32_t address) {
@@ -271,7 +291,10 @@ void Plugin::end() {
 /// There are no interrupts: it is the end of the PE, on this engine as on the others.
 void Plugin::wait_for_interrupt(const WaitPlace& place) {
   const std::uint64_t clock = share_.cycles - place.rest.cycles_left - cycle_offset_;
-  const NiuFault fault{NiuFaultCode::wait_for_interrupt, {place.address, 0, 0}};
+  give_up(clock, {NiuFaultCode::wait_for_interrupt, {place.address, 0, 0}});
+}
+
+void Plugin::give_up(std::uint64_t clock, const NiuFault& fault) {
   while (!end_with_fault(channel_, clock, fault) && channel_.stopping.load(std::memory_order_seq_cst) == 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     share_.hints.fetch_add(1, std::memory_order_relaxed);
@@ -296,8 +319,10 @@ void Plugin::hint(const HintPlace& place) {
   if (retrying_) {
     retry_clock_ = clock;
     retry_instructions_ = instructions;
+    patience_ends_ = counted + channel_.most_cycles_between_hints + 1;  // what the driver's loop takes does not count
   } else {
     cycle_offset_ = counted - result.clock;
+    patience_ends_ = counted + (end_of_patience(channel_) - result.clock);
   }
   share_.cycles_at_hint.store(share_.cycles, std::memory_order_relaxed);
   share_.hints.fetch_add(1, std::memory_order_relaxed);

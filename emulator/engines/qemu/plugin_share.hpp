@@ -28,7 +28,7 @@ struct PluginShare {
   std::uint64_t channel_layout;  ///< niu_channel_layout()
   LatencyTable latency;
 
-  // Counted by the translated code at the start of each block, so ahead of the PE by up to a block; or see above.
+  // Counted by the plugin at the start of each block, so ahead of the PE by up to a block; or see above.
   alignas(64) std::uint64_t cycles;  ///< of all instructions since `_start`, the NIU driver's retries included
   std::uint64_t instructions;
 

@@ -91,7 +91,6 @@ class QemuPe {
   double cpu_seconds() const { return process_.cpu_seconds(); }
 
  private:
-  void end_loop(std::uint64_t cycles);
   void end(std::uint64_t clock, const NiuFault& fault);
   void watch_progress(std::uint64_t cycles, Clock::duration tick);
   [[noreturn]] void fail(const std::string& what) const;
@@ -208,21 +207,15 @@ void QemuPe::check(std::uint64_t most_cycles_between_hints, Clock::duration tick
   // Cycles are read first: a HINT in between can only make the difference smaller.
   const std::uint64_t cycles = __atomic_load_n(&share_.cycles, __ATOMIC_ACQUIRE);
   const auto since_hint = static_cast<std::int64_t>(cycles - share_.cycles_at_hint.load(std::memory_order_relaxed));
-  if (since_hint > 0 && static_cast<std::uint64_t>(since_hint) > most_cycles_between_hints) {
-    end_loop(static_cast<std::uint64_t>(since_hint));
-    return;
+  // In lock step the PE's place at the channel is another's; else the plugin finds the loop itself.
+  if (share_.meeting_descriptor >= 0 && since_hint > 0 &&
+      static_cast<std::uint64_t>(since_hint) > most_cycles_between_hints) {
+    fail("no HINT for " + std::to_string(since_hint) +
+         " cycles: an endless loop? (processor.most_cycles_between_hints = " +
+         std::to_string(most_cycles_between_hints) + ")");
   }
   // Whoever debugs a PE may take any time.
   if (!debugged_) watch_progress(cycles, tick);
-}
-
-/// In lock step the process's place at the channel is another's.
-void QemuPe::end_loop(std::uint64_t cycles) {
-  if (share_.meeting_descriptor >= 0) {
-    fail("no HINT for " + std::to_string(cycles) + " cycles: an endless loop? (processor.most_cycles_between_hints = " +
-         std::to_string(channel_.most_cycles_between_hints) + ")");
-  }
-  end(end_of_patience(channel_), endless_loop(channel_, 0));
 }
 
 /// The process is dead before its place at the channel is taken.

@@ -235,6 +235,7 @@ TEST(QemuEngine, AnEndlessLoopIsNoticed) {
   std::memcpy(&fault, end->payload.data(), sizeof fault);
   EXPECT_EQ(fault.code, NiuFaultCode::too_long_without_hint);
   EXPECT_EQ(fault.detail[0], 1'000'000U);
+  EXPECT_EQ(fault.detail[2], protocol::kLocalMemoryBase + 4);  // the jump
 }
 
 TEST(QemuEngine, ATrapToNowhereIsNoticed) {
