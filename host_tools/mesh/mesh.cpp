@@ -103,6 +103,13 @@ struct Cutting {
   std::vector<PatchCluster> clusters;
 };
 
+/// Between a patch whose length is chosen by itself and its elements, whose is not: a patch's owner holds all of them,
+/// with six levels 4,096 of each side, about half of what PEs have where nothing else is said.
+constexpr int kMostLevelsOfPatch = 6;
+static_assert((sizeof(protocol::Element) * 2 + sizeof(protocol::Facet) + sizeof(std::uint32_t))
+                  << 2 * kMostLevelsOfPatch <=
+              protocol::kDefaultLocalMemory * 3 / 4);
+
 Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
   Cutting cutting{std::vector<int>(mesh.triangles.size(), -1), std::vector<int>(mesh.triangles.size(), -1), {}};
   std::vector<CutTriangle> cut;
@@ -122,6 +129,8 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh)
       const double edge = cut[next++].longest_edge;
       cutting.patch_level[t] = level_for(edge, lengths.patch);
       cutting.element_level[t] = std::max<int>(cutting.patch_level[t], level_for(edge, lengths.element));
+      if (!choice.patch_length)
+        cutting.patch_level[t] = std::max(cutting.patch_level[t], cutting.element_level[t] - kMostLevelsOfPatch);
       small[t] = edge <= lengths.cluster / 2;
     }
   }

@@ -33,6 +33,18 @@ TEST(Levels, AutomaticCountsSuitASmallScene) {
   EXPECT_LE(mesh.elements, 9000U);
 }
 
+// A patch's owner holds all its elements: a patch that is chosen by itself leaves room for them, one that is given does
+// not change.
+TEST(Levels, APatchChosenByItselfFitsIntoMemory) {
+  test::SceneBuilder builder;
+  builder.quad(builder.material({0.5, 0.5, 0.5}), {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
+  const MeshChoice choice{.element_length = 0.006, .patch_factor = 100};
+  for (const MeshPatch& patch : make_mesh(builder.scene, choice).patches) EXPECT_EQ(patch.elements, 4096U);
+  MeshChoice given = choice;
+  given.patch_length = 2;
+  EXPECT_EQ(make_mesh(builder.scene, given).patches.size(), 2U);
+}
+
 // What a surface is made of does not matter: 70,000 small triangles of one surface get no more patches than a few.
 TEST(Levels, FineTessellationMakesNoMorePatches) {
   const std::vector<CutTriangle> few(8, {1.0, 0.5});
