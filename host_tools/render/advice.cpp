@@ -18,7 +18,8 @@ namespace {
 
 /// Of one way, each with other values.
 constexpr int kMostTries = 4;
-/// Triangles and elements of all tries of a way together: of what is larger there is one try, as it takes long.
+/// Triangles, elements and a part of the subspaces, of all tries of a way together: of what is larger there is one try,
+/// as it takes long.
 constexpr std::uint64_t kMostWork = 500'000;
 /// A try that leaves more than this of what was needed has not helped.
 constexpr double kHelps = 0.9;
@@ -136,7 +137,7 @@ class Adviser {
   }
 
   bool is_last_try(int tries, std::uint64_t& work, std::uint64_t elements) const {
-    work += setup_.mesh.triangles.size() + elements;
+    work += setup_.mesh.triangles.size() + elements + setup_.placement.grid.count() / 8;
     return tries + 1 >= kMostTries || work > kMostWork;
   }
 

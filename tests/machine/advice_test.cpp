@@ -40,6 +40,18 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
   return words;
 }
 
+// Before any of it is made, which would take minutes.
+TEST(AdviceAtOnce, WhatNoMachineHoldsIsRefusedWithWhatMay) {
+  const std::vector<std::string> small{"--pes", "1x1", "--pe-memory", "4M"};
+  const auto both = [&small](const char* words) { return with(small, split_words(words)); };
+  const std::string refusal = refusal_of("cornell_box", both("--elements 0.02 --patches 0.02"));
+  EXPECT_THAT(refusal, HasSubstr(": use at least --elements "));
+  EXPECT_THAT(refusal_of("cornell_box", both("--subspaces 1024x1024x4 --scheme paper")),
+              HasSubstr("--subspaces: the map of the subspaces takes 17,825,792 bytes"));
+  EXPECT_THAT(refusal_of("cornell_box", both("--patches 0.02 --pes 32x32 --pe-memory 64M")),
+              HasSubstr("at most 67108864 and 8388608 are allowed"));
+}
+
 struct TooSmall {
   const char* name;
   const char* scene;
@@ -69,7 +81,7 @@ TEST_P(Advice, FitsWhenItIsFollowed) {
 }
 
 // By what takes most: memory that is too small for anything but more of it; elements, on
-// one PE, too; elements beyond the largest memory; the hemi-cube's table; the map of a fine grid; the paper's copies.
+// one PE, too; as many patches as elements; the hemi-cube's table; the map of a fine grid; the paper's copies.
 INSTANTIATE_TEST_SUITE_P(
     Machines, Advice,
     testing::Values(TooSmall{"fixed", "cornell_box", "--pe-memory 256K", {"--pe-memory 2M"}},
@@ -78,7 +90,10 @@ INSTANTIATE_TEST_SUITE_P(
                              "two_mirrors",
                              "--pe-memory 1M --pes 1x1 --elements 0.1",
                              {"--pe-memory", "--pes", "--elements"}},
-                    TooSmall{"beyond", "cornell_box", "--pes 1x1 --elements 6 --patches 25", {"--pes", "--elements"}},
+                    TooSmall{"patches",
+                             "cornell_box",
+                             "--pes 1x1 --pe-memory 1M --patches 50 --elements 50",
+                             {"--pe-memory", "--pes", "--patches"}},
                     TooSmall{"hemicube", "cornell_box", "--hemicube 256 --pe-memory 1M", {"--pe-memory", "--hemicube"}},
                     TooSmall{"grid",
                              "cornell_box",
