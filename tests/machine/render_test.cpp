@@ -180,6 +180,37 @@ TEST(Render, SavedRadiositiesGiveTheSameViewWithoutShots) {
   EXPECT_FALSE(std::filesystem::exists(file("none.pfm")));
 }
 
+// A refined file, too: what its splits were chosen for is refused, and the options that mend it do; what they do not
+// depend on gives the picture of a full run.
+TEST(Render, RefinedRadiositiesServeTheirOwnSettingsAlone) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto refined = [&](Arguments more) {
+    more.insert(more.begin(), {"--refine", "0.5", "--direct", "shadow-rays", "--quiet"});
+    return run_torolux(small_render(more));
+  };
+  ASSERT_EQ(refined({"--output", file("a.pfm"), "--save-radiosity", file("a.rad")}).exit_code, 0);
+  for (const Arguments& other : {Arguments{"--direct", "radiosity"}, {"--refine", "0.25"}, {"--seed", "2"}}) {
+    Arguments more{"--output", file("b.pfm"), "--radiosity", file("a.rad")};
+    const std::vector<std::string> given{"--refine", "0.5", "--direct", "shadow-rays", "--quiet"};
+    for (std::size_t i = 0; i + 1 < given.size(); i += 2)
+      if (given[i] != other[0]) more.insert(more.end(), {given[i], given[i + 1]});
+    more.insert(more.end(), other.begin(), other.end());
+    const Finished run = run_torolux(small_render(more));
+    EXPECT_EQ(run.exit_code, 2) << other[0];
+    EXPECT_THAT(run.errors, HasSubstr("give " + other[0] + " ")) << other[0];
+  }
+  const Arguments view{"--filter",  "tent",        "--eye",        "100,300,-500",
+                       "--look-at", "278,273,300", "--allocation", "skewed"};
+  const auto with_view = [&](Arguments more) {
+    more.insert(more.end(), view.begin(), view.end());
+    return refined(more);
+  };
+  ASSERT_EQ(with_view({"--output", file("whole.pfm")}).exit_code, 0);
+  ASSERT_EQ(with_view({"--output", file("view.pfm"), "--radiosity", file("a.rad")}).exit_code, 0);
+  EXPECT_EQ(contents(file("view.pfm")), contents(file("whole.pfm")));
+}
+
 /// A render that goes on for minutes.
 class LongRender : public testing::Test {
  protected:
