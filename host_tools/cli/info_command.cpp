@@ -122,7 +122,7 @@ int run_info(const RenderOptions& options) {
   try {
     check_renderable(scene);
     const RenderPlan planned = plan(scene, settled.camera, settled.quality, settled.machine, firmware_image());
-    print_plan(planned, settled.machine);
+    if (planned.patches > 0) print_plan(planned, settled.machine);
     for (const std::string& note : planned.notes) line("note", note);
     refusals = planned.refusals;
   } catch (const InputError& error) {

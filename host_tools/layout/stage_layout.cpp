@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <tuple>
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/copies.hpp"
@@ -23,6 +24,10 @@ struct Counts {
   std::uint64_t nodes = 0, patch_references = 0, patch_parts = 0, patches = 0, patch_sides = 0, elements = 0,
                 facets = 0, hemicube = 0, lattice = 0, kept = 0;
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
+  std::uint64_t uncut_lattice = 0, uncut_facets = 0;  ///< of triangles that are one facet, whatever --elements is
+
+  Lessened lattice_by() const { return 2 * uncut_lattice > lattice ? Lessened::pes : Lessened::elements; }
+  Lessened facets_by() const { return 2 * uncut_facets > facets ? Lessened::pes : Lessened::elements; }
 };
 
 /// Takes away what of the polygons' surfaces others keep.
@@ -34,6 +39,7 @@ void leave_to_keepers(const Mesh& mesh, const Placement& placement, protocol::Pe
     const SurfaceSize size = surface_size(mesh, part);
     counts.nodes += size.nodes;
     counts.lattice += size.lattice;
+    if (mesh.patches[mesh.parts[part].patch].is_clustered()) counts.uncut_lattice += size.lattice;
   }
   counts.kept = placement.kept_by_pe[pe].size();
 }
@@ -58,6 +64,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
       // Every four children add three leaves.
       counts.nodes += (triangle.facets - 1U) / 3 * 4;
       counts.lattice += std::uint64_t{triangle.side_count()} * triangle.facets;
+      if (triangle.facets == 1 && placement.keeper_of_part.empty()) counts.uncut_lattice += triangle.side_count();
     }
   }
   if (stage == Stage::ray_tracing && !placement.keeper_of_part.empty()) leave_to_keepers(mesh, placement, pe, counts);
@@ -73,6 +80,7 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
   for (const std::uint32_t number : placement.patches_of_pe[pe]) {
     const MeshPatch& patch = mesh.patches[number];
     counts.facets += patch.facets;
+    if (patch.is_clustered()) counts.uncut_facets += patch.facets;
     for (const std::uint32_t side : patch.side) {
       if (side == protocol::kNoSide) continue;
       ++counts.patch_sides;
@@ -91,12 +99,12 @@ class Allocator {
  public:
   Allocator(std::uint64_t begin, PeLayout& pe_layout) : next_(begin), pe_layout_(pe_layout) {}
 
-  Store place(const char* name, std::uint64_t count, std::size_t bytes_each) {
+  Store place(const char* name, Lessened by, std::uint64_t count, std::size_t bytes_each) {
     next_ = (next_ + 7) / 8 * 8;
     const std::uint64_t address = next_;
     const std::uint64_t bytes = count * bytes_each;
     next_ += bytes;
-    if (bytes > 0) pe_layout_.bytes.emplace_back(name, bytes);
+    if (bytes > 0) pe_layout_.bytes.push_back({name, by, bytes});
     return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(count)};
   }
   std::uint64_t next() const { return next_; }
@@ -109,6 +117,31 @@ class Allocator {
 /// One for each PE, as far as there are so many.
 std::uint32_t open_batches(unsigned pes) {
   return std::min(std::bit_ceil(pes), protocol::kMostOpenBatches);
+}
+
+/// Of what a PE needs: one by one are told the stores that take more than one part in so many.
+constexpr std::uint64_t kSmallPart = 100;
+
+const char* lessened_words(Lessened by) {
+  switch (by) {
+    case Lessened::nothing:
+      break;
+    case Lessened::pes:
+      return "less by more --pes";
+    case Lessened::subspaces:
+      return "less by coarser --subspaces";
+    case Lessened::elements:
+      return "less by greater --elements";
+    case Lessened::patches:
+      return "less by greater --patches";
+    case Lessened::texels:
+      return "less by fewer --texels";
+    case Lessened::hemicube:
+      return "less by a smaller --hemicube";
+    case Lessened::samples:
+      return "less by --camera-rays host";
+  }
+  return "fixed";
 }
 
 const char* name_of(Stage stage) {
@@ -138,38 +171,43 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.cell_size = placement.grid.cell_size;
   layout.bounces = parameters.bounces;
   Allocator allocator(map.stores_begin, result);
-  layout.cell_words = allocator.place("cell map", counts.cell_words, sizeof(protocol::CellWord));
-  layout.cell_entries = allocator.place("cell entries", counts.cell_entries, sizeof(protocol::CellEntry));
-  layout.subspaces = allocator.place("subspaces", counts.subspaces, sizeof(protocol::Subspace));
-  layout.polygon_list = allocator.place("polygon list", counts.polygon_list, sizeof(protocol::ListedPolygon));
-  layout.polygons = allocator.place("polygons", counts.polygons, sizeof(protocol::Polygon));
-  layout.materials = allocator.place("materials", counts.materials, sizeof(protocol::Material));
-  layout.normals = allocator.place("normals", counts.normals, sizeof(protocol::Vec3f));
-  layout.nodes = allocator.place("nodes", counts.nodes, sizeof(std::uint32_t));
+  layout.cell_words = allocator.place("cell map", Lessened::subspaces, counts.cell_words, sizeof(protocol::CellWord));
+  layout.cell_entries =
+      allocator.place("cell entries", Lessened::subspaces, counts.cell_entries, sizeof(protocol::CellEntry));
+  layout.subspaces = allocator.place("subspaces", Lessened::subspaces, counts.subspaces, sizeof(protocol::Subspace));
+  layout.polygon_list =
+      allocator.place("polygon list", Lessened::subspaces, counts.polygon_list, sizeof(protocol::ListedPolygon));
+  layout.polygons = allocator.place("polygons", Lessened::pes, counts.polygons, sizeof(protocol::Polygon));
+  layout.materials = allocator.place("materials", Lessened::nothing, counts.materials, sizeof(protocol::Material));
+  layout.normals = allocator.place("normals", Lessened::pes, counts.normals, sizeof(protocol::Vec3f));
+  layout.nodes = allocator.place("nodes", Lessened::elements, counts.nodes, sizeof(std::uint32_t));
   layout.patch_references =
-      allocator.place("patch references", counts.patch_references, sizeof(protocol::PatchReference));
-  layout.patch_parts = allocator.place("parts of patches", counts.patch_parts, sizeof(protocol::PatchPart));
-  layout.patches = allocator.place("patches", counts.patches, sizeof(protocol::Patch));
-  layout.patch_sides = allocator.place("patch sides", counts.patch_sides, sizeof(protocol::PatchSide));
-  layout.elements = allocator.place("elements", counts.elements, sizeof(protocol::Element));
-  layout.facets = allocator.place("facets", counts.facets, sizeof(protocol::Facet));
-  layout.hemicube = allocator.place("hemi-cube", counts.hemicube, sizeof(protocol::HemicubeEntry));
-  layout.lattice = allocator.place("lattice", counts.lattice, sizeof(protocol::LatticeTriangle));
-  layout.kept = allocator.place("kept surfaces", counts.kept, sizeof(protocol::KeptSurface));
-  layout.textures = allocator.place("textures", counts.textures, sizeof(protocol::Texture));
-  layout.texels = allocator.place("texels", counts.texels, sizeof(protocol::Texel));
-  layout.texture_points = allocator.place("texture points", counts.texture_points, sizeof(protocol::TexturePoint));
+      allocator.place("patch references", Lessened::patches, counts.patch_references, sizeof(protocol::PatchReference));
+  layout.patch_parts =
+      allocator.place("parts of patches", Lessened::patches, counts.patch_parts, sizeof(protocol::PatchPart));
+  layout.patches = allocator.place("patches", Lessened::patches, counts.patches, sizeof(protocol::Patch));
+  layout.patch_sides =
+      allocator.place("patch sides", Lessened::patches, counts.patch_sides, sizeof(protocol::PatchSide));
+  layout.elements = allocator.place("elements", Lessened::elements, counts.elements, sizeof(protocol::Element));
+  layout.facets = allocator.place("facets", counts.facets_by(), counts.facets, sizeof(protocol::Facet));
+  layout.hemicube = allocator.place("hemi-cube", Lessened::hemicube, counts.hemicube, sizeof(protocol::HemicubeEntry));
+  layout.lattice = allocator.place("lattice", counts.lattice_by(), counts.lattice, sizeof(protocol::LatticeTriangle));
+  layout.kept = allocator.place("kept surfaces", Lessened::patches, counts.kept, sizeof(protocol::KeptSurface));
+  layout.textures = allocator.place("textures", Lessened::texels, counts.textures, sizeof(protocol::Texture));
+  layout.texels = allocator.place("texels", Lessened::texels, counts.texels, sizeof(protocol::Texel));
+  layout.texture_points =
+      allocator.place("texture points", Lessened::pes, counts.texture_points, sizeof(protocol::TexturePoint));
   const std::uint32_t emitters = stage == Stage::ray_tracing ? parameters.emitters : 0;
   const std::uint32_t samples = stage == Stage::ray_tracing ? parameters.pixel_samples : 0;
   const std::uint32_t filter = stage == Stage::ray_tracing ? parameters.filter_entries : 0;
-  layout.sample_places = allocator.place("sample places", samples, sizeof(protocol::SamplePlace));
-  layout.filter = allocator.place("filter", filter, sizeof(float));
-  layout.emitters = allocator.place("emitters", emitters, sizeof(protocol::Emitter));
+  layout.sample_places = allocator.place("sample places", Lessened::samples, samples, sizeof(protocol::SamplePlace));
+  layout.filter = allocator.place("filter", Lessened::samples, filter, sizeof(float));
+  layout.emitters = allocator.place("emitters", Lessened::patches, emitters, sizeof(protocol::Emitter));
   result.load_end = allocator.next();
   layout.open_batches = open_batches(placement.torus.pes());
   layout.own_slots = protocol::own_slots(stage, layout.open_batches);
-  layout.record_slots =
-      allocator.place("record slots", std::uint64_t{layout.own_slots} + map.niu_slots, protocol::slot_bytes(stage));
+  layout.record_slots = allocator.place("record slots", Lessened::nothing,
+                                        std::uint64_t{layout.own_slots} + map.niu_slots, protocol::slot_bytes(stage));
   result.end = allocator.next();
   layout.credits_kept = map.credits_per_pe;
   layout.gather_cycles = map.gather_cycles;
@@ -199,10 +237,8 @@ void MemoryNeed::add(const Mesh& mesh, const Placement& placement, Stage stage, 
     if (!is_most) continue;
     fullest = static_cast<protocol::PeNumber>(pe);
     fullest_stage = stage;
-    fullest_stores = "image " + with_commas(map.stores_begin - protocol::kLocalMemoryBase);
-    for (const auto& [name, store_bytes] : layout.bytes) {
-      fullest_stores += std::string(", ") + name + " " + with_commas(store_bytes);
-    }
+    fullest_stores = layout.bytes;
+    fullest_stores.push_back({"image", Lessened::nothing, map.stores_begin - protocol::kLocalMemoryBase});
   }
 }
 
@@ -214,16 +250,37 @@ MemoryNeed memory_need(const Mesh& mesh, const Placement& radiosity, const Place
   return need;
 }
 
+std::uint64_t MemoryNeed::lessened_by(Lessened by) const {
+  std::uint64_t bytes = 0;
+  for (const StoreBytes& store : fullest_stores) bytes += store.by == by ? store.bytes : 0;
+  return bytes;
+}
+
 std::string MemoryNeed::refusal(std::uint64_t available) const {
-  std::uint64_t enough = protocol::kSmallestLocalMemory;
-  while (enough < most()) enough *= 2;
-  std::string text = "PE " + std::to_string(fullest) + " needs " + with_commas(most()) + " bytes for stage " +
-                     name_of(fullest_stage) + " (" + fullest_stores + "), has " + with_commas(available) + ": use ";
-  if (enough <= protocol::kLargestLocalMemory && enough > available) {
-    text += "--pe-memory " +
-            (enough >= 1U << 20U ? std::to_string(enough >> 20U) + "M" : std::to_string(enough >> 10U) + "K") + ", ";
+  std::vector<StoreBytes> stores = fullest_stores;
+  std::ranges::sort(stores, [this](const StoreBytes& a, const StoreBytes& b) {
+    return std::tuple(lessened_by(b.by), a.by, b.bytes) < std::tuple(lessened_by(a.by), b.by, a.bytes);
+  });
+  std::string text;
+  std::uint64_t rest = 0;
+  std::optional<Lessened> group;
+  for (const auto& [name, by, bytes] : stores) {
+    if (bytes < most() / kSmallPart) {
+      rest += bytes;
+      continue;
+    }
+    text += group == by ? ", " : (group ? "; " : "") + std::string(lessened_words(by)) + ": ";
+    text += std::string(name) + " " + with_commas(bytes);
+    group = by;
   }
-  return text + "more --pes, fewer --subspaces, fewer --texels, or greater --elements and --patches";
+  text += "; all else: " + with_commas(rest);
+  return "PE " + std::to_string(fullest) + " needs " + with_commas(most()) + " bytes for stage " +
+         name_of(fullest_stage) + " (" + text + "), has " + with_commas(available);
+}
+
+std::string memory_text(std::uint64_t bytes) {
+  constexpr std::uint64_t mebibyte = 1U << 20U;
+  return bytes % mebibyte == 0 ? std::to_string(bytes / mebibyte) + "M" : std::to_string(bytes >> 10U) + "K";
 }
 
 std::optional<std::uint32_t> choose_memory(const MemoryNeed& need, std::optional<std::uint32_t> given) {

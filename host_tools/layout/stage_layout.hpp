@@ -36,11 +36,20 @@ struct MemoryMap {
   std::uint32_t gather_cycles = 0, gather_records = 0;  ///< see protocol::NiuWindow::Gather
 };
 
+/// By which option a store becomes smaller.
+enum class Lessened { nothing, pes, subspaces, elements, patches, texels, hemicube, samples };
+
+struct StoreBytes {
+  const char* name;
+  Lessened by;
+  std::uint64_t bytes;
+};
+
 struct PeLayout {
   protocol::StageLayout layout{};  ///< addresses and counts; stores in loading order, record slots last
   std::uint64_t end = 0;           ///< first byte behind the last store; beyond local memory: does not fit
   std::uint64_t load_end = 0;      ///< first byte behind the stores that are loaded (all but the record slots)
-  std::vector<std::pair<const char*, std::uint64_t>> bytes;  ///< of each store, by name
+  std::vector<StoreBytes> bytes;   ///< of each store that is not empty
 };
 
 /// Numbers of the textures that the PE's polygons show, ascending.
@@ -53,13 +62,16 @@ struct MemoryNeed {
   std::vector<std::uint64_t> pe_bytes;  ///< of local memory, image included, greater of both stages
   protocol::PeNumber fullest = 0;
   protocol::Stage fullest_stage = protocol::Stage::radiosity;
-  std::string fullest_stores;  ///< "polygons 1,234, elements 5,678, ..." bytes
+  std::vector<StoreBytes> fullest_stores;  ///< image included
 
   /// A stage with this placement.
   void add(const Mesh& mesh, const Placement& placement, protocol::Stage stage, const StageParameters& parameters,
            const MemoryMap& map);
   std::uint64_t most() const { return pe_bytes[fullest]; }
-  /// What to say where a PE has only `available` bytes: which PE and stage, needed, available, what to change.
+  /// Of the fullest PE's stores, those that `by` makes smaller.
+  std::uint64_t lessened_by(Lessened by) const;
+  /// What to say where a PE has only `available` bytes: which PE and stage, needed, available; its stores by the option
+  /// that lessens them, largest first.
   std::string refusal(std::uint64_t available) const;
 };
 
@@ -70,6 +82,9 @@ MemoryNeed memory_need(const Mesh& mesh, const Placement& radiosity, const Place
 /// given, or the smallest power of two from kDefaultLocalMemory that fits. Absent: it does not fit in any allowed size
 /// (or not in the one given).
 std::optional<std::uint32_t> choose_memory(const MemoryNeed& need, std::optional<std::uint32_t> given);
+
+/// "4M" or "256K", as --pe-memory takes it.
+std::string memory_text(std::uint64_t bytes);
 
 /// 1234567 -> "1,234,567".
 std::string with_commas(std::uint64_t value);

@@ -6,6 +6,8 @@
 #include <deque>
 #include <numbers>
 
+#include "firmware/protocol/machine.hpp"
+#include "firmware/protocol/stores.hpp"
 #include "host_tools/mesh/edges.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -28,8 +30,10 @@ constexpr double kPatchCosine = 0.6427876096865394;    ///< 50 degrees
 constexpr double kScrap = 0.25;
 /// A patch of fewer stays as it is: a small quadrilateral is no finely tessellated surface.
 constexpr std::size_t kFewTriangles = 8;
-/// Nor has one more than this: a patch's owner holds all of it, and a million triangles may lie within one's length.
-constexpr std::size_t kMostTriangles = 4096;
+/// Nor takes one more than this of its owner's memory, which holds all of it: a million triangles may lie within one's
+/// length. An eighth of what PEs have where nothing else is said; not of what they have, as no picture goes by that.
+constexpr std::size_t kMostTriangles =
+    protocol::kDefaultLocalMemory / 8 / (sizeof(protocol::Facet) + sizeof(protocol::PatchPart) + sizeof(std::uint32_t));
 
 double cosine(const Vec3d& a, const Vec3d& b) {
   const double lengths = vec::length(a) * vec::length(b);

@@ -9,6 +9,7 @@
 #include "host_tools/mesh/clusters.hpp"
 #include "host_tools/mesh/element_trees.hpp"
 #include "host_tools/mesh/levels.hpp"
+#include "host_tools/mesh/mesh_size.hpp"
 #include "host_tools/mesh/reflectance.hpp"
 #include "host_tools/mesh/sides.hpp"
 #include "host_tools/mesh/wall_pieces.hpp"
@@ -103,11 +104,21 @@ struct Cutting {
   std::vector<PatchCluster> clusters;
 };
 
-Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
+/// Between a patch whose length is chosen by itself and its elements, whose is not: a patch's owner holds all of them,
+/// with six levels 4,096 of each side, about half of what PEs have where nothing else is said.
+constexpr int kMostLevelsOfPatch = 6;
+static_assert((sizeof(protocol::Element) * 2 + sizeof(protocol::Facet) + sizeof(std::uint32_t))
+                  << 2 * kMostLevelsOfPatch <=
+              protocol::kDefaultLocalMemory * 3 / 4);
+
+Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes, Mesh& mesh) {
   Cutting cutting{std::vector<int>(mesh.triangles.size(), -1), std::vector<int>(mesh.triangles.size(), -1), {}};
   std::vector<CutTriangle> cut;
+  std::vector<SizedTriangle> sized;
   for (const MeshTriangle& triangle : mesh.triangles) {
-    if (triangle.sides != 0) cut.push_back({longest_edge(scene, triangle.position), triangle.area});
+    if (triangle.sides == 0) continue;
+    cut.push_back({longest_edge(scene, triangle.position), triangle.area});
+    sized.push_back({cut.back().longest_edge, triangle.side_count()});
   }
   std::vector<bool> small(mesh.triangles.size(), false);
   MeshLengths& lengths = mesh.lengths;
@@ -116,12 +127,15 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, Mesh& mesh)
     lengths.patch = choice.patch_length.value_or(lengths.patch * choice.patch_factor);
     lengths.element = choice.element_length.value_or(lengths.element * choice.element_factor);
     lengths.cluster = lengths.element * choice.cluster_factor;
+    require_possible(sized, lengths, machine_bytes);
     std::size_t next = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.triangles[t].sides == 0) continue;
       const double edge = cut[next++].longest_edge;
       cutting.patch_level[t] = level_for(edge, lengths.patch);
       cutting.element_level[t] = std::max<int>(cutting.patch_level[t], level_for(edge, lengths.element));
+      if (!choice.patch_length)
+        cutting.patch_level[t] = std::max(cutting.patch_level[t], cutting.element_level[t] - kMostLevelsOfPatch);
       small[t] = edge <= lengths.cluster / 2;
     }
   }
@@ -254,20 +268,7 @@ class PatchMaker {
   std::size_t next_leaf_ = 0;
 };
 
-void require_few_elements(const Mesh& mesh, const std::vector<int>& element_level) {
-  std::uint64_t elements = 0;
-  for (std::size_t t = 0; t < element_level.size(); ++t) {
-    if (element_level[t] < 0) continue;
-    elements += std::uint64_t{mesh.triangles[t].side_count()} *
-                protocol::triangles_of_level(static_cast<std::uint32_t>(element_level[t]));
-  }
-  if (elements <= kMostElements) return;
-  throw InputError("the mesh would have " + std::to_string(elements) + " elements on all sides, at most " +
-                   std::to_string(kMostElements) + " are allowed: use a greater --elements or --patches");
-}
-
 void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh& mesh) {
-  require_few_elements(mesh, cutting.element_level);
   const Leaves leaves = element_leaves(mesh, cutting.element_level, splits);
   PatchMaker maker(mesh, leaves);
   std::size_t next_cluster = 0;
@@ -281,12 +282,12 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
 
 }  // namespace
 
-Mesh make_mesh(const Scene& scene, const MeshChoice& choice) {
+Mesh make_mesh(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes) {
   Mesh mesh;
   mesh.space = scene_space(scene);
   take_triangles(scene, mesh);
   choose_sides(scene, choice, mesh);
-  make_patches(choose_cutting(scene, choice, mesh), choice.splits, mesh);
+  make_patches(choose_cutting(scene, choice, machine_bytes, mesh), choice.splits, mesh);
   for (MeshFacet& facet : mesh.facets) facet.sends_from = sending_part(mesh, facet);
   for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, choice.texels));
   set_reflectances(scene, mesh);

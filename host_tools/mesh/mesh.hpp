@@ -129,11 +129,14 @@ struct Mesh {
   std::uint32_t facet_at(std::uint32_t triangle, float b1, float b2) const;
 };
 
-/// More patch sides or elements than this are refused: about 5 GB of element sums.
+/// More elements than this, of all sides, are refused: about 5 GB of element sums.
 inline constexpr std::uint64_t kMostElements = std::uint64_t{1} << 26U;
+/// Likewise patch sides: each takes a shot or none, and is sorted among those of all PEs.
+inline constexpr std::uint64_t kMostPatchSides = std::uint64_t{1} << 23U;
 
-/// Throws InputError: no surface left, or more than kMostElements.
-Mesh make_mesh(const Scene& scene, const MeshChoice& choice);
+/// Throws InputError: no surface left; more than kMostElements or kMostPatchSides, or more than `machine_bytes` hold
+/// [bytes, of all PEs together]; told by the lengths alone, before any is made.
+Mesh make_mesh(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes = UINT64_MAX);
 
 /// Corners of a triangle of a polygon's grid, normalised.
 std::array<Vec3d, 3> grid_corners(const MeshTriangle& triangle, std::uint32_t code);

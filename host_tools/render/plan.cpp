@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/errors.hpp"
+#include "host_tools/render/advice.hpp"
 #include "host_tools/render/predict.hpp"
 #include "host_tools/render/render.hpp"
 #include "host_tools/render/setup.hpp"
@@ -28,7 +29,7 @@ RenderPlan plan(const Scene& scene, const Camera& camera, const Quality& quality
     plan.local_memory_bytes = setup.memory.value_or(available);
     plan.mean_neighbour_hops =
         mean_neighbour_hops(setup.placement.grid, setup.placement.torus, setup.placement.pe_of_cell);
-    if (!setup.memory) plan.refusals.push_back(setup.need.refusal(available));
+    if (!setup.memory) plan.refusals.push_back(does_not_fit(scene, camera, quality, machine, image, {}, setup));
     plan.notes = setup.notes;
     std::optional<RenderSetup> draft;
     if (quality.refine > 0) {

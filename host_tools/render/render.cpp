@@ -10,6 +10,7 @@
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
 #include "host_tools/mesh/refine.hpp"
+#include "host_tools/render/advice.hpp"
 #include "host_tools/render/course.hpp"
 #include "host_tools/render/frame_layers.hpp"
 #include "host_tools/render/setup.hpp"
@@ -59,7 +60,7 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
 RenderSetup settled_setup(const Scene& scene, const Camera& camera, const Quality& quality,
                           const MachineChoice& machine, const Image& image, const std::vector<Split>& splits) {
   RenderSetup setup = make_setup(scene, camera, quality, machine, image, splits);
-  if (!setup.memory) throw InputError(setup.need.refusal(machine.pe_memory.value_or(protocol::kLargestLocalMemory)));
+  if (!setup.memory) throw InputError(does_not_fit(scene, camera, quality, machine, image, splits, setup));
   return setup;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
+#include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/random.hpp"
 #include "host_tools/render/placements.hpp"
 
@@ -61,6 +62,25 @@ void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality,
   parameters.points_per_quantum = static_cast<float>(points / (kFaintestRecord * kEmittedQuanta));
 }
 
+/// The map of the cells that each PE has is told before they are filled.
+void require_small_map(std::array<std::uint32_t, 3> cells, Scheme scheme, std::uint64_t image, std::uint64_t memory) {
+  const auto bytes = [&cells, scheme] {
+    std::uint64_t count = 1;
+    for (const std::uint32_t n : cells) count *= n;
+    const std::uint64_t entries = scheme == Scheme::paper ? count : 0;  // of cells with anything in them, else
+    return count / 32 * sizeof(protocol::CellWord) + entries * sizeof(protocol::CellEntry);
+  };
+  const std::uint64_t needed = bytes();
+  if (needed + image <= memory) return;
+  while (bytes() > memory / 2) {
+    for (std::uint32_t& n : cells) n = std::max(1U, n / 2);
+  }
+  throw InputError("--subspaces: the map of the subspaces takes " + with_commas(needed) +
+                   " bytes beside the image of each PE, which has " + with_commas(memory) + ": use " +
+                   std::to_string(cells[0]) + "x" + std::to_string(cells[1]) + "x" + std::to_string(cells[2]) +
+                   " or fewer, or more --pe-memory");
+}
+
 }  // namespace
 
 Quality draft_of(Quality quality) {
@@ -84,7 +104,11 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
                        const Image& image, const std::vector<Split>& splits) {
   check(quality, machine);
   RenderSetup setup;
-  setup.mesh = make_mesh(scene, mesh_choice(quality, splits));
+  const std::uint64_t memory = machine.pe_memory.value_or(protocol::kLargestLocalMemory);
+  const std::uint64_t pes = std::uint64_t{machine.columns} * machine.rows;
+  if (machine.subspaces)
+    require_small_map(*machine.subspaces, machine.scheme, image.stores_begin - protocol::kLocalMemoryBase, memory);
+  setup.mesh = make_mesh(scene, mesh_choice(quality, splits), pes * memory);
   setup.notes = setup.mesh.notes;
   setup.units = light_units(scene, setup.mesh, quality.two_sided_lights);
   setup.parameters.seed = machine_seed(quality.seed);

@@ -9,6 +9,7 @@
 
 #include "host_tools/scene/resolve_material.hpp"
 #include "host_tools/scene/statements.hpp"
+#include "host_tools/scene/texture_edges.hpp"
 
 namespace torolux {
 namespace {
@@ -137,14 +138,9 @@ std::uint32_t SceneBuilder::add_texture_points(const ImportedMesh& mesh, const I
     std::array<double, 3> x{};
     for (std::size_t i = 0; i < 3; ++i)
       x[i] = mesh.texture_points[triangle.texture_point[i]][axis] * use.scale[axis] + use.offset[axis];
-    const double least = std::floor(*std::min_element(x.begin(), x.end()));
+    const double least = use.clamp ? 0 : std::floor(*std::min_element(x.begin(), x.end()));
     for (std::size_t i = 0; i < 3; ++i) {
-      constexpr double off_the_edge = 1e-4;
-      if (use.clamp && !(x[i] >= -off_the_edge && x[i] <= 1 + off_the_edge))
-        refuse(place,
-               "a texture point (vt) lies beyond the edge of a texture with -clamp on; textures repeat here: take "
-               "the option out");
-      if (!(std::abs(x[i]) <= kMostCoordinate) || !(x[i] - least <= kMostRepeats))
+      if (!(std::abs(x[i]) <= kMostCoordinate) || !(std::abs(x[i] - least) <= kMostRepeats))
         refuse(place,
                "a texture repeats more than 1,000,000 times over a face; its texture points (vt) are too far apart");
       texture_points_[first + i][axis] = x[i] - least;
@@ -188,7 +184,13 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
     }
     if (materials_[triangle.material].texture != kNoImage)
       triangle.texture_points = add_texture_points(mesh, read, textures[read.material], place);
-    const auto parts = cut.mask ? parts_of(cut, mesh, read, place) : std::nullopt;
+    auto parts = cut.mask ? parts_of(cut, mesh, read, place) : std::nullopt;
+    if (textures[read.material].clamp && lies_beyond_edges(triangle)) {
+      if (cut.mask)
+        refuse(place, "a cut-out with -clamp on whose texture points (vt) lie beyond its edge; take the option out");
+      add_parts_at_edges(triangle, turn, place);
+      continue;
+    }
     if (!parts) add_turned(triangle, turn, place);
     for (std::size_t i = 0; parts && i < parts->size(); ++i) add_turned(part_of(triangle, (*parts)[i]), turn, place);
   }
@@ -255,6 +257,29 @@ SceneTriangle SceneBuilder::part_of(const SceneTriangle& whole, const CutOutPart
     if (whole.normal[0] != kNoNormal) result.normal[i] = added(normals_, mixed(normals_, whole.normal, weights));
   }
   return result;
+}
+
+bool SceneBuilder::lies_beyond_edges(const SceneTriangle& triangle) const {
+  constexpr double off_the_edge = 1e-4;
+  for (std::uint32_t i = 0; triangle.texture_points != kNoImage && i < 3; ++i)
+    for (const double x : texture_points_[triangle.texture_points + i])
+      if (x < -off_the_edge || x > 1 + off_the_edge) return true;
+  return false;
+}
+
+void SceneBuilder::add_parts_at_edges(const SceneTriangle& whole, bool turn, const Place& place) {
+  notices_.note("texture points (vt) beyond a texture with -clamp on: its edges go on there", place);
+  const auto points = [this](std::uint32_t first) {
+    return std::array{texture_points_[first], texture_points_[first + 1], texture_points_[first + 2]};
+  };
+  const auto inset = textures_.half_texel(materials_[whole.material].texture);
+  for (const CutOutPart& one : parts_at_edges(points(whole.texture_points))) {
+    const SceneTriangle part = part_of(whole, one);
+    auto clamped = points(part.texture_points);
+    clamp_to_edges(clamped, inset);
+    std::ranges::copy(clamped, texture_points_.begin() + part.texture_points);
+    add_turned(part, turn, place);
+  }
 }
 
 void SceneBuilder::add_turned(SceneTriangle triangle, bool turn, const Place& place) {

@@ -46,6 +46,9 @@ class SceneBuilder {
   /// Absent: all of the triangle is there.
   std::optional<std::vector<CutOutPart>> parts_of(const CutOut& cut, const ImportedMesh& mesh,
                                                   const ImportedTriangle& read, const Place& place);
+  /// Of its texture.
+  bool lies_beyond_edges(const SceneTriangle& triangle) const;
+  void add_parts_at_edges(const SceneTriangle& whole, bool turn, const Place& place);
   SceneTriangle part_of(const SceneTriangle& whole, const CutOutPart& part);
   void add_turned(SceneTriangle triangle, bool turn, const Place& place);
   void check_corners(ImportedTriangle& triangle, const SceneMaterial& material, bool cut, const Place& place);

@@ -19,6 +19,7 @@ constexpr std::uint32_t kMostPaths = 256;
 /// With fewer nothing is said: light that comes through a door is easily missed.
 constexpr std::uint32_t kLeastPaths = 24;
 constexpr std::uint32_t kMostBounces = 8;
+constexpr double kLeastCosine = 1e-6;
 
 using Names = std::map<std::string, std::uint32_t>;
 
@@ -125,7 +126,10 @@ class LightSearch {
     const Vec3d point = vec::add(vec::scale(scene_.positions[a], 1 - u - v),
                                  vec::add(vec::scale(scene_.positions[b], u), vec::scale(scene_.positions[c], v)));
     const Vec3d way = vec::subtract(point, from);
-    if (!(vec::dot(way, normal) > 0)) return false;
+    // What lies in the plane of a lamp sees nothing of it: there the sign is rounding.
+    const double least = kLeastCosine * vec::length(way);
+    if (!(vec::dot(way, normal) > least) || std::abs(vec::dot(way, front_normal(scene_, emitter))) < least)
+      return false;
     const auto hit = cast(from, way, without);
     if (hit && hit->triangle != emitter && hit->distance < 1 - 1e-6) {
       ++between_[material_of(hit->triangle).name];

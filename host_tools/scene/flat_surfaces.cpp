@@ -11,6 +11,9 @@
 namespace torolux {
 namespace {
 
+/// Of pairs whose planes are near to each other's: some seconds.
+constexpr std::size_t kMostTests = 50'000'000;
+
 struct Edge {
   std::uint32_t low, high, triangle;
   bool upwards;
@@ -166,12 +169,9 @@ bool lies_on(const std::vector<FlatSurface>& surfaces, std::uint32_t upper, std:
   return upper < lower;
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_in_one_plane(const Scene& scene,
-                                                                        const std::vector<FlatSurface>& surfaces,
-                                                                        double size) {
+PlanePairs pairs_in_one_plane(const Scene& scene, const std::vector<FlatSurface>& surfaces, double size) {
   std::vector<std::pair<Cell, std::uint32_t>> entries;
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
-    if (surfaces[s].glass) continue;
     const Vec3d& point = scene.positions[scene.triangles[surfaces[s].triangles[0]].position[0]];
     for (const auto& cell : cells_of(surfaces[s], point, size)) entries.emplace_back(cell, s);
   }
@@ -187,23 +187,29 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_in_one_plane(const Sc
     return std::tie(a.first, surfaces[a.second].box.low[axis], a.second) <
            std::tie(b.first, surfaces[b.second].box.low[axis], b.second);
   });
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-  std::size_t tests_left = 50'000'000;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
+  PlanePairs result;
+  auto& found = result.pairs;
+  std::size_t tests_left = kMostTests;
+  for (std::size_t i = 0; i < entries.size() && !result.too_many; ++i) {
     const FlatSurface& a = surfaces[entries[i].second];
     for (std::size_t k = i + 1; k < entries.size() && entries[k].first == entries[i].first &&
                                 surfaces[entries[k].second].box.low[axis] <= a.box.high[axis];
          ++k) {
-      if (tests_left-- == 0) return {};
+      if (tests_left-- == 0) {
+        result.too_many = true;
+        break;
+      }
       const FlatSurface& b = surfaces[entries[k].second];
-      if (!boxes_overlap(a.box, b.box, size) || stands_on(a, b) || !in_one_plane(scene, a, b, size)) continue;
+      if (a.glass != b.glass || !boxes_overlap(a.box, b.box, size) || stands_on(a, b) ||
+          !in_one_plane(scene, a, b, size))
+        continue;
       const bool first_on_top = lies_on(surfaces, entries[i].second, entries[k].second);
       found.emplace_back(entries[first_on_top ? i : k].second, entries[first_on_top ? k : i].second);
     }
   }
   std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
+  return result;
 }
 
 }  // namespace torolux

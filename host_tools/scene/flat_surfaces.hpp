@@ -21,7 +21,7 @@ struct FlatSurface {
   vec::Box box;
   double area = 0;  ///< [scene units^2]
   bool emits = false;
-  bool glass = false;  ///< is never laid over or under another: its faces part media
+  bool glass = false;  ///< is never laid over or under what is not: its faces part media
   bool solid = false;  ///< of a closed surface with its fronts outwards
 };
 
@@ -31,10 +31,13 @@ std::vector<FlatSurface> flat_surfaces(const Scene& scene, double size);
 /// Which of two lies on top, on both sides: an emitter, then the smaller one, then the one that comes first.
 bool lies_on(const std::vector<FlatSurface>& surfaces, std::uint32_t upper, std::uint32_t lower);
 
-/// Pairs (upper, lower) whose boxes overlap in one plane, ascending. Left out: glass, and what stands on another with a
-/// solid's bottom: it is dark there, as it should be. None where there are too many to look at.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_in_one_plane(const Scene& scene,
-                                                                        const std::vector<FlatSurface>& surfaces,
-                                                                        double size);
+struct PlanePairs {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< (upper, lower), ascending
+  bool too_many = false;                                       ///< to look at: there may be more pairs
+};
+
+/// Those whose boxes overlap in one plane. Left out: glass with anything but glass, and what stands on another with a
+/// solid's bottom: it is dark there, as it should be.
+PlanePairs pairs_in_one_plane(const Scene& scene, const std::vector<FlatSurface>& surfaces, double size);
 
 }  // namespace torolux

@@ -18,8 +18,10 @@ namespace torolux {
 struct TextureUse {
   std::vector<std::string> names;  ///< of the file as written, the likeliest reading first; none: no texture
   std::array<double, 2> scale{1, 1}, offset{0, 0};
-  bool clamp = false;     ///< nothing lies beyond its edges
-  bool optional = false;  ///< the name may be the last number of an option: no texture where it is no file
+  double base = 0, gain = 1;  ///< of the file's values, 0..1: base + gain * value
+  char channel = 0;           ///< of an image of opacity: r, g, b, l (brightness), m (alpha); 0: alpha, else brightness
+  bool clamp = false;         ///< it does not repeat: its edges go on
+  bool optional = false;      ///< the name may be the last number of an option: no texture where it is no file
   Place place;
   std::vector<std::filesystem::path> folders;  ///< where it may lie: the library's, then the mesh's
 

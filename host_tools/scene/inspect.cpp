@@ -34,6 +34,11 @@ double nearest_hit(const Scene& scene, const Vec3d& origin, const Vec3d& directi
   return hit ? hit->distance : HUGE_VAL;
 }
 
+/// A lamp that faces a wall nearer than this, of the scene, and has so many times more way behind it, lights the wall
+/// alone.
+constexpr double kClose = 0.05;
+constexpr double kOpen = 10;
+
 struct Emitter {
   std::uint32_t triangle;
   Vec3d centre, normal;
@@ -56,7 +61,7 @@ void inspect_emitters(const Scene& scene, double size, std::vector<std::string>&
   // Rays cost a pass over the scene each.
   const std::size_t most = std::clamp<std::size_t>(20'000'000 / (scene.triangles.size() + 1), 4, 64);
   struct Count {
-    std::size_t against = 0, away = 0, of = 0;
+    std::size_t against = 0, away = 0, close = 0, of = 0;
   };
   std::map<std::uint32_t, Count> by_material;
   for (const Emitter& emitter : emitters(scene, most)) {
@@ -72,6 +77,7 @@ void inspect_emitters(const Scene& scene, double size, std::vector<std::string>&
     }
     const Vec3d back = vec::scale(emitter.normal, -1);
     const double behind_it = nearest_hit(scene, emitter.centre, back, emitter.triangle);
+    if (ahead < kClose * size && behind_it > kOpen * ahead) ++count.close;
     if (ahead == HUGE_VAL && behind_it > 1e-5 * size && behind_it < HUGE_VAL) ++count.away;
   }
   for (const auto& [material, count] : by_material) {
@@ -84,6 +90,10 @@ void inspect_emitters(const Scene& scene, double size, std::vector<std::string>&
     if (count.away > 0)
       found.push_back(which + std::to_string(count.away) +
                       " have nothing before their front but something behind; they look inverted "
+                      "(--two-sided-lights makes both sides shine)");
+    if (count.close == count.of)
+      found.push_back(which +
+                      "all face a surface close before them, with open space behind; they look inverted "
                       "(--two-sided-lights makes both sides shine)");
   }
 }

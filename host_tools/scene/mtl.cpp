@@ -66,7 +66,8 @@ SceneMaterial mapped(const tinyobj::material_t& read, const CheckedMaterial& che
 }
 
 bool same(const TextureUse& a, const TextureUse& b) {
-  return a.names == b.names && a.scale == b.scale && a.offset == b.offset && a.clamp == b.clamp;
+  return a.names == b.names && a.scale == b.scale && a.offset == b.offset && a.clamp == b.clamp && a.base == b.base &&
+         a.gain == b.gain && a.channel == b.channel;
 }
 
 /// Equal but for where it stands.

@@ -16,6 +16,13 @@
 namespace torolux {
 namespace {
 
+/// Of a JPEG, within which its segments of programs lie if they are where they should be.
+constexpr std::size_t kMostHeader = 65536;
+constexpr std::string_view kAdobeSegment(
+    "\xFF\xEE\0\x0E"
+    "Adobe",
+    9);  // APP14, its length
+
 struct Decoder {
   const std::string& file;
   const Place& place;
@@ -91,16 +98,32 @@ struct Decoder {
     if (tjDecompressHeader3(reader.get(), from, size, &width, &height, &sampling, &space) != 0)
       damaged(tjGetErrorStr2(reader.get()));
     check_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
-    if (space == TJCS_CMYK || space == TJCS_YCCK) damaged("its colours are CMYK; save it in RGB");
     SceneTexture texture{file, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
     texture.texels.resize(std::size_t{texture.width} * texture.height);
-    if (tjDecompress2(reader.get(), from, size, texture.texels.data()->data(), width, 0, height, TJPF_RGB,
-                      TJFLAG_ACCURATEDCT) != 0) {
+    const auto decode = [&](unsigned char* pixels, int format) {
+      if (tjDecompress2(reader.get(), from, size, pixels, width, 0, height, format, TJFLAG_ACCURATEDCT) == 0) return;
       const std::string why = tjGetErrorStr2(reader.get());
       if (tjGetErrorCode(reader.get()) != TJERR_WARNING || why.find("Premature end") != std::string::npos) damaged(why);
       notices.note("a JPEG is not quite as it should be, and read all the same", place, why);
+    };
+    if (space == TJCS_CMYK || space == TJCS_YCCK) {
+      std::vector<std::array<std::uint8_t, 4>> inks(texture.texels.size());
+      decode(inks.data()->data(), TJPF_CMYK);
+      notices.note("a JPEG of four inks (CMYK) is read as what they leave of white", place, file);
+      from_inks(inks, bytes.find(kAdobeSegment) < kMostHeader, texture.texels);
+    } else {
+      decode(texture.texels.data()->data(), TJPF_RGB);
     }
     return {std::move(texture), {}};
+  }
+
+  /// left_white: values are what an ink leaves, as Adobe's programs have them, who mark their files.
+  static void from_inks(std::span<const std::array<std::uint8_t, 4>> inks, bool left_white,
+                        std::vector<std::array<std::uint8_t, 3>>& texels) {
+    for (std::size_t i = 0; i < inks.size(); ++i) {
+      const auto left = [&](std::size_t ink) { return left_white ? inks[i][ink] : 255 - inks[i][ink]; };
+      for (std::size_t c = 0; c < 3; ++c) texels[i][c] = static_cast<std::uint8_t>((left(c) * left(3) + 127) / 255);
+    }
   }
 };
 

@@ -57,19 +57,35 @@ class TextureArguments {
     } else if (name == "-t") {
       if (numbers(name, {0, 0, 0}) != std::vector<double>{0, 0, 0}) refuse_option(name, "turbulence");
     } else if (name == "-mm") {
-      if (numbers(name, {0, 1}) != std::vector<double>{0, 1}) refuse_option(name, "base and gain; change the image");
+      const std::vector<double> values = numbers(name, {0, 1});
+      use.base = values[0];
+      use.gain = values[1];
+      if (use.base != 0 || use.gain != 1)
+        notices_.note("option -mm of " + keyword_ + ": an image's values are base + gain times what is in the file",
+                      place_);
     } else if (name == "-clamp") {
       use.clamp = switched() && words_[next_ - 1] == "on";
     } else if (name == "-cc") {
-      if (switched() && words_[next_ - 1] == "on") refuse_option(name, "colour correction");
+      if (switched() && words_[next_ - 1] == "on")
+        notices_.note("option -cc of " + keyword_ + ": colours are corrected in the one way that there is, from sRGB",
+                      place_);
     } else if (name == "-imfchan" && next_ + 1 < words_.size() && words_[next_].size() == 1) {
-      ++next_;
-      refuse_option(name, "one channel of an image; save it as a grey image");
+      channel(words_[next_++][0], name, use);
     } else if (name == "-colorspace" && next_ + 1 < words_.size()) {
       if (equal_but_for_case(words_[next_++], "linear")) refuse_option(name, "linear values; save it as sRGB");
     } else {
       pass_over(name);
     }
+  }
+
+  /// The format gives it to images of one value; what of a colour it would leave can be understood in two ways.
+  void channel(char channel, std::string_view name, TextureUse& use) {
+    if (!equal_but_for_case(keyword_, "map_d"))
+      refuse_option(name, "one channel of an image; save it as a grey image");
+    else if (std::string_view("rgblm").find(channel) == std::string_view::npos)
+      refuse_option(name, "channels of map_d are r, g, b, l and m");
+    else
+      use.channel = channel;
   }
 
   void pass_over(std::string_view name) {

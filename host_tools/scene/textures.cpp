@@ -26,6 +26,23 @@ void fill_hidden(DecodedImage& image) {
   }
 }
 
+std::uint8_t with_base_and_gain(std::uint8_t value, const TextureUse& use) {
+  if (use.base == 0 && use.gain == 1) return value;
+  return static_cast<std::uint8_t>(std::lround(std::clamp(255 * use.base + use.gain * value, 0.0, 255.0)));
+}
+
+/// Into the image's alpha.
+void opacity_of(char channel, DecodedImage& image) {
+  if (channel == 'm' && image.alpha.empty()) image.alpha.assign(image.colours.texels.size(), 255);
+  if (channel == 'm' || (channel == 0 && !image.alpha.empty())) return;
+  image.alpha.clear();
+  const std::size_t colour = std::string_view("rgb").find(channel);
+  for (const auto& texel : image.colours.texels) {
+    const int mean = (texel[0] + texel[1] + texel[2] + 1) / 3;
+    image.alpha.push_back(colour < 3 ? texel[colour] : static_cast<std::uint8_t>(mean));
+  }
+}
+
 }  // namespace
 
 double linear_of_srgb(std::uint8_t value) {
@@ -58,9 +75,12 @@ std::optional<std::string> TextureLibrary::find(const TextureUse& use) const {
 std::uint32_t TextureLibrary::load(const TextureUse& use) {
   const auto file = find(use);
   if (!file) return kNoImage;
-  const auto [entry, fresh] = number_.emplace(*file, static_cast<std::uint32_t>(textures_.size()));
+  const auto [entry, fresh] =
+      number_.emplace(std::tuple(*file, use.base, use.gain), static_cast<std::uint32_t>(textures_.size()));
   if (!fresh) return entry->second;
   DecodedImage image = decode_texture(files_.read(*file, use.place, kMostImageBytes), *file, use.place, notices_);
+  for (auto& texel : image.colours.texels)
+    for (std::uint8_t& value : texel) value = with_base_and_gain(value, use);
   masks_.emplace_back();
   if (!image.alpha.empty()) {
     notices_.note("the alpha of a texture cuts its faces out: less than one half is not there", use.place,
@@ -77,11 +97,15 @@ std::optional<CutOutMask> TextureLibrary::load_mask(const TextureUse& use) {
   if (!file) return std::nullopt;
   DecodedImage image = decode_texture(files_.read(*file, use.place, kMostImageBytes), *file, use.place, notices_);
   notices_.note("map_d cuts faces out: less than one half is not there", use.place, in_quotes(*file));
-  if (image.alpha.empty()) {
-    for (const auto& [r, g, b] : image.colours.texels)
-      image.alpha.push_back(static_cast<std::uint8_t>((r + g + b + 1) / 3));
-  }
+  opacity_of(use.channel, image);
+  for (std::uint8_t& value : image.alpha) value = with_base_and_gain(value, use);
   return cut_out_mask(image.alpha, image.colours.width, image.colours.height);
+}
+
+std::array<double, 2> TextureLibrary::half_texel(std::uint32_t texture) const {
+  constexpr double usual_edge = 128;  // 16,384 texels
+  return {0.5 / std::min<double>(textures_[texture].width, usual_edge),
+          0.5 / std::min<double>(textures_[texture].height, usual_edge)};
 }
 
 Vec3d TextureLibrary::brightest(std::uint32_t texture) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "host_tools/scene/cut_out.hpp"
@@ -37,6 +38,8 @@ class TextureLibrary {
   /// The mask that an image of opacity (map_d) is: its alpha, or where it has none, its brightness. Absent: nowhere,
   /// and white stands for it. Throws InputError as load does.
   std::optional<CutOutMask> load_mask(const TextureUse& use);
+  /// Half a texel of it in u and v, of the machine's where those are larger as usual.
+  std::array<double, 2> half_texel(std::uint32_t texture) const;
   /// The greatest of each channel, linear.
   Vec3d brightest(std::uint32_t texture) const;
   std::vector<SceneTexture> take() { return std::move(textures_); }
@@ -48,7 +51,7 @@ class TextureLibrary {
   SceneFiles& files_;
   MissingMaterials missing_;
   Notices& notices_;
-  std::map<std::string, std::uint32_t> number_;  // by file
+  std::map<std::tuple<std::string, double, double>, std::uint32_t> number_;  // by file, base and gain
   std::vector<SceneTexture> textures_;
   std::vector<std::optional<CutOutMask>> masks_;  // of textures_
 };

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -54,6 +55,88 @@ TEST(Render, WritesAllThatWasAskedFor) {
   EXPECT_THAT(compared.output, testing::ContainsRegex("differing pixels +0\n"));
 }
 
+// A room of 6 x 3 x 6 m, fronts inwards, or outwards; its lamp, 2 x 2 m; a box in it; another skin around the room.
+struct Room {
+  const char* name;
+  std::string obj;
+  const char* eye;
+  std::vector<const char*> told;     ///< by `info` and `render`
+  const char* told_after = nullptr;  ///< by `render` alone
+};
+
+std::string level_square(const char* material, double height, bool up) {
+  std::string text = std::string("usemtl ") + material + "\n";
+  for (const char* xz : {"-1 -1", "1 -1", "1 1", "-1 1"}) {
+    const std::string both = xz;
+    const std::size_t blank = both.find(' ');
+    text += "v " + both.substr(0, blank) + " " + std::to_string(height) + both.substr(blank) + "\n";
+  }
+  return text + (up ? "f -1 -2 -3 -4\n" : "f -4 -3 -2 -1\n");
+}
+
+const std::string kInwards = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 4 1 5 8\nf 2 3 7 6\nf 3 4 8 7\n";
+const std::string kOutwards = "f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 8 5 1 4\nf 6 7 3 2\nf 7 8 4 3\n";
+const std::string kSmallBox =
+    "usemtl box\nv 1 1 1\nv 2 1 1\nv 2 1 2\nv 1 1 2\nv 1 2 1\nv 2 2 1\nv 2 2 2\nv 1 2 2\n"
+    "f -5 -6 -7 -8\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -5 -8 -4 -1\nf -7 -6 -2 -3\nf -6 -5 -1 -2\n";
+constexpr const char* kInRoom = "[0, 1.6, 2.8]";
+
+const std::vector<Room> kRooms{
+    {"sound", kInwards + level_square("lamp", 2.9, false), kInRoom, {}},
+    {"doubled", kInwards + kOutwards + level_square("lamp", 2.9, false), kInRoom, {"a surface that stands twice"}},
+    {"overlapping", kInwards + level_square("lamp", 3, false), kInRoom, {"'lamp' on 'wall'"}},
+    {"inverted", kInwards + level_square("lamp", 2.9, false) + kSmallBox, kInRoom, {"has its fronts inwards"}},
+    {"room_inside_out", kOutwards + level_square("lamp", 2.9, false) + kSmallBox, kInRoom, {"has its fronts outwards"}},
+    {"lamp_to_wall", kInwards + level_square("lamp", 2.9, true), kInRoom, {"face a surface close before them"}},
+    {"lamp_above",
+     kInwards + level_square("lamp", 3.1, false),
+     kInRoom,
+     {"'wall' stands between"},
+     "the picture is black"},
+    {"lamp_away",
+     kInwards + level_square("lamp", 3, true),
+     kInRoom,
+     {"'lamp' turns its back"},
+     "lamps that face away?"},
+    {"camera_outside",
+     kInwards + level_square("lamp", 2.9, false),
+     "[0, 1.6, 8]",
+     {"back sides only ('wall' most)"},
+     "the picture is black"}};
+
+// What changes a picture greatly is told by both, word by word.
+TEST(Render, TellsWhatInfoTells) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.path() / name) << text;
+    return (folder.path() / name).string();
+  };
+  write("room.mtl", "newmtl wall\nKd 0.6 0.6 0.6\nnewmtl box\nKd 0.3 0.3 0.6\nnewmtl lamp\nKd 0 0 0\nKe 8 8 8\n");
+  for (const Room& room : kRooms) {
+    write("room.obj",
+          "mtllib room.mtl\nv -3 0 -3\nv 3 0 -3\nv 3 0 3\nv -3 0 3\nv -3 3 -3\nv 3 3 -3\nv 3 3 3\nv -3 3 3\n"
+          "usemtl wall\n" +
+              room.obj);
+    const std::string scene = write("room.toml", std::string("[camera]\neye = ") + room.eye +
+                                                     "\nlook_at = [0, 1.2, -3]\n[[mesh]]\nfile = 'room.obj'\n");
+    Arguments arguments = small_render_options();
+    arguments.insert(arguments.begin(), {"render", scene, "--output", (folder.path() / "room.pfm").string()});
+    const Finished render = run_torolux(arguments);
+    const Finished info = run_torolux({"info", scene});
+    ASSERT_EQ(render.exit_code, 0) << render.errors;
+    for (const char* told : room.told) {
+      EXPECT_THAT(info.output, HasSubstr(told)) << room.name;
+      EXPECT_THAT(render.errors, HasSubstr(told)) << room.name;
+    }
+    if (room.told.empty()) {
+      EXPECT_THAT(render.errors, testing::Not(testing::ContainsRegex("note: [^m]"))) << room.name;
+    }
+    if (room.told_after != nullptr) {
+      EXPECT_THAT(render.errors, HasSubstr(room.told_after)) << room.name;
+    }
+  }
+}
+
 TEST(Render, IsTheSameEveryTime) {
   const TemporaryFolder folder;
   const auto run = [&](const std::string& name, const Arguments& more) {
@@ -95,6 +178,37 @@ TEST(Render, SavedRadiositiesGiveTheSameViewWithoutShots) {
   EXPECT_EQ(damaged.exit_code, 2);
   EXPECT_THAT(damaged.errors, HasSubstr("a.rad"));
   EXPECT_FALSE(std::filesystem::exists(file("none.pfm")));
+}
+
+// A refined file, too: what its splits were chosen for is refused, and the options that mend it do; what they do not
+// depend on gives the picture of a full run.
+TEST(Render, RefinedRadiositiesServeTheirOwnSettingsAlone) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto refined = [&](Arguments more) {
+    more.insert(more.begin(), {"--refine", "0.5", "--direct", "shadow-rays", "--quiet"});
+    return run_torolux(small_render(more));
+  };
+  ASSERT_EQ(refined({"--output", file("a.pfm"), "--save-radiosity", file("a.rad")}).exit_code, 0);
+  for (const Arguments& other : {Arguments{"--direct", "radiosity"}, {"--refine", "0.25"}, {"--seed", "2"}}) {
+    Arguments more{"--output", file("b.pfm"), "--radiosity", file("a.rad")};
+    const std::vector<std::string> given{"--refine", "0.5", "--direct", "shadow-rays", "--quiet"};
+    for (std::size_t i = 0; i + 1 < given.size(); i += 2)
+      if (given[i] != other[0]) more.insert(more.end(), {given[i], given[i + 1]});
+    more.insert(more.end(), other.begin(), other.end());
+    const Finished run = run_torolux(small_render(more));
+    EXPECT_EQ(run.exit_code, 2) << other[0];
+    EXPECT_THAT(run.errors, HasSubstr("give " + other[0] + " ")) << other[0];
+  }
+  const Arguments view{"--filter",  "tent",        "--eye",        "100,300,-500",
+                       "--look-at", "278,273,300", "--allocation", "skewed"};
+  const auto with_view = [&](Arguments more) {
+    more.insert(more.end(), view.begin(), view.end());
+    return refined(more);
+  };
+  ASSERT_EQ(with_view({"--output", file("whole.pfm")}).exit_code, 0);
+  ASSERT_EQ(with_view({"--output", file("view.pfm"), "--radiosity", file("a.rad")}).exit_code, 0);
+  EXPECT_EQ(contents(file("view.pfm")), contents(file("whole.pfm")));
 }
 
 /// A render that goes on for minutes.

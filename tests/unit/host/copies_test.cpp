@@ -59,7 +59,7 @@ class Copies : public testing::Test {
 
 std::uint64_t bytes_of(const PeLayout& layout, const std::set<std::string>& stores) {
   std::uint64_t sum = 0;
-  for (const auto& [name, bytes] : layout.bytes) sum += stores.count(name) > 0 ? bytes : 0;
+  for (const StoreBytes& store : layout.bytes) sum += stores.count(store.name) > 0 ? store.bytes : 0;
   return sum;
 }
 

@@ -237,7 +237,12 @@ TEST_F(LayoutTest, MemoryIsChosenOrRefusedWithTheNumbers) {
             std::string::npos)
       << refusal;
   EXPECT_NE(refusal.find("has 100,000"), std::string::npos) << refusal;
-  EXPECT_NE(refusal.find("--pe-memory 256K"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("(fixed: image 100,004, record slots "), std::string::npos) << "largest first: " << refusal;
+  EXPECT_NE(refusal.find("; less by greater --elements: lattice "), std::string::npos) << refusal;
+  std::uint64_t all = 0;
+  for (const StoreBytes& store : need.fullest_stores) all += store.bytes;
+  EXPECT_LE(all, need.most());
+  EXPECT_GT(all + 8 * need.fullest_stores.size(), need.most()) << "but for what stores are aligned by";
 }
 
 TEST(WithCommas, GroupsByThree) {

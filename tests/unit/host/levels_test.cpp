@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <tuple>
+
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/mesh.hpp"
+#include "host_tools/mesh/mesh_size.hpp"
 #include "tests/unit/host/test_scenes.hpp"
 
 namespace torolux {
@@ -31,6 +35,46 @@ TEST(Levels, AutomaticCountsSuitASmallScene) {
   EXPECT_LE(mesh.patches.size(), 600U);
   EXPECT_GE(mesh.elements, 2500U);
   EXPECT_LE(mesh.elements, 9000U);
+}
+
+// What lengths ask for is counted before anything is made, and is what is made where there are no walls.
+TEST(Levels, WhatNoMachineHoldsIsRefusedBeforeItIsMade) {
+  test::SceneBuilder builder;
+  builder.quad(builder.material({0.5, 0.5, 0.5}), {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
+  const Mesh mesh = make_mesh(builder.scene, {.patch_length = 0.3, .element_length = 0.1});
+  const std::vector<SizedTriangle> triangles(2, {std::sqrt(2.0), 2});
+  const MeshSize size = least_size(triangles, mesh.lengths);
+  EXPECT_EQ(size.patches, mesh.patches.size());
+  EXPECT_EQ(size.patch_sides, mesh.patch_sides);
+  EXPECT_EQ(size.elements, mesh.elements);
+  EXPECT_NO_THROW(make_mesh(builder.scene, {.patch_length = 0.3, .element_length = 0.1}, 1)) << "soon made";
+  // A thousand triangles of both sides: the least lengths of those asked for, times powers of 2^(1/2), with which there
+  // are at most 2^23 patch sides (1/64), 2^26 elements (1/128), or bytes as given or 2^20 elements (1/16).
+  const std::vector<SizedTriangle> many(1000, {1.0, 2});
+  for (const auto& [lengths, machine, words] :
+       {std::tuple(MeshLengths{1e-6, 1e-6, 0}, UINT64_MAX, "use at least --elements 0.0164 --patches 0.0164"),
+        {MeshLengths{0.3, 1e-6, 0}, UINT64_MAX, "use at least --elements 0.0082"},
+        {MeshLengths{1e-6, 0.3, 0}, UINT64_MAX, "use at least --patches 0.0164"},
+        {MeshLengths{0.3, 0.01, 0}, std::uint64_t{1} << 26U, "use at least --elements 0.0801"}}) {
+    try {
+      require_possible(many, lengths, machine);
+      ADD_FAILURE() << words;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+}
+
+// A patch's owner holds all its elements: a patch that is chosen by itself leaves room for them, one that is given does
+// not change.
+TEST(Levels, APatchChosenByItselfFitsIntoMemory) {
+  test::SceneBuilder builder;
+  builder.quad(builder.material({0.5, 0.5, 0.5}), {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
+  const MeshChoice choice{.element_length = 0.006, .patch_factor = 100};
+  for (const MeshPatch& patch : make_mesh(builder.scene, choice).patches) EXPECT_EQ(patch.elements, 4096U);
+  MeshChoice given = choice;
+  given.patch_length = 2;
+  EXPECT_EQ(make_mesh(builder.scene, given).patches.size(), 2U);
 }
 
 // What a surface is made of does not matter: 70,000 small triangles of one surface get no more patches than a few.

@@ -119,6 +119,56 @@ TEST_F(RadiosityFileTest, SplitsForAnotherDirectLightAreRefused) {
   EXPECT_THROW(check_radiosity(saved, scene_, quality_), InputError) << "known before there is a mesh";
 }
 
+/// A setting changed, and the word by which the refusal names it; null: the file serves both.
+struct Change {
+  void (*make)(Quality&);
+  const char* named;
+};
+
+// Every member of Quality: what splits and sums depend on is refused, before there is a mesh as well; the view is free.
+TEST_F(RadiosityFileTest, EverySettingOfTheSolutionIsRefusedAndNoOther) {
+  // One that is added does not compile here until it stands in the list below.
+  [[maybe_unused]] const auto [width, height, samples, filter, layers, patch_length, element_length, patch_factor,
+                               element_factor, cluster_factor, refine, hemicube, shot_points, emission_records, unshot,
+                               max_shots, bounces, shadow_rays, two_sided_lights, texels, seed] = quality_;
+  const Change changes[]{{[](Quality& q) { q.width = 9; }, nullptr},
+                         {[](Quality& q) { q.height = 9; }, nullptr},
+                         {[](Quality& q) { q.samples = 9; }, nullptr},
+                         {[](Quality& q) { q.filter = PixelFilter::tent; }, nullptr},
+                         {[](Quality& q) { q.layers = 1; }, nullptr},
+                         {[](Quality& q) { q.patch_length = 0.7; }, "--patches 0.9"},
+                         {[](Quality& q) { q.element_length = 0.7; }, "--elements 0.9"},
+                         {[](Quality& q) { q.patch_factor = 3; }, "--quality"},
+                         {[](Quality& q) { q.element_factor = 3; }, "--quality"},
+                         {[](Quality& q) { q.cluster_factor = 0.5; }, "--elements"},
+                         {[](Quality& q) { q.refine = 3; }, "--refine 4"},
+                         {[](Quality& q) { q.hemicube = 12; }, "--hemicube"},
+                         {[](Quality& q) { q.shot_points = 3; }, "--shot-points"},
+                         {[](Quality& q) { q.emission_records = 3; }, "--emission-records"},
+                         {[](Quality& q) { q.unshot = 0.3; }, "--unshot"},
+                         {[](Quality& q) { q.max_shots = 3; }, "--max-shots"},
+                         {[](Quality& q) { q.bounces = 3; }, "--bounces"},
+                         {[](Quality& q) { q.shadow_rays = false; }, "--direct shadow-rays"},
+                         {[](Quality& q) { q.two_sided_lights = true; }, "--two-sided-lights"},
+                         {[](Quality& q) { q.texels = 3; }, "--texels"},
+                         {[](Quality& q) { q.seed = 3; }, "--seed"}};
+  quality_.refine = 4;
+  const auto bytes = pack_radiosity(radiosity_origin(scene_, quality_, mesh_), splits_, solution_);
+  const SavedRadiosity saved = parse_radiosity(bytes, "file");
+  for (const auto& [make, named] : changes) {
+    Quality changed = quality_;
+    make(changed);
+    const std::string refused = refusal(bytes, radiosity_origin(scene_, changed, mesh_));
+    if (named == nullptr) {
+      EXPECT_EQ(refused, "");
+      EXPECT_NO_THROW(check_radiosity(saved, scene_, changed));
+    } else {
+      EXPECT_NE(refused.find(named), std::string::npos) << named << ": " << refused;
+      EXPECT_THROW(check_radiosity(saved, scene_, changed), InputError) << named;
+    }
+  }
+}
+
 TEST_F(RadiosityFileTest, ImpossibleFluxIsRefused) {
   solution_.sides[2].shot = {1000000, 0, 0};
   EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_), "");

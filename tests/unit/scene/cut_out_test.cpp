@@ -198,7 +198,22 @@ TEST(CutOut, MapDLeavesAHoleWithoutATexture) {
   EXPECT_NEAR(whole_area(load_texts(card("illum 7\nNi 1.5\nmap_d leaf.png\n", image), "a.obj")), 1, 1e-12) << "glass";
   EXPECT_NEAR(whole_area(load_texts(card("illum 3\nKs 0.9\nmap_d leaf.png\n", image), "a.obj")), 0.75, 1e-7);
   EXPECT_THAT(refusal(card("map_d gone.png\n", image), "a.obj"), StartsWith("a.mtl:3: there is no texture 'gone.png'"));
-  EXPECT_THAT(refusal(card("map_d -mm 0 2 leaf.png\n", image), "a.obj"), HasSubstr("option -mm of map_d"));
+  EXPECT_NEAR(whole_area(load_texts(card("map_d -mm 0 2 leaf.png\n", image), "a.obj")), 1, 1e-12) << "100 becomes 200";
+  EXPECT_NEAR(whole_area(load_texts(card("map_d -mm 0.3 1 leaf.png\n", image), "a.obj")), 1, 1e-12);
+  EXPECT_THAT(refusal(card("map_d -mm 0 0.4 leaf.png\n", image), "a.obj"), HasSubstr("no surface"));
+}
+
+// 200, 100, 50 and there, but for the four in the middle: 0, 100, 50 and not there.
+TEST(CutOut, MapDByAChannel) {
+  const std::array<std::pair<const char*, double>, 5> left{{{"r", 0.75}, {"g", 0}, {"b", 0}, {"l", 0}, {"m", 0.75}}};
+  for (const auto& [channel, area] : left) {
+    const std::string line = std::string("map_d -imfchan ") + channel + " leaf.png\n";
+    Texts texts = card(line, frame_image());
+    texts["a.obj"] += "v 0 0 9\nv 1 0 9\nv 0 1 9\nusemtl white\nf -3 -2 -1\n";  // what is left of all is a surface
+    texts["a.mtl"] += "newmtl white\nKd 1 1 1\n";
+    EXPECT_NEAR(whole_area(load_texts(texts, "a.obj")), area + 0.5, 1e-7) << channel;
+  }
+  EXPECT_THAT(refusal(card("map_d -imfchan z leaf.png\n", frame_image()), "a.obj"), HasSubstr("r, g, b, l and m"));
 }
 
 TEST(CutOut, FrontsNormalsAndFlipsStay) {

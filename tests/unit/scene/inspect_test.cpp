@@ -66,6 +66,10 @@ TEST(Inspect, EmittersAgainstAWallOrFacingAway) {
               Contains(HasSubstr("have their front against another surface")));
   EXPECT_THAT(inspected("usemtl wall\nv 0 0 0\nv 10 0 0\nv 10 0 10\nv 0 0 10\nf 4 3 2 1\n" + lamp(5, true)),
               Contains(HasSubstr("look inverted")));
+  EXPECT_THAT(inspected(box(0, 10, true, "wall") + lamp(9.8, true)),
+              Contains(HasSubstr("face a surface close before them")));
+  EXPECT_THAT(inspected(box(0, 10, true, "wall") + lamp(9, true)), IsEmpty()) << "an uplight";
+  EXPECT_THAT(inspected(box(0, 10, true, "wall") + box(9.7, 9.8, false, "lamp")), IsEmpty()) << "on all sides";
 }
 
 TEST(Inspect, SurfacesThatAreLeftInOnePlane) {
@@ -105,6 +109,8 @@ TEST(InspectView, BlackPicturesSayWhy) {
               testing::ElementsAre(HasSubstr("stands behind a wall or inside a solid")));
   EXPECT_THAT(viewed(lamp(9.9) + box(4.5, 9.5, true, "black"), kMiddle, {7, 7, 7}),
               testing::ElementsAre(HasSubstr("it reflects nothing ('black' most)")));
+  // In the ceiling's plane, so that the ceiling is cut out around it, and facing out.
+  EXPECT_THAT(viewed(lamp(10, true), kInside, kMiddle), testing::ElementsAre(HasSubstr("'lamp' turns its back on it")));
   // A shaft around the camera, and a lamp on its lid that faces out.
   const std::string away = box(4, 6, true, "wall") + lamp(5.9, true);
   EXPECT_THAT(viewed(away, kMiddle, {5, 4.5, 5.5}), testing::ElementsAre(HasSubstr("'lamp' turns its back on it")));
