@@ -90,9 +90,9 @@ class ByteRing {
   std::size_t bytes() const { return kMostBytes >> halvings_; }
   std::size_t place(std::uint64_t at) const { return (at - start_) & (bytes() - 1); }
 
-  std::uint32_t halvings_;
   alignas(64) std::atomic<std::uint64_t> written_;  ///< bytes ever written, gaps included
   std::uint64_t start_;                             ///< those before the ring's start; the writer's
+  std::uint32_t halvings_;                          ///< who needs one of these needs all, so they share a line
   alignas(64) std::atomic<std::uint64_t> read_;     ///< bytes ever read
   alignas(64) std::array<std::byte, kMostBytes> data_;
 };

@@ -152,10 +152,15 @@ struct Departures {
   std::array<std::atomic<std::uint64_t>, kMostSendQueue> time;  ///< of number n at n & mask: as few lines as needed
 
   void set_places(std::uint32_t places) { mask = std::bit_ceil(places) - 1; }
-  void add(std::uint64_t when) {
-    const std::uint64_t n = count.load(std::memory_order_relaxed);
+  /// Number n, which is how many have left before.
+  void add(std::uint64_t n, std::uint64_t when) {
     time[n & mask].store(when, std::memory_order_relaxed);
     count.store(n + 1, std::memory_order_release);
+  }
+  /// What `add` of number n needs, into the caches. places: as set.
+  void fetch_ahead(std::uint64_t n, std::uint32_t places) const {
+    __builtin_prefetch(&count, 1);
+    __builtin_prefetch(&time[n & (std::bit_ceil(places) - 1)], 1);
   }
   /// Number n must have left, and number n + places not yet have been sent.
   std::uint64_t when(std::uint64_t n) const { return time[n & mask].load(std::memory_order_relaxed); }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <memory>
 #include <random>
 #include <set>
@@ -43,7 +44,7 @@ TEST(EventQueue, OrderIsTimeThenSourceThenSequence) {
 
 /// Pushes and pops in turn, near, far and backwards in time, at the time of what was just popped too.
 TEST(EventQueue, KeepsTheOrderWhilePushingAndPopping) {
-  for (const std::uint32_t spread : {1U, 3U, 50U, 2000U, 1'000'000U}) {
+  for (const std::uint32_t spread : {1U, 3U, 50U, 2000U, 40'000U, 1'000'000U}) {
     constexpr std::uint32_t kSources = 7;
     EventQueue queue(kSources);
     std::minstd_rand random(spread);
@@ -69,6 +70,39 @@ TEST(EventQueue, KeepsTheOrderWhilePushingAndPopping) {
       now = std::max(now, event.time);
     }
   }
+}
+
+class Announced final : public EventWatcher {
+ public:
+  void soon(const Event& event) override { announced.emplace(event.block, event.time); }
+  std::map<std::uint32_t, Cycles> announced;  ///< by block
+};
+
+TEST(EventQueue, TellsOfWhatWasPushedLongBefore) {
+  EventQueue queue(1);
+  Announced watcher;
+  queue.watch(&watcher);
+  std::minstd_rand random(11);
+  std::vector<Cycles> pushed_at;
+  Cycles now = 0;
+  for (int step = 0; step < 20'000; ++step) {
+    if (random() % 2 == 0) {
+      queue.push(now + random() % 20'000, 0, EventKind::command, 0, 0, static_cast<std::uint32_t>(pushed_at.size()));
+      pushed_at.push_back(now);
+    }
+    if (queue.empty() || random() % 2 == 0) continue;
+    const Event event = queue.pop();
+    now = event.time;
+    const bool told = watcher.announced.contains(event.block);
+    const Cycles ahead = event.time - pushed_at[event.block];
+    if (ahead >= 2 * EventQueue::kSpan) {
+      ASSERT_TRUE(told) << ahead;
+      ASSERT_EQ(watcher.announced.at(event.block), event.time);
+    } else if (ahead <= EventQueue::kSpan) {
+      ASSERT_FALSE(told) << "it was near at once: " << ahead;
+    }
+  }
+  EXPECT_GT(watcher.announced.size(), 1000U);
 }
 
 TEST(BoundTree, GivesTheLeastAndTheLowestOfEquals) {
