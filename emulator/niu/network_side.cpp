@@ -34,8 +34,7 @@ NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, c
   channel.copy_bytes = copy_bytes_;
   channel.most_cycles_between_hints = machine.processor.most_cycles_between_hints;
   const std::uint32_t ring_bytes = waker != nullptr || pes > kManyPes ? kLeastRingBytes : kMostRingBytes;
-  channel.commands.set_bytes(ring_bytes);
-  channel.arrivals.set_bytes(ring_bytes);
+  channel.set_ring_bytes(channel.ring_bytes != 0 ? std::min(channel.ring_bytes, ring_bytes) : ring_bytes);
   channel.processor.first_free = kNoSlot;
   channel.bound.store(kCommandCycles);
   channel.wanted.store(kNever);

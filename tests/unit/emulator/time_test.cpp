@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <deque>
 #include <map>
 #include <memory>
@@ -11,7 +13,9 @@
 #include <tuple>
 #include <vector>
 
+#include "emulator/engines/shared_memory.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/niu/processor_side.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/fifo.hpp"
@@ -169,8 +173,15 @@ TEST(Slices, HoldWhateverTheOrderAndTheLength) {
   }
 }
 
+struct RingAndBytes {
+  ByteRing<Arrival, 4096, kRingBytes> ring;
+  std::array<std::byte, 4096> bytes;
+};
+static_assert(offsetof(RingAndBytes, bytes) == kRingBytes);
+
 TEST(ByteRing, KeepsEntriesWholeAcrossItsEnd) {
-  const auto ring = std::make_unique<ByteRing<Arrival, 4096>>();
+  const auto both = std::make_unique<RingAndBytes>();
+  auto* const ring = &both->ring;
   std::minstd_rand random(9);
   std::vector<std::vector<std::byte>> inside;
   std::uint64_t pushed = 0;
@@ -195,8 +206,40 @@ TEST(ByteRing, KeepsEntriesWholeAcrossItsEnd) {
   EXPECT_GT(popped, 5000U);
 }
 
+/// Channels with rings of any size have all of them where there is memory for them, and apart.
+TEST(ByteRing, LiesInItsOwnMemory) {
+  for (const std::uint32_t bytes : {kLeastRingBytes, kMostRingBytes}) {
+    SharedMemory memory("test-channel", channel_bytes(bytes));
+    NiuChannel& channel = *niu_channel_at(memory.bytes().data());
+    channel.set_ring_bytes(bytes);
+    const std::vector<std::byte> payload(500, std::byte{7});
+    std::uint32_t pushed = 0;
+    while (channel.commands.has_room(payload.size())) {
+      channel.commands.push({pushed, CommandKind::release, 0, 0, 0, 0, 0}, payload);
+      channel.arrivals.push({pushed, 0, 0, 0, 0, 0, 0}, payload);
+      ++pushed;
+    }
+    EXPECT_GT(pushed, bytes / 600);
+    EXPECT_GT(reinterpret_cast<const std::byte*>(channel.commands.front()), memory.bytes().data());
+    for (std::uint32_t i = 0; i < pushed; ++i) {
+      const Command* command = channel.commands.front();
+      const Arrival* arrival = channel.arrivals.front();
+      ASSERT_EQ(command->time, i);
+      ASSERT_EQ(arrival->time, i);
+      ASSERT_TRUE(std::ranges::equal(channel.commands.payload(*command), payload));
+      ASSERT_TRUE(std::ranges::equal(channel.arrivals.payload(*arrival), payload));
+      const auto* end = channel.arrivals.payload(*arrival).data() + payload.size();
+      ASSERT_LE(end, memory.bytes().data() + memory.bytes().size());
+      channel.commands.pop(*command);
+      channel.arrivals.pop(*arrival);
+    }
+    EXPECT_TRUE(channel.commands.empty() && channel.arrivals.empty());
+  }
+}
+
 TEST(ByteRing, BeginsAtItsStartWheneverItIsEmpty) {
-  const auto ring = std::make_unique<ByteRing<Arrival, 4096>>();
+  const auto both = std::make_unique<RingAndBytes>();
+  auto* const ring = &both->ring;
   const std::vector<std::byte> payload(100);
   ring->push({0, 1, 2, 3, 4, 0, 0}, payload);
   const Arrival* first = ring->front();
