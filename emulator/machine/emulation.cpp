@@ -40,6 +40,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
       signal_cycles_(setup.description.signal_cycles()) {
   cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
+  events_.watch(this);
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
   stages_.push_back({"run", network_figures(0)});
 }
@@ -92,6 +93,21 @@ void Emulation::handle(const Event& event) {
       pixels_done(event.block);
       break;
   }
+}
+
+/// Nearly all commands are known long before. What each touches has mostly left the caches since its PE ran last.
+void Emulation::soon(const Event& event) {
+  if (event.kind != EventKind::command) return;
+  const unsigned pe = event.actor;
+  nius_[pe].fetch_ahead();
+  torus_.fetch_ahead(pe);
+  __builtin_prefetch(&parts_[pe], 1);
+  if (const BlockIndex block = PendingCommand::block_of(event); block != kNoBlock) pool_.fetch_ahead(block);
+}
+
+void Emulation::coming(unsigned pe) {
+  nius_[pe].fetch_ahead();
+  __builtin_prefetch(&parts_[pe], 1);
 }
 
 void Emulation::command(unsigned pe, const PendingCommand& command) {
@@ -227,7 +243,7 @@ bool Emulation::accept(unsigned pe, BlockIndex block) {
     if (!niu.has_receive_buffer()) return false;
     niu.reserve_slots(records);
     niu.reserve_receive_buffer();
-    niu.fetch_ahead();
+    niu.fetch_arrivals_ahead();
     return true;
   }
   if (parts_[pe].diverting != kNoBlock) return false;

@@ -21,7 +21,7 @@
 namespace torolux {
 
 /// Single-threaded. PEs run elsewhere, or when it asks their engine to; they meet it in their channels only.
-class Emulation final : private TorusClient, private BusClient, private HostClient {
+class Emulation final : private TorusClient, private BusClient, private HostClient, private EventWatcher {
  public:
   /// channels: zeroed, one per PE. image: for messages about faults. All references outlive this.
   Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image, Engine& engine,
@@ -60,6 +60,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
 
   // ---- Events ----
   void handle(const Event& event);
+  void soon(const Event& event) override;
   void command(unsigned pe, const PendingCommand& command);
   void deliver(unsigned pe, BlockIndex block);
   void drop(unsigned pe, BlockIndex block);
@@ -85,6 +86,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   // ---- TorusClient, BusClient ----
   void injected(unsigned pe, Cycles tail) override;
   bool accept(unsigned pe, BlockIndex block) override;
+  void coming(unsigned pe) override;
   BusSend take(BusRequester requester) override;
 
   /// What belongs to a PE beside its NIU's account.

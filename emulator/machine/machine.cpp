@@ -68,13 +68,26 @@ void check(const MachineSetup& setup) {
   check_queue("bus.send_queue_messages", setup.description.bus.send_queue_messages);
 }
 
-/// on_qemu: other processes must be able to map it.
-PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, bool on_qemu) {
+/// From one channel of a PE in this process to the next: dense, so that all of them are in a few large pages and need
+/// no place in each page's tables; and each a line further on in its page.
+std::size_t channel_stride() {
+  return (small_niu_channel_bytes() + protocol::kPageBytes - 1) / protocol::kPageBytes * protocol::kPageBytes +
+         kCacheLine;
+}
+
+/// channels: of the PEs that this process runs. on_qemu: other processes must be able to map it.
+PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, const SharedMemory& channels,
+                 bool on_qemu) {
   const std::string name = "torolux-pe" + std::to_string(pe);
-  const auto use = engine_runs_here(setup.engine) && !on_qemu ? SharedMemory::Use::here : SharedMemory::Use::shared;
-  PeMemory memory{SharedMemory(name + "-niu", niu_channel_bytes(), use, pe % kCacheColours * kCacheLine),
-                  SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes), use, pe % kCacheColours * kCacheLine),
-                  setup.local_memory_bytes};
+  const bool here = engine_runs_here(setup.engine) && !on_qemu;
+  const std::size_t bytes = small_niu_channel_bytes();
+  PeMemory memory{
+      here ? SharedMemory::part_of(channels, pe * channel_stride(), bytes)
+           : SharedMemory(name + "-niu", niu_channel_bytes()),
+      SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes),
+                   here ? SharedMemory::Use::here : SharedMemory::Use::shared, pe % kCacheColours * kCacheLine),
+      setup.local_memory_bytes};
+  if (here) niu_channel_at(memory.channel.bytes().data())->ring_bytes = kLeastRingBytes;
   const auto local = memory.local.bytes().first(setup.local_memory_bytes);
   image.load_into(local);
   const std::uint32_t offset = image.niu_window - protocol::kLocalMemoryBase;
@@ -97,6 +110,7 @@ PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, boo
 struct Machine::Parts {
   MachineSetup setup;
   Image image;
+  SharedMemory channel_memory;  // of the PEs that this process runs
   std::vector<PeMemory> pes;
   std::vector<NiuChannel*> channels;
   std::unique_ptr<Engine> engine;
@@ -129,9 +143,12 @@ Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::ma
   p.image = image;
   const unsigned pes = setup.columns * setup.rows;
   const std::vector<bool> on_qemu = setup.debugging.on_qemu(pes);
+  if (engine_runs_here(setup.engine)) {
+    p.channel_memory = SharedMemory("torolux-niu", pes * channel_stride(), SharedMemory::Use::densely);
+  }
   p.pes.reserve(pes);
   for (unsigned pe = 0; pe < pes; ++pe) {
-    p.pes.push_back(make_pe(pe, setup, image, on_qemu[pe]));
+    p.pes.push_back(make_pe(pe, setup, image, p.channel_memory, on_qemu[pe]));
     p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
   }
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());

@@ -3,7 +3,6 @@
 // and its payload, each contiguous; enters at `push`, leaves in the same order at `front` and `pop`.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -18,23 +17,27 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "shared between p
 
 /// Header: a struct that begins with `std::uint64_t time` and has `std::uint32_t bytes`, the payload's length.
 /// Zeroed memory is an empty ring. kMostBytes: a power of two. An entry that finds the ring empty lies at its start: a
-/// thousand rings that are mostly empty then live in the caches, and not each of their bytes in turn.
-template <class Header, std::uint32_t kMostBytes>
+/// thousand rings that are mostly empty then live in the caches, and not each of their bytes in turn. Its bytes lie
+/// kBehind bytes behind the ring's own beginning, or nearer: several rings that do not use all of theirs lie densely.
+template <class Header, std::uint32_t kMostBytes, std::size_t kBehind>
 class ByteRing {
   static_assert((kMostBytes & (kMostBytes - 1)) == 0 && sizeof(Header) % 8 == 0);
 
  public:
   static constexpr std::size_t entry_bytes(std::size_t payload) { return sizeof(Header) + (payload + 7) / 8 * 8; }
 
-  /// Of the memory, only so much is used (and so becomes resident): a power of two, at most kMostBytes. Before all
-  /// else.
-  void set_bytes(std::uint32_t bytes) { halvings_ = static_cast<std::uint32_t>(std::countr_zero(kMostBytes / bytes)); }
+  /// Of its bytes, only so many are used: a power of two, at most kMostBytes. nearer: by how much they lie nearer than
+  /// kBehind. Before all else.
+  void set_bytes(std::uint32_t bytes, std::uint32_t nearer) {
+    halvings_ = static_cast<std::uint32_t>(std::countr_zero(kMostBytes / bytes));
+    nearer_ = nearer;
+  }
 
   /// Both ends, into the caches.
   void fetch_ahead() const {
     __builtin_prefetch(&written_, 1);
     __builtin_prefetch(&read_, 1);
-    __builtin_prefetch(&data_, 1);
+    __builtin_prefetch(data(), 1);
   }
 
   // ---- writer ----
@@ -52,11 +55,11 @@ class ByteRing {
     const std::size_t entry = entry_bytes(payload.size());
     if (bytes() - place(at) < entry) {
       const std::uint64_t skip = kSkip;
-      std::memcpy(&data_[place(at)], &skip, sizeof skip);
+      std::memcpy(&data()[place(at)], &skip, sizeof skip);
       at += bytes() - place(at);
     }
-    std::memcpy(&data_[place(at)], &header, sizeof header);
-    if (!payload.empty()) std::memcpy(&data_[place(at)] + sizeof header, payload.data(), payload.size());
+    std::memcpy(&data()[place(at)], &header, sizeof header);
+    if (!payload.empty()) std::memcpy(&data()[place(at)] + sizeof header, payload.data(), payload.size());
     written_.store(at + entry, std::memory_order_release);
   }
 
@@ -68,12 +71,12 @@ class ByteRing {
     if (empty()) return nullptr;
     std::uint64_t at = read_.load(std::memory_order_relaxed);
     std::uint64_t time = 0;
-    std::memcpy(&time, &data_[place(at)], sizeof time);
+    std::memcpy(&time, &data()[place(at)], sizeof time);
     if (time == kSkip) {
       at += bytes() - place(at);
       read_.store(at, std::memory_order_release);
     }
-    return reinterpret_cast<const Header*>(&data_[place(at)]);
+    return reinterpret_cast<const Header*>(&data()[place(at)]);
   }
   static std::span<const std::byte> payload(const Header& header) {
     return {reinterpret_cast<const std::byte*>(&header) + sizeof header, header.bytes};
@@ -87,14 +90,18 @@ class ByteRing {
   /// In place of a time: the next entry begins at the ring's start.
   static constexpr std::uint64_t kSkip = std::numeric_limits<std::uint64_t>::max();
 
+  std::byte* data() { return reinterpret_cast<std::byte*>(this) + (kBehind - nearer_); }
+  const std::byte* data() const { return reinterpret_cast<const std::byte*>(this) + (kBehind - nearer_); }
   std::size_t bytes() const { return kMostBytes >> halvings_; }
   std::size_t place(std::uint64_t at) const { return (at - start_) & (bytes() - 1); }
 
-  std::uint32_t halvings_;
   alignas(64) std::atomic<std::uint64_t> written_;  ///< bytes ever written, gaps included
   std::uint64_t start_;                             ///< those before the ring's start; the writer's
+  std::uint32_t halvings_, nearer_;                 ///< who needs one of these needs all, so they share a line
   alignas(64) std::atomic<std::uint64_t> read_;     ///< bytes ever read
-  alignas(64) std::array<std::byte, kMostBytes> data_;
 };
+
+/// Size of each ring, without its bytes.
+inline constexpr std::size_t kRingBytes = 128;
 
 }  // namespace torolux

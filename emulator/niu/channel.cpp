@@ -12,6 +12,9 @@ namespace torolux {
 std::size_t niu_channel_bytes() {
   return sizeof(NiuChannel);
 }
+std::size_t small_niu_channel_bytes() {
+  return channel_bytes(kLeastRingBytes);
+}
 std::uint64_t niu_channel_layout() {
   const std::array<std::size_t, 7> facts{sizeof(NiuChannel),           offsetof(NiuChannel, wanted),
                                          offsetof(NiuChannel, asleep), offsetof(NiuChannel, processor),

@@ -154,10 +154,15 @@ struct Departures {
   std::array<std::atomic<std::uint64_t>, kMostSendQueue> time;  ///< of number n at n & mask: as few lines as needed
 
   void set_places(std::uint32_t places) { mask = std::bit_ceil(places) - 1; }
-  void add(std::uint64_t when) {
-    const std::uint64_t n = count.load(std::memory_order_relaxed);
+  /// Number n, which is how many have left before.
+  void add(std::uint64_t n, std::uint64_t when) {
     time[n & mask].store(when, std::memory_order_relaxed);
     count.store(n + 1, std::memory_order_release);
+  }
+  /// What `add` of number n needs, into the caches. places: as set.
+  void fetch_ahead(std::uint64_t n, std::uint32_t places) const {
+    __builtin_prefetch(&count, 1);
+    __builtin_prefetch(&time[n & (std::bit_ceil(places) - 1)], 1);
   }
   /// Number n must have left, and number n + places not yet have been sent.
   std::uint64_t when(std::uint64_t n) const { return time[n & mask].load(std::memory_order_relaxed); }
@@ -207,6 +212,7 @@ struct NiuChannel {
   std::uint32_t pes;
   std::uint32_t copy_bytes;  ///< in a cycle of a copy engine; 0: copies take no time
   std::uint64_t most_cycles_between_hints;
+  std::uint32_t ring_bytes;  ///< there is memory for so many in each ring; 0: kMostRingBytes
 
   // Written by the processor's side.
   alignas(64) std::atomic<std::uint64_t> bound;  ///< no command with an earlier time will come
@@ -235,15 +241,28 @@ struct NiuChannel {
   alignas(64) Departures torus_departures;
   alignas(64) Departures bus_departures;
   alignas(64) ProcessorState processor;
-  ByteRing<Command, kMostRingBytes> commands;
-  ByteRing<Arrival, kMostRingBytes> arrivals;
+  ByteRing<Command, kMostRingBytes, 2 * kRingBytes> commands;
+  ByteRing<Arrival, kMostRingBytes, kRingBytes + kMostRingBytes> arrivals;
+  alignas(64) std::array<std::byte, std::size_t{2} * kMostRingBytes> rings;  ///< the last: it need not be there whole
+
+  /// Each ring uses so many bytes: a power of two.
+  void set_ring_bytes(std::uint32_t bytes) {
+    commands.set_bytes(bytes, 0);
+    arrivals.set_bytes(bytes, kMostRingBytes - bytes);
+  }
 };
+static_assert(offsetof(NiuChannel, rings) - offsetof(NiuChannel, commands) == 2 * kRingBytes);
+static_assert(offsetof(NiuChannel, rings) - offsetof(NiuChannel, arrivals) == kRingBytes);
+/// Of a channel whose rings have so many bytes each.
+constexpr std::size_t channel_bytes(std::uint32_t ring_bytes) {
+  return offsetof(NiuChannel, rings) + std::size_t{2} * ring_bytes;
+}
 
 /// When the next command takes effect, if it is ready at this clock: commands stay in their order.
 inline std::uint64_t command_time(ProcessorState& state, std::uint64_t clock) {
   state.last_command = state.last_command > clock + kCommandCycles ? state.last_command : clock + kCommandCycles;
   return state.last_command;
 }
-static_assert(sizeof(NiuChannel) - 2 * (kMostRingBytes - kLeastRingBytes) <= 62U * 1024U);
+static_assert(channel_bytes(kLeastRingBytes) <= 62U * 1024U);
 
 }  // namespace torolux

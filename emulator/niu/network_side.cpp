@@ -19,12 +19,13 @@ constexpr std::chrono::microseconds kLongestSleep{20'000};
 
 NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine,
                                ProcessorWaker* waker)
-    : channel_(&channel),
+    : receive_buffers_(machine.ideal.niu ? std::numeric_limits<std::uint32_t>::max() : machine.niu.receive_packets),
+      copy_bytes_(machine.ideal.niu ? 0 : machine.niu.bytes_per_cycle),
+      channel_(&channel),
       waker_(waker),
       pe_(pe),
-      control_buffers_(machine.bus.control_buffers),
-      receive_buffers_(machine.ideal.niu ? std::numeric_limits<std::uint32_t>::max() : machine.niu.receive_packets),
-      copy_bytes_(machine.ideal.niu ? 0 : machine.niu.bytes_per_cycle) {
+      torus_places_(machine.torus.send_queue_packets),
+      control_buffers_(machine.bus.control_buffers) {
   channel.torus_queue = machine.torus.send_queue_packets;
   channel.bus_queue = machine.bus.send_queue_messages;
   channel.torus_departures.set_places(channel.torus_queue);
@@ -33,8 +34,7 @@ NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, c
   channel.copy_bytes = copy_bytes_;
   channel.most_cycles_between_hints = machine.processor.most_cycles_between_hints;
   const std::uint32_t ring_bytes = waker != nullptr || pes > kManyPes ? kLeastRingBytes : kMostRingBytes;
-  channel.commands.set_bytes(ring_bytes);
-  channel.arrivals.set_bytes(ring_bytes);
+  channel.set_ring_bytes(channel.ring_bytes != 0 ? std::min(channel.ring_bytes, ring_bytes) : ring_bytes);
   channel.processor.first_free = kNoSlot;
   channel.bound.store(kCommandCycles);
   channel.wanted.store(kNever);
@@ -65,13 +65,13 @@ WaitKind NiuNetworkSide::waits_for() const {
       waits = wakes_ <= count;
       break;
     case WaitKind::poll:
-      waits = channel_->horizon.load(std::memory_order_relaxed) <= count && channel_->arrivals.empty();
+      waits = horizon_ <= count && gathered_.empty();
       break;
     case WaitKind::torus_place:
-      waits = channel_->torus_departures.count.load(std::memory_order_relaxed) < count;
+      waits = departed_torus_ < count;
       break;
     case WaitKind::bus_place:
-      waits = channel_->bus_departures.count.load(std::memory_order_relaxed) < count;
+      waits = departed_bus_ < count;
       break;
     default:
       break;
@@ -142,7 +142,8 @@ WaitKind NiuNetworkSide::says() const {
 void NiuNetworkSide::publish_horizon(Cycles horizon) {
   // What waits for room in the ring is not known to the processor.
   if (!overflow_.empty()) horizon = std::min(horizon, overflow_.front().time);
-  if (channel_->horizon.load(std::memory_order_relaxed) >= horizon) return;
+  if (horizon_ >= horizon) return;
+  horizon_ = horizon;
   channel_->horizon.store(horizon, std::memory_order_release);
   if (says() == WaitKind::poll) wake_processor();  // it may just have begun to
 }
@@ -309,9 +310,9 @@ void NiuNetworkSide::refill(BlockPool& pool) {
   if (any) wake_processor();
 }
 
-void NiuNetworkSide::left(Departures& departures, Cycles when, PeTimes& times) {
+void NiuNetworkSide::left(Departures& departures, std::uint64_t& departed, Cycles when, PeTimes& times) {
   const bool waited = waits_for() != WaitKind::running;
-  departures.add(when);
+  departures.add(departed++, when);
   if (waited && waits_for() == WaitKind::running) {
     floor_ = std::max(floor_, when + kCommandCycles);  // it goes on no earlier
     set_times(times);

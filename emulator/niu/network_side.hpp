@@ -25,10 +25,12 @@ struct PendingCommand {
   BlockIndex block;  ///< kNoBlock: no payload
 
   /// As drain made it of what came through the ring.
-  PendingCommand(const Event& event, const BlockPool& pool) : kind(static_cast<CommandKind>(event.port)) {
-    const bool alone = kind == CommandKind::release;
-    block = alone ? kNoBlock : event.block;
-    released = alone ? event.block : block != kNoBlock ? pool[block].released : 0;
+  PendingCommand(const Event& event, const BlockPool& pool)
+      : kind(static_cast<CommandKind>(event.port)), block(block_of(event)) {
+    released = kind == CommandKind::release ? event.block : block != kNoBlock ? pool[block].released : 0;
+  }
+  static BlockIndex block_of(const Event& event) {
+    return static_cast<CommandKind>(event.port) == CommandKind::release ? kNoBlock : event.block;
   }
 };
 
@@ -38,7 +40,8 @@ struct PeTimes {
   BoundTree releases;  ///< once everything before is known, a PE that waits for just that may go on
 };
 
-class NiuNetworkSide {
+/// Its members stand in lines of the caches by who needs them together: there are a thousand of these.
+class alignas(64) NiuNetworkSide {
  public:
   /// channel: zeroed. Event source of the PE = pe. waker: none where the processor sleeps on its channel.
   NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine,
@@ -91,21 +94,29 @@ class NiuNetworkSide {
 
   // ---- Towards the processor ----
 
-  /// A packet is about to be delivered: what that needs of the channel, fetched into the caches meanwhile.
+  /// A packet will soon be delivered, or a command take effect: what that needs here, fetched into the caches
+  /// meanwhile.
   void fetch_ahead() const {
+    __builtin_prefetch(&slots_, 1);
+    __builtin_prefetch(&channel_, 1);
+    __builtin_prefetch(&gathered_, 1);
+    __builtin_prefetch(&horizon_, 1);
+  }
+  /// The same of the channel, for a packet that is about to be delivered; after fetch_ahead.
+  void fetch_arrivals_ahead() const {
     channel_->arrivals.fetch_ahead();
     __builtin_prefetch(&channel_->wait);
-    __builtin_prefetch(&gathered_);
+    gathered_.fetch_ahead();
   }
-  /// The same for a packet that is about to leave the outgoing queue.
-  void fetch_departures_ahead() const { __builtin_prefetch(&channel_->torus_departures, 1); }
+  /// And for one that is about to leave the outgoing queue.
+  void fetch_departures_ahead() const { channel_->torus_departures.fetch_ahead(departed_torus_, torus_places_); }
   /// A packet or message, its room reserved, has come at `now`. The block belongs to the NIU from here on.
   void deliver(BlockIndex block, Cycles now, BlockPool& pool, PeTimes& times);
   /// The same of a message that others get, too: the block stays the caller's.
   void deliver_copy(const Block& message, Cycles now, BlockPool& pool, PeTimes& times);
   /// A place in an outgoing queue comes free at `when`, which is not before now.
-  void left_torus_queue(Cycles when, PeTimes& times) { left(channel_->torus_departures, when, times); }
-  void left_bus_queue(Cycles when, PeTimes& times) { left(channel_->bus_departures, when, times); }
+  void left_torus_queue(Cycles when, PeTimes& times) { left(channel_->torus_departures, departed_torus_, when, times); }
+  void left_bus_queue(Cycles when, PeTimes& times) { left(channel_->bus_departures, departed_bus_, when, times); }
 
   /// What comes from now on belongs to this stage of the host's program.
   void set_stage(std::uint32_t stage) { stage_ = stage; }
@@ -123,7 +134,7 @@ class NiuNetworkSide {
   void gather(const Block& block, Cycles now);
   void push_arrival(const Block& block, Cycles time, std::uint32_t stage);
   void arrived(PeTimes& times);
-  void left(Departures& departures, Cycles when, PeTimes& times);
+  void left(Departures& departures, std::uint64_t& departed, Cycles when, PeTimes& times);
   void wake_processor();
   void signal_processor();
   bool set_times(PeTimes& times) const;
@@ -136,31 +147,38 @@ class NiuNetworkSide {
     BlockIndex block;
   };
 
-  NiuChannel* channel_;
-  ProcessorWaker* waker_;
-  unsigned pe_;
   /// An arrival that the processor has not taken.
   struct Gathered {
     Cycles time;
     std::uint32_t records;  // 0: a message
   };
 
+  // Accounts of slots and buffers.
+  std::uint32_t slots_ = 0, used_ = 0, high_water_ = 0;
+  std::uint32_t receive_buffers_, receiving_ = 0, receiving_high_water_ = 0;
+  std::uint32_t copy_bytes_;                        // in a cycle; 0: copies take no time
+  std::array<std::uint32_t, kHostQueues> asked_{};  // slots, by HostQueue
+  bool bus_buffer_used_ = false;
+  Cycles copy_free_ = 0, copy_in_cycles_ = 0;
+  // Waits.
+  alignas(64) NiuChannel* channel_;
+  ProcessorWaker* waker_;
   Cycles floor_ = kCommandCycles;  // no command with an earlier time
   Cycles bound_ = kCommandCycles;  // as of the last refresh, like the two that follow
   std::uint64_t wait_ = 0;
   std::uint64_t taken_ = 0;
   std::uint64_t wakes_ = 0;  // as in the channel
-  Fifo<Gathered> gathered_;  // numbers taken_ and up
+  unsigned pe_;
   std::uint32_t stage_ = 0;
+  // Arrivals.
+  alignas(64) Fifo<Gathered> gathered_;  // numbers taken_ and up
+  Fifo<Overflow> overflow_;              // delivered, but the ring was full
+  // As in the channel, which need not be fetched for it.
+  alignas(64) std::uint64_t horizon_ = 0;
+  std::uint64_t departed_torus_ = 0, departed_bus_ = 0;
+  std::uint32_t torus_places_;
   std::uint32_t sends_ = 0;
-  std::uint32_t slots_ = 0, used_ = 0, high_water_ = 0;
   std::uint32_t control_buffers_, control_used_ = 0;
-  std::uint32_t receive_buffers_, receiving_ = 0, receiving_high_water_ = 0;
-  std::uint32_t copy_bytes_;  // in a cycle; 0: copies take no time
-  Cycles copy_free_ = 0, copy_in_cycles_ = 0;
-  std::array<std::uint32_t, kHostQueues> asked_{};  // slots, by HostQueue
-  bool bus_buffer_used_ = false;
-  Fifo<Overflow> overflow_;  // delivered, but the ring was full
 };
 
 }  // namespace torolux

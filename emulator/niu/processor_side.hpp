@@ -14,6 +14,8 @@ struct NiuChannel;
 
 /// Bytes of a channel, and the channel that lies (zeroed or in use) at `memory`, aligned to 4096.
 std::size_t niu_channel_bytes();
+/// The same with rings of kLeastRingBytes, which the channel's `ring_bytes` must say.
+std::size_t small_niu_channel_bytes();
 NiuChannel* niu_channel_at(void* memory);
 /// Differs between builds whose channels are laid out differently: both sides must be from one build.
 std::uint64_t niu_channel_layout();

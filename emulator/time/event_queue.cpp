@@ -1,70 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The queue of events: pushed in any order, popped by (time, source, sequence number).
+// The queue of events: what few of them need. Pushed in any order, popped by (time, source, sequence number).
 #include "emulator/time/event_queue.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace torolux {
 
 namespace {
 constexpr std::size_t kChildren = 4;
-}
-
-void EventQueue::push(Cycles time, std::uint32_t source, EventKind kind, std::uint16_t actor, std::uint8_t port,
-                      std::uint32_t block) {
-  const std::uint64_t order = (std::uint64_t{source} << 32U) | sequence_[source]++;
-  const bool far = time - now_ >= kWindow;  // earlier ones too: the difference wraps
-  if (!far && !(open_ && time == now_)) {
-    Node& node = push_near(time);
-    node.event = {time, order, block, actor, port, kind};
-    return;
-  }
-  const Event event{time, order, block, actor, port, kind};
-  return far ? push_far(event) : push_open(event);
-}
-
-/// Among the events of this cycle that have not gone yet.
-void EventQueue::push_open(const Event& event) {
-  opened_.push_back(event);
-  std::size_t at = opened_.size() - 1;
-  for (; at > popped_ && event.order < opened_[at - 1].order; --at) opened_[at] = opened_[at - 1];
-  opened_[at] = event;
-}
-
-/// A place for an event of this time, to be filled where it stands.
-EventQueue::Node& EventQueue::push_near(Cycles time) {
-  std::uint32_t node = free_;
-  if (node == kNobody) {
-    node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
-  } else {
-    free_ = nodes_[node].next;
-  }
-  const std::size_t number = time % kWindow;
-  nodes_[node].next = lists_[number];
-  lists_[number] = node;
-  filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
-  near_ = std::min(near_, time);
-  return nodes_[node];
-}
-
-Event EventQueue::pop() {
-  const Cycles time = next_time();
-  if (time < now_) return pop_far();
-  if (!open_) open(time);
-  const Event result = opened_[popped_++];
-  if (popped_ == opened_.size()) {
-    open_ = false;
-    near_ = next_near();
-  }
-  return result;
-}
+/// Of as few as this, each is inserted in its turn.
+constexpr std::size_t kFew = 16;
+}  // namespace
 
 /// The events of this time, the earliest of all, with what the heap has of it, in order.
 void EventQueue::open(Cycles time) {
   now_ = near_ = time;
+  if (time / kSpan != span_) advance(time / kSpan);
   popped_ = 0;
   open_ = true;
   opened_.clear();
@@ -74,14 +25,26 @@ void EventQueue::open(Cycles time) {
     const std::uint32_t next = std::exchange(nodes_[node].next, free_);
     free_ = std::exchange(node, next);
   }
-  while (!heap_.empty() && heap_.front().time == time) opened_.push_back(pop_far());
+  while (heap_least_ == time) opened_.push_back(pop_heap());
   filled_[number / kWord] &= ~(std::uint64_t{1} << (number % kWord));
-  if (opened_.size() > 1) {
+  if (opened_.size() > 1) sort_opened();
+}
+
+void EventQueue::sort_opened() {
+  if (opened_.size() > kFew) {
     std::ranges::sort(opened_, [](const Event& a, const Event& b) { return a.order < b.order; });
+    return;
+  }
+  for (std::size_t i = 1; i < opened_.size(); ++i) {
+    if (opened_[i - 1].order < opened_[i].order) continue;
+    const Event event = opened_[i];
+    std::size_t at = i;
+    for (; at != 0 && event.order < opened_[at - 1].order; --at) opened_[at] = opened_[at - 1];
+    opened_[at] = event;
   }
 }
 
-/// The earliest time after now_ with an event in a bucket.
+/// The earliest time after now_ with an event in a list.
 Cycles EventQueue::next_near() const {
   const std::size_t first = (now_ + 1) % kWindow;
   std::size_t word = first / kWord;
@@ -95,7 +58,49 @@ Cycles EventQueue::next_near() const {
   return now_ + 1 + (number + kWindow - first) % kWindow;
 }
 
+// ---- Later spans ----
+
 void EventQueue::push_far(const Event& event) {
+  const std::uint64_t span = event.time / kSpan;
+  if (event.time < now_ || span - span_ > kSpans + 1) return push_heap(event);
+  const std::size_t number = span % kSpans;
+  later_[number].push_back(event);
+  later_filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
+  later_least_ = std::min(later_least_, event.time);
+}
+
+/// now_ has come to this span; no event is left in those before.
+void EventQueue::advance(std::uint64_t span) {
+  const std::uint64_t dealt = std::exchange(span_, span) + 1;
+  for (std::uint64_t s = std::max(span, dealt + 1); s <= span + 1; ++s) deal_out(s);
+}
+
+void EventQueue::deal_out(std::uint64_t span) {
+  const std::size_t number = span % kSpans;
+  std::vector<Event>& events = later_[number];
+  if (events.empty()) return;
+  for (const Event& event : events) {
+    push_near(event.time) = event;
+    if (watcher_ != nullptr) watcher_->soon(event);
+  }
+  events.clear();
+  later_filled_[number / kWord] &= ~(std::uint64_t{1} << (number % kWord));
+  later_least_ = least_of_later();
+}
+
+Cycles EventQueue::least_of_later() const {
+  for (std::uint64_t span = span_ + 1; span <= span_ + 1 + kSpans; ++span) {
+    const std::size_t number = span % kSpans;
+    if ((later_filled_[number / kWord] >> (number % kWord) & 1U) == 0) continue;
+    const auto least = std::ranges::min_element(later_[number], {}, &Event::time);
+    return least->time;
+  }
+  return kNone;
+}
+
+// ---- The heap ----
+
+void EventQueue::push_heap(const Event& event) {
   std::size_t at = heap_.size();
   heap_.push_back(event);
   while (at != 0) {
@@ -105,13 +110,15 @@ void EventQueue::push_far(const Event& event) {
     at = parent;
   }
   heap_[at] = event;
+  heap_least_ = heap_.front().time;
 }
 
-Event EventQueue::pop_far() {
+Event EventQueue::pop_heap() {
   const Event result = heap_.front();
   const Event last = heap_.back();
   heap_.pop_back();
   const std::size_t size = heap_.size();
+  heap_least_ = kNone;
   if (size == 0) return result;
   std::size_t at = 0;
   for (;;) {
@@ -126,6 +133,7 @@ Event EventQueue::pop_far() {
     at = least;
   }
   heap_[at] = last;
+  heap_least_ = heap_.front().time;
   return result;
 }
 

@@ -2,9 +2,12 @@
 // Events of the machine, and the queue from which they leave in order of (time, source, sequence number).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace torolux {
@@ -42,26 +45,57 @@ struct Event {
 };
 static_assert(sizeof(Event) == 24);
 
-/// A list for each of the next kWindow cycles, which is put in order when its time comes; a heap of four children per
-/// node for what is later, or earlier than what has been popped. The lists' nodes are used again last in, first out, so
-/// they stay in the caches.
+/// Told of an event some time before it leaves the queue, so that what it needs may be fetched into the caches
+/// meanwhile.
+class EventWatcher {
+ public:
+  virtual ~EventWatcher() = default;
+  /// Of each event that was pushed long before its time, once it is at most 2 * EventQueue::kSpan cycles ahead.
+  virtual void soon(const Event& event) = 0;
+};
+
+/// A list for each of the next cycles, which is put in order when its time comes; behind them a list for each span of
+/// cycles, dealt out to the cycles when the span before it begins; a heap of four children per node for what is later
+/// still, or earlier than what has been popped. The lists' nodes are used again last in, first out, so they stay in the
+/// caches.
 class EventQueue {
  public:
   static constexpr Cycles kNone = ~Cycles{0};
+  static constexpr Cycles kSpan = 256;
 
   /// sources: actors that make events, numbered from 0.
-  explicit EventQueue(std::size_t sources) : lists_(kWindow, kNobody), sequence_(sources, 0) {}
+  explicit EventQueue(std::size_t sources) : later_(kSpans), sequence_(sources, 0) { lists_.fill(kNobody); }
 
-  bool empty() const { return near_ == kNone && heap_.empty(); }
+  /// watcher: outlives this, or nullptr.
+  void watch(EventWatcher* watcher) { watcher_ = watcher; }
+  bool empty() const { return next_time() == kNone; }
   /// Of the event that comes next; kNone: there is none.
-  Cycles next_time() const { return heap_.empty() || near_ < heap_.front().time ? near_ : heap_.front().time; }
+  Cycles next_time() const { return std::min(std::min(near_, later_least_), heap_least_); }
   void push(Cycles time, std::uint32_t source, EventKind kind, std::uint16_t actor, std::uint8_t port,
-            std::uint32_t block);
+            std::uint32_t block) {
+    const std::uint64_t order = (std::uint64_t{source} << 32U) | sequence_[source]++;
+    const std::uint64_t ahead = time / kSpan - span_;  // earlier spans: the difference wraps
+    if (time >= now_ && ahead <= 1) {
+      if (open_ && time == now_) return fill(push_open(order), time, order, kind, actor, port, block);
+      return fill(push_near(time), time, order, kind, actor, port, block);
+    }
+    Event event{};
+    fill(event, time, order, kind, actor, port, block);
+    push_far(event);
+  }
   /// Only if there is one.
-  Event pop();
+  Event pop() {
+    const Cycles time = next_time();
+    if (time < now_) return pop_heap();
+    if (!open_) open(time);
+    const Event& result = opened_[popped_++];
+    if (popped_ == opened_.size()) close();
+    return result;  // still there
+  }
 
  private:
-  static constexpr std::size_t kWindow = 1024;
+  static constexpr std::size_t kWindow = 2 * kSpan;
+  static constexpr std::size_t kSpans = 128;  // beyond the window
   static constexpr std::size_t kWord = 64;
   static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
   struct Node {
@@ -70,25 +104,72 @@ class EventQueue {
   };
 
   static bool before(const Event& a, const Event& b) { return a.time != b.time ? a.time < b.time : a.order < b.order; }
+  /// In as few stores as there are loads when it is copied: a load of what several stores have just written waits for
+  /// all of them.
+  static void fill(Event& event, Cycles time, std::uint64_t order, EventKind kind, std::uint16_t actor,
+                   std::uint8_t port, std::uint32_t block) {
+    static_assert(std::endian::native == std::endian::little && offsetof(Event, block) == 16 &&
+                  offsetof(Event, actor) == 20 && offsetof(Event, port) == 22 && offsetof(Event, kind) == 23);
+    event.time = time;
+    event.order = order;
+    const std::uint64_t rest =
+        block | std::uint64_t{actor} << 32U | std::uint64_t{port} << 48U | static_cast<std::uint64_t>(kind) << 56U;
+    std::memcpy(reinterpret_cast<std::byte*>(&event) + offsetof(Event, block), &rest, sizeof rest);
+  }
 
-  void push_open(const Event& event);
-  Node& push_near(Cycles time);
+  /// Places for an event of this order in the cycle that is open, or of this time in a list; to be filled.
+  Event& push_open(std::uint64_t order) {
+    opened_.emplace_back();
+    std::size_t at = opened_.size() - 1;
+    for (; at > popped_ && order < opened_[at - 1].order; --at) opened_[at] = opened_[at - 1];
+    return opened_[at];
+  }
+  Event& push_near(Cycles time) {
+    std::uint32_t node = free_;
+    if (node == kNobody) {
+      node = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.emplace_back();
+    } else {
+      free_ = nodes_[node].next;
+    }
+    const std::size_t number = time % kWindow;
+    nodes_[node].next = lists_[number];
+    lists_[number] = node;
+    filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
+    near_ = std::min(near_, time);
+    return nodes_[node].event;
+  }
+  void close() {
+    open_ = false;
+    near_ = next_near();
+  }
   void push_far(const Event& event);
-  Event pop_far();
+  void push_heap(const Event& event);
+  Event pop_heap();
   void open(Cycles time);
+  void sort_opened();
+  void advance(std::uint64_t span);
+  void deal_out(std::uint64_t span);
+  Cycles least_of_later() const;
   Cycles next_near() const;
 
-  std::vector<std::uint32_t> lists_;                     // [time % kWindow], for times from now_ to now_ + kWindow - 1
+  std::array<std::uint32_t, kWindow> lists_;             // [time % kWindow], for times from now_ to the next span's end
   std::array<std::uint64_t, kWindow / kWord> filled_{};  // a bit for each list that is not empty
   std::vector<Node> nodes_;                              // of lists
   std::uint32_t free_ = kNobody;                         // nodes that are of none
-  Cycles now_ = 0;                                       // of the last event popped that was not from the heap alone
-  Cycles near_ = kNone;                                  // earliest time with an event outside the heap
-  std::vector<Event> opened_;                            // those of now_, in order, if open_
-  std::size_t popped_ = 0;                               // of them, those that have gone
   bool open_ = false;
+  Cycles now_ = 0;              // of the last event popped that was not from the heap alone
+  std::uint64_t span_ = 0;      // now_ / kSpan
+  Cycles near_ = kNone;         // earliest time with an event in lists_ or opened_
+  Cycles later_least_ = kNone;  // the same of later_ and heap_
+  Cycles heap_least_ = kNone;
+  std::size_t popped_ = 0;                                    // of opened_, those that have gone
+  std::vector<Event> opened_;                                 // those of now_, in order, if open_
+  std::vector<std::vector<Event>> later_;                     // [time / kSpan % kSpans], for the spans behind lists_
+  std::array<std::uint64_t, kSpans / kWord> later_filled_{};  // a bit for each that is not empty
   std::vector<Event> heap_;
   std::vector<std::uint32_t> sequence_;  // per source
+  EventWatcher* watcher_ = nullptr;
 };
 
 }  // namespace torolux

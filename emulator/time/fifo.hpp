@@ -23,6 +23,8 @@ class Fifo {
     values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(first_));
     first_ = 0;
   }
+  /// Where the next value comes to stand, into the caches.
+  void fetch_ahead() const { __builtin_prefetch(values_.data() + values_.size(), 1); }
   std::size_t capacity() const { return values_.capacity(); }
   /// Oldest first.
   std::span<const T> inside() const { return std::span(values_).subspan(first_); }

@@ -146,7 +146,7 @@ Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles
   const std::size_t port = index_of(opposite(static_cast<Port>(output)));
   --out.slots;
   ++out.held;
-  fetch_ahead(router, output, block);
+  look_ahead(router, output, block);
   if (block.copy == Copy::bad) block.copy = Copy::poisoned;
   const std::uint32_t bad = block.copy == Copy::good ? faults_.bad_copies(block) : 0;
   ++block.hops;
@@ -169,13 +169,14 @@ Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles
 
 /// The output that it will ask for at the next router, and what is needed there a few events from now, fetched into the
 /// caches meanwhile.
-void Torus::fetch_ahead(unsigned router, std::size_t output, Block& block) {
+void Torus::look_ahead(unsigned router, std::size_t output, Block& block) {
   const unsigned next = neighbours_[router][output];
   const Port port = shape_.route(places_[next], places_[block.destination]);
   block.output = static_cast<std::uint8_t>(port);
   __builtin_prefetch(&routers_[next].inputs[index_of(opposite(static_cast<Port>(output)))], 1);
   __builtin_prefetch(&routers_[next].outputs[index_of(port)], 1);
-  if (port != Port::local) __builtin_prefetch(&return_time(next, index_of(port), 0), 1);
+  if (port == Port::local) return client_.coming(next);
+  __builtin_prefetch(&return_time(next, index_of(port), 0), 1);
 }
 
 /// A copy that is not good: at the other end its head goes on like any, until its tail shows what it is.

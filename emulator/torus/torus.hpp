@@ -30,6 +30,8 @@ class TorusClient {
   /// May a packet leave the torus now? Then room for it is reserved. No: ask again after `Torus::try_ejection`. Asked
   /// at the end of a cycle, after all other events of it.
   virtual bool accept(unsigned pe, BlockIndex block) = 0;
+  /// A packet for this PE has begun its last hop: `accept` needs not much longer. For fetching ahead alone.
+  virtual void coming(unsigned /*pe*/) {}
 };
 
 /// Event sources of router 0 and of its arbiter; those of the others follow. Arbiters come after all other sources, so
@@ -54,6 +56,12 @@ class Torus {
   }
   /// Appends a packet (destination, flits, number set) to the outgoing queue of a PE. The limit on it is the NIU's.
   void inject(unsigned pe, BlockIndex block, Cycles now);
+  /// What the next packet of a PE, or its NIU's room, will need here, into the caches.
+  void fetch_ahead(unsigned pe) const {
+    __builtin_prefetch(&routers_[pe].inputs[index_of(Port::local)], 1);
+    __builtin_prefetch(&routers_[pe].outputs[index_of(Port::local)], 1);
+    __builtin_prefetch(&routers_[pe].injection, 1);
+  }
   /// The NIU has become able to accept more.
   void try_ejection(unsigned pe, Cycles now) { ask(pe, index_of(Port::local), now); }
   /// Kinds arrive, head, tail, line, arbitrate.
@@ -126,7 +134,7 @@ class Torus {
   void withdraw(unsigned router, std::size_t input, std::size_t output, Cycles now);
   void grant(unsigned router, std::size_t input, std::size_t output, Cycles now);
   Cycles send(unsigned router, std::size_t output, BlockIndex index, Cycles start);
-  void fetch_ahead(unsigned router, std::size_t output, Block& block);
+  void look_ahead(unsigned router, std::size_t output, Block& block);
   void send_copy(unsigned router, std::size_t output, BlockIndex index, Cycles start);
   void eject(unsigned router, BlockIndex index, Cycles tail);
   void free_slot(unsigned router, std::size_t input, Cycles when, Cycles now);

@@ -3,14 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <deque>
+#include <map>
 #include <memory>
 #include <random>
 #include <set>
 #include <tuple>
 #include <vector>
 
+#include "emulator/engines/shared_memory.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/niu/processor_side.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/fifo.hpp"
@@ -43,7 +48,7 @@ TEST(EventQueue, OrderIsTimeThenSourceThenSequence) {
 
 /// Pushes and pops in turn, near, far and backwards in time, at the time of what was just popped too.
 TEST(EventQueue, KeepsTheOrderWhilePushingAndPopping) {
-  for (const std::uint32_t spread : {1U, 3U, 50U, 2000U, 1'000'000U}) {
+  for (const std::uint32_t spread : {1U, 3U, 50U, 2000U, 40'000U, 1'000'000U}) {
     constexpr std::uint32_t kSources = 7;
     EventQueue queue(kSources);
     std::minstd_rand random(spread);
@@ -69,6 +74,39 @@ TEST(EventQueue, KeepsTheOrderWhilePushingAndPopping) {
       now = std::max(now, event.time);
     }
   }
+}
+
+class Announced final : public EventWatcher {
+ public:
+  void soon(const Event& event) override { announced.emplace(event.block, event.time); }
+  std::map<std::uint32_t, Cycles> announced;  ///< by block
+};
+
+TEST(EventQueue, TellsOfWhatWasPushedLongBefore) {
+  EventQueue queue(1);
+  Announced watcher;
+  queue.watch(&watcher);
+  std::minstd_rand random(11);
+  std::vector<Cycles> pushed_at;
+  Cycles now = 0;
+  for (int step = 0; step < 20'000; ++step) {
+    if (random() % 2 == 0) {
+      queue.push(now + random() % 20'000, 0, EventKind::command, 0, 0, static_cast<std::uint32_t>(pushed_at.size()));
+      pushed_at.push_back(now);
+    }
+    if (queue.empty() || random() % 2 == 0) continue;
+    const Event event = queue.pop();
+    now = event.time;
+    const bool told = watcher.announced.contains(event.block);
+    const Cycles ahead = event.time - pushed_at[event.block];
+    if (ahead >= 2 * EventQueue::kSpan) {
+      ASSERT_TRUE(told) << ahead;
+      ASSERT_EQ(watcher.announced.at(event.block), event.time);
+    } else if (ahead <= EventQueue::kSpan) {
+      ASSERT_FALSE(told) << "it was near at once: " << ahead;
+    }
+  }
+  EXPECT_GT(watcher.announced.size(), 1000U);
 }
 
 TEST(BoundTree, GivesTheLeastAndTheLowestOfEquals) {
@@ -135,8 +173,15 @@ TEST(Slices, HoldWhateverTheOrderAndTheLength) {
   }
 }
 
+struct RingAndBytes {
+  ByteRing<Arrival, 4096, kRingBytes> ring;
+  std::array<std::byte, 4096> bytes;
+};
+static_assert(offsetof(RingAndBytes, bytes) == kRingBytes);
+
 TEST(ByteRing, KeepsEntriesWholeAcrossItsEnd) {
-  const auto ring = std::make_unique<ByteRing<Arrival, 4096>>();
+  const auto both = std::make_unique<RingAndBytes>();
+  auto* const ring = &both->ring;
   std::minstd_rand random(9);
   std::vector<std::vector<std::byte>> inside;
   std::uint64_t pushed = 0;
@@ -161,8 +206,40 @@ TEST(ByteRing, KeepsEntriesWholeAcrossItsEnd) {
   EXPECT_GT(popped, 5000U);
 }
 
+/// Channels with rings of any size have all of them where there is memory for them, and apart.
+TEST(ByteRing, LiesInItsOwnMemory) {
+  for (const std::uint32_t bytes : {kLeastRingBytes, kMostRingBytes}) {
+    SharedMemory memory("test-channel", channel_bytes(bytes));
+    NiuChannel& channel = *niu_channel_at(memory.bytes().data());
+    channel.set_ring_bytes(bytes);
+    const std::vector<std::byte> payload(500, std::byte{7});
+    std::uint32_t pushed = 0;
+    while (channel.commands.has_room(payload.size())) {
+      channel.commands.push({pushed, CommandKind::release, 0, 0, 0, 0, 0}, payload);
+      channel.arrivals.push({pushed, 0, 0, 0, 0, 0, 0}, payload);
+      ++pushed;
+    }
+    EXPECT_GT(pushed, bytes / 600);
+    EXPECT_GT(reinterpret_cast<const std::byte*>(channel.commands.front()), memory.bytes().data());
+    for (std::uint32_t i = 0; i < pushed; ++i) {
+      const Command* command = channel.commands.front();
+      const Arrival* arrival = channel.arrivals.front();
+      ASSERT_EQ(command->time, i);
+      ASSERT_EQ(arrival->time, i);
+      ASSERT_TRUE(std::ranges::equal(channel.commands.payload(*command), payload));
+      ASSERT_TRUE(std::ranges::equal(channel.arrivals.payload(*arrival), payload));
+      const auto* end = channel.arrivals.payload(*arrival).data() + payload.size();
+      ASSERT_LE(end, memory.bytes().data() + memory.bytes().size());
+      channel.commands.pop(*command);
+      channel.arrivals.pop(*arrival);
+    }
+    EXPECT_TRUE(channel.commands.empty() && channel.arrivals.empty());
+  }
+}
+
 TEST(ByteRing, BeginsAtItsStartWheneverItIsEmpty) {
-  const auto ring = std::make_unique<ByteRing<Arrival, 4096>>();
+  const auto both = std::make_unique<RingAndBytes>();
+  auto* const ring = &both->ring;
   const std::vector<std::byte> payload(100);
   ring->push({0, 1, 2, 3, 4, 0, 0}, payload);
   const Arrival* first = ring->front();
