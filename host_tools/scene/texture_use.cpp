@@ -58,8 +58,9 @@ class TextureArguments {
       if (numbers(name, {0, 0, 0}) != std::vector<double>{0, 0, 0}) refuse_option(name, "turbulence");
     } else if (name == "-mm") {
       const std::vector<double> values = numbers(name, {0, 1});
-      use.base = values[0];
-      use.gain = values[1];
+      constexpr double most = 1e6;  // far more than takes any value out of sight
+      use.base = std::clamp(values[0], -most, most);
+      use.gain = std::clamp(values[1], -most, most);
       if (use.base != 0 || use.gain != 1)
         notices_.note("option -mm of " + keyword_ + ": an image's values are base + gain times what is in the file",
                       place_);

@@ -167,6 +167,8 @@ TEST(Texture, BaseAndGainChangeItsValues) {
   EXPECT_EQ(scene.textures[1].texels[0], (std::array<std::uint8_t, 3>{0, 0, 255}));
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("option -mm of map_Kd: an image's values are base + gain")));
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("option -cc of map_Kd")));
+  const Scene wild = load_texts(texts("map_Kd -mm 1e308 -1e308 my tiles.png\n"), "a.obj");
+  EXPECT_EQ(wild.textures[0].texels[0], (std::array<std::uint8_t, 3>{255, 255, 0})) << "blue";
 }
 
 TEST(Texture, GreyDeepAndTransparentPngsAreRead) {
