@@ -58,6 +58,8 @@ class Engine {
   /// The scheduler has nothing to do until this PE's bound is later than `wanted`: runs that PE, or another, for some
   /// milliseconds at most. False: nothing to run here; sleep. Throws as check() does.
   virtual bool help(unsigned /*pe*/, std::uint64_t /*wanted*/) { return false; }
+  /// This PE will probably be the next to be helped: what that needs, fetched into the caches meanwhile.
+  virtual void fetch_ahead(unsigned /*pe*/) const {}
   /// Time spent in `help` so far [s].
   virtual double help_seconds() const { return 0; }
 };

@@ -33,6 +33,7 @@ class MixedEngine final : public Engine {
   ProcessorWaker* waker(unsigned pe) override { return (on_qemu_[pe] ? qemu_ : most_)->waker(pe); }
   /// While QEMU runs the PE in question, others may run here.
   bool help(unsigned pe, std::uint64_t wanted) override { return most_->help(pe, wanted); }
+  void fetch_ahead(unsigned pe) const override { most_->fetch_ahead(pe); }
   double help_seconds() const override { return most_->help_seconds(); }
 
  private:

@@ -29,6 +29,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       program_(program),
       events_(3 * std::size_t{pes_} + 4),
       times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},
+      channels_(channels),
       nius_(make_nius(channels, setup.description, engine)),
       parts_(pes_),
       jitter_(setup.description.jitter.seed, setup.description.jitter.cycles),

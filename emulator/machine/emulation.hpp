@@ -45,6 +45,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   // ---- Scheduling ----
   bool next_event(Event& event);
   void await(unsigned pe, Cycles wanted);
+  void fetch_next_turn_ahead() const;
   void attend_now_and_then();
   bool settled(unsigned pe);
   // Figures (stages.cpp)
@@ -107,6 +108,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   EventQueue events_;
   BlockPool pool_;
   PeTimes times_;
+  std::vector<NiuChannel*> channels_;
   std::vector<NiuNetworkSide> nius_;
   std::vector<PePart> parts_;
   Jitter jitter_;

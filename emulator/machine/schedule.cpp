@@ -61,6 +61,14 @@ void Emulation::await(unsigned pe, Cycles wanted) {
   attend_now_and_then();
 }
 
+/// While one PE runs, what the next one needs is fetched: since its last turn all others have had theirs.
+void Emulation::fetch_next_turn_ahead() const {
+  const auto pe = static_cast<unsigned>(times_.bounds.second_index());
+  nius_[pe].fetch_ahead();
+  NiuNetworkSide::fetch_turn_ahead(*channels_[pe]);
+  engine_.fetch_ahead(pe);
+}
+
 /// The next event that no PE can precede any more. False: nothing will ever happen again.
 bool Emulation::next_event(Event& event) {
   for (;;) {
@@ -82,6 +90,7 @@ bool Emulation::next_event(Event& event) {
     const auto pe = static_cast<unsigned>(times_.bounds.least_index());
     if (nius_[pe].refresh(events_, pool_, times_)) continue;
     nius_[pe].publish_horizon(known);
+    fetch_next_turn_ahead();
     await(pe, time);
   }
 }

@@ -102,6 +102,15 @@ class alignas(64) NiuNetworkSide {
     __builtin_prefetch(&gathered_, 1);
     __builtin_prefetch(&horizon_, 1);
   }
+  /// The processor will soon be asked what it has done, and go on: what that needs of its channel. The channel is
+  /// given, since what names it here may have to be fetched itself.
+  static void fetch_turn_ahead(const NiuChannel& channel) {
+    __builtin_prefetch(&channel.bound, 1);
+    __builtin_prefetch(&channel.asleep, 1);
+    __builtin_prefetch(&channel.processor, 1);
+    channel.commands.fetch_ahead();
+    channel.arrivals.fetch_ahead();
+  }
   /// The same of the channel, for a packet that is about to be delivered; after fetch_ahead.
   void fetch_arrivals_ahead() const {
     channel_->arrivals.fetch_ahead();

@@ -15,7 +15,8 @@ namespace torolux {
 class BoundTree {
  public:
   BoundTree(std::size_t count, std::uint64_t value)
-      : leaves_(std::bit_ceil(std::max<std::size_t>(count, 1))),
+      : count_(count),
+        leaves_(std::bit_ceil(std::max<std::size_t>(count, 1))),
         bound_(leaves_, std::numeric_limits<std::uint64_t>::max()),
         winner_(2 * leaves_) {
     std::fill_n(bound_.begin(), count, value);
@@ -26,6 +27,16 @@ class BoundTree {
   std::uint64_t at(std::size_t index) const { return bound_[index]; }
   std::uint64_t least() const { return bound_[winner_[1]]; }
   std::size_t least_index() const { return winner_[1]; }
+  /// Of the least bound but one: the best of those whom the winner has beaten. With one PE alone: that.
+  std::size_t second_index() const {
+    std::size_t best = winner_[1];
+    for (std::size_t i = leaves_ + winner_[1]; i > 1; i /= 2) {
+      const std::size_t beaten = winner_[i ^ 1U];
+      if (beaten >= count_) continue;
+      if (best == winner_[1] || bound_[beaten] < bound_[best]) best = beaten;
+    }
+    return best;
+  }
   void set(std::size_t index, std::uint64_t value) {
     bound_[index] = value;
     for (std::size_t i = (leaves_ + index) / 2; i >= 1; i /= 2) {
@@ -43,6 +54,7 @@ class BoundTree {
     winner_[node] = bound_[right] < bound_[left] ? right : left;
   }
 
+  std::size_t count_;
   std::size_t leaves_;
   std::vector<std::uint64_t> bound_;
   std::vector<std::uint32_t> winner_;  // node 1 is the root; children of n: 2n, 2n + 1

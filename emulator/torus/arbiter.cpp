@@ -14,12 +14,12 @@ void Torus::arbitrate(unsigned router, std::size_t output, Cycles now) {
   if (out.free_at > now) return schedule(router, output, out.free_at);
   const bool local = output == index_of(Port::local);
   if (!local) collect_returns(router, output, now);
-  std::optional<std::size_t> input = choose(router, output);
+  std::size_t input = choose(router, output);
   // The NIU takes packets in the order of their ages: a small one does not overtake.
-  if (local && !client_.accept(router, routers_[router].inputs[*input].queue.front())) input.reset();
-  if (input) grant(router, *input, output, now);
+  if (local && !client_.accept(router, routers_[router].inputs[input].queue.front())) input = kNobody;
+  if (input != kNobody) grant(router, input, output, now);
   if (!local && out.waiting != 0) look_for_starving(router, output, now);
-  if (input) {
+  if (input != kNobody) {
     if (out.waiting != 0 || out.starving != kNobody) schedule(router, output, out.free_at);
     return;
   }
@@ -27,21 +27,22 @@ void Torus::arbitrate(unsigned router, std::size_t output, Cycles now) {
   if (out.returns != 0) schedule(router, output, return_time(router, output, out.first_return));
 }
 
-/// The oldest packet of those that may go; equal ones in turn.
-std::optional<std::size_t> Torus::choose(unsigned router, std::size_t output) const {
+/// The oldest packet of those that may go; equal ones in turn. kNobody: none may.
+std::size_t Torus::choose(unsigned router, std::size_t output) const {
   const Router& here = routers_[router];
   const Output& out = here.outputs[output];
-  if (std::has_single_bit(out.waiting)) {
+  // Not has_single_bit, which counts bits: a call, where the computer is not known to have an instruction for it.
+  if ((out.waiting & (out.waiting - 1U)) == 0) {
     const auto input = static_cast<std::size_t>(std::countr_zero(out.waiting));
-    return may_go(router, input, output) ? std::optional(input) : std::nullopt;
+    return may_go(router, input, output) ? input : kNobody;
   }
-  std::optional<std::size_t> best;
+  std::size_t best = kNobody;
   Cycles oldest = kNotYet;
   for (std::size_t i = 0; i < kPorts; ++i) {
     const std::size_t input = out.next_input + i < kPorts ? out.next_input + i : out.next_input + i - kPorts;
     if ((out.waiting >> input & 1U) == 0 || !may_go(router, input, output)) continue;
     const Cycles entered = pool_[here.inputs[input].queue.front()].entered;
-    if (best && entered >= oldest) continue;
+    if (best != kNobody && entered >= oldest) continue;
     best = input;
     oldest = entered;
   }

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -115,7 +114,7 @@ class Torus {
     std::array<Input, kPorts> inputs;
     std::array<Output, kPorts> outputs;
     std::array<Seldom, kPorts> seldom;
-    LinkFigures injection;
+    alignas(64) LinkFigures injection;
   };
 
   void arrive(const Event& event);
@@ -127,7 +126,7 @@ class Torus {
   void schedule(unsigned router, std::size_t output, Cycles when);
 
   void arbitrate(unsigned router, std::size_t output, Cycles now);
-  std::optional<std::size_t> choose(unsigned router, std::size_t output) const;
+  std::size_t choose(unsigned router, std::size_t output) const;
   bool may_go(unsigned router, std::size_t input, std::size_t output) const;
   void look_for_starving(unsigned router, std::size_t output, Cycles now);
   void cease_starving(unsigned router, std::size_t output, Cycles now);

@@ -3,6 +3,7 @@
 // translation, local memory and channel; leaves: what stopped it. One thread at a time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -36,10 +37,18 @@ class Processor {
   };
   /// Runs until one of these; goal: none.
   Stop run(const Goal* goal);
+  /// What it begins with, into the caches.
+  void fetch_ahead() const {
+    const auto* const bytes = reinterpret_cast<const std::byte*>(this);
+    for (std::size_t at = 0; at < kBeginsWith; at += kCacheLine) __builtin_prefetch(bytes + at, 1);
+  }
   /// To be looked at by others: its bound, and what it waits for.
   const NiuChannel& channel() const { return channel_; }
 
  private:
+  static constexpr std::size_t kCacheLine = 64;
+  static constexpr std::size_t kBeginsWith = 512;  // all but control and status registers
+
   /// Where a HINT stands at which the code has stopped.
   enum class AtHint : std::uint8_t {
     none,      ///< there is none: it has happened, and the PE may go on

@@ -71,6 +71,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
 
   ProcessorWaker* waker(unsigned /*pe*/) override { return this; }
   bool help(unsigned pe, std::uint64_t wanted) override;
+  void fetch_ahead(unsigned pe) const override { processors_[pe].fetch_ahead(); }
   double help_seconds() const override { return std::chrono::duration<double>(helped_).count(); }
 
  private:

@@ -122,6 +122,12 @@ TEST(BoundTree, GivesTheLeastAndTheLowestOfEquals) {
       ASSERT_EQ(tree.least(), *least);
       if (*least == kNever) continue;
       ASSERT_EQ(tree.least_index(), static_cast<std::size_t>(least - model.begin()));
+      std::vector<std::uint64_t> others = model;
+      others.erase(others.begin() + (least - model.begin()));
+      if (others.empty()) continue;
+      ASSERT_NE(tree.second_index(), tree.least_index());
+      ASSERT_LT(tree.second_index(), count);
+      ASSERT_EQ(tree.at(tree.second_index()), *std::ranges::min_element(others));
     }
   }
 }
