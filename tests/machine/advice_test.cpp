@@ -85,7 +85,7 @@ TEST_P(Advice, FitsWhenItIsFollowed) {
 INSTANTIATE_TEST_SUITE_P(
     Machines, Advice,
     testing::Values(TooSmall{"fixed", "cornell_box", "--pe-memory 256K", {"--pe-memory 2M"}},
-                    TooSmall{"elements", "cornell_box", "--pe-memory 512K", {"--pe-memory", "--pes", "--elements"}},
+                    TooSmall{"elements", "cornell_box", "--pe-memory 544K", {"--pe-memory", "--pes", "--elements"}},
                     TooSmall{"one_pe",
                              "two_mirrors",
                              "--pe-memory 1M --pes 1x1 --elements 0.1",
