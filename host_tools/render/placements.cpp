@@ -3,8 +3,10 @@
 #include "host_tools/render/placements.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "firmware/protocol/triangle_grid.hpp"
@@ -111,56 +113,100 @@ class Chooser {
     return need;
   }
 
+  /// The search for the most copies that fit one stage: what is worth more is copied first.
+  class CopySearch {
+   public:
+    /// placement, copies: of the stage; take the best that has been found.
+    CopySearch(const Chooser& chooser, Stage stage, std::uint32_t memory, double most_memory, Placement& placement,
+               StageCopies& copies)
+        : chooser_(chooser),
+          stage_(stage),
+          memory_(memory),
+          most_memory_(most_memory),
+          placement_(placement),
+          copies_(copies) {
+      const std::vector<double> cells = heat_of_cells(chooser.heat(stage));
+      const double all = std::accumulate(cells.begin(), cells.end(), 0.0);
+      order_ = copy_order(chooser.mesh_, chooser.lists_.polygons, stage, cells, chooser.lacking(placement),
+                          kSharesToBear * all / chooser.choice_.torus.pes());
+      if (stage == Stage::ray_tracing) {
+        surfaces_ = worth_of_surfaces(chooser.mesh_, heat_of_surfaces(chooser.heat(stage)));
+      }
+    }
+
+    void run() {
+      if (fits_with(0, 0)) return;
+      double least_of_cells = kNone;
+      if (stage_ == Stage::ray_tracing && chooser_.need_of(placement_, stage_).most() > memory_) {
+        const auto found = shapes_that_fit();
+        if (!found) return;
+        least_of_cells = *found;
+      }
+      bisect(least_of_cells);
+    }
+
+   private:
+    static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+    /// Copies of all that is worth at least so much. True: it fits, and is the best so far.
+    bool fits_with(double least_of_cells, double least_of_surfaces) {
+      const std::size_t count = order_.worth_at_least(least_of_cells);
+      if (count == 0 && surfaces_.empty()) return false;
+      StageCopies chosen{count, count > 0 ? order_.bytes[count - 1] : 0};
+      std::vector<bool> everywhere(surfaces_.size());
+      for (std::uint32_t part = 0; part < surfaces_.size(); ++part) {
+        everywhere[part] = surfaces_[part] >= least_of_surfaces && surfaces_[part] > 0;
+      }
+      Placement with = chooser_.place(stage_, order_.first(count, chooser_.lists_.grid.count()), std::move(everywhere),
+                                      most_memory_);
+      if (!surfaces_.empty()) chosen.bytes += chooser_.bytes_of_common_surfaces(with);
+      if (static_cast<double>(chosen.bytes) > chooser_.machine_.replicate.value_or(1) * memory_) return false;
+      if (chooser_.need_of(with, stage_).most() > memory_ || most_kept(with) > protocol::kMostKept) return false;
+      placement_ = std::move(with);
+      for (const auto& kept : placement_.kept_by_pe) chosen.kept += kept.size();
+      copies_ = chosen;
+      return true;
+    }
+
+    /// Where whole surfaces do not fit with all who own a cell of theirs, copies of shapes alone may: what the least
+    /// one copied is worth then.
+    std::optional<double> shapes_that_fit() {
+      std::size_t count = order_.cells.size();
+      const auto worth = [&] { return count > 0 ? order_.worth[count - 1] : kNone; };
+      while (!fits_with(worth(), kNone)) {
+        if (count == 0) return std::nullopt;
+        count = count * 3 / 4;
+      }
+      return worth();
+    }
+
+    /// Between none and all, by one worth for cells and surfaces; cells of `least_of_cells` are copied anyway.
+    void bisect(double least_of_cells) {
+      std::vector<double> worths = order_.worth;
+      std::ranges::copy_if(surfaces_, std::back_inserter(worths), [](double worth) { return worth > 0; });
+      std::sort(worths.rbegin(), worths.rend());
+      std::size_t enough = 0;
+      std::size_t too_many = worths.size();
+      for (int step = 0; step < kSearchSteps && enough + 1 < too_many; ++step) {
+        const std::size_t middle = enough + (too_many - enough) / 2;
+        (fits_with(std::min(worths[middle], least_of_cells), worths[middle]) ? enough : too_many) = middle;
+      }
+    }
+
+    const Chooser& chooser_;
+    Stage stage_;
+    std::uint32_t memory_;
+    double most_memory_;
+    Placement& placement_;
+    StageCopies& copies_;
+    CopyOrder order_;
+    std::vector<double> surfaces_;  ///< what each is worth; empty: they are not copied apart
+  };
+
   /// Puts as many copies into `placement` as fit.
   void copy(Stage stage, std::uint32_t memory, double most_memory, Placement& placement, StageCopies& copies) const {
     if (choice_.torus.pes() == 1 || heat(stage).empty()) return;
-    const std::vector<double> cells = heat_of_cells(heat(stage));
-    const double share = kSharesToBear * std::accumulate(cells.begin(), cells.end(), 0.0) / choice_.torus.pes();
-    const CopyOrder order = copy_order(mesh_, lists_.polygons, stage, cells, lacking(placement), share);
-    std::vector<double> surfaces;
-    if (stage == Stage::ray_tracing) surfaces = worth_of_surfaces(mesh_, heat_of_surfaces(heat(stage)));
-    const double most = machine_.replicate.value_or(1) * memory;
-    const auto try_with = [&](double least_of_cells, double least_of_surfaces) {
-      const std::size_t count = order.worth_at_least(least_of_cells);
-      if (count == 0 && surfaces.empty()) return false;
-      StageCopies chosen{count, count > 0 ? order.bytes[count - 1] : 0};
-      std::vector<bool> everywhere(surfaces.size());
-      for (std::uint32_t part = 0; part < surfaces.size(); ++part) {
-        everywhere[part] = surfaces[part] >= least_of_surfaces && surfaces[part] > 0;
-      }
-      Placement with = place(stage, order.first(count, lists_.grid.count()), std::move(everywhere), most_memory);
-      if (!surfaces.empty()) chosen.bytes += bytes_of_common_surfaces(with);
-      if (static_cast<double>(chosen.bytes) > most) return false;
-      if (need_of(with, stage).most() > memory || most_kept(with) > protocol::kMostKept) return false;
-      placement = std::move(with);
-      for (const auto& kept : placement.kept_by_pe) chosen.kept += kept.size();
-      copies = chosen;
-      return true;
-    };
-    if (try_with(0, 0)) return;
-    // Where whole surfaces do not fit with all who own a cell of theirs, copies of shapes alone may.
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    double least_of_cells = kNone;
-    if (stage == Stage::ray_tracing && need_of(placement, stage).most() > memory) {
-      std::size_t count = order.cells.size();
-      const auto worth = [&] { return count > 0 ? order.worth[count - 1] : kNone; };
-      while (!try_with(worth(), kNone)) {
-        if (count == 0) return;
-        count = count * 3 / 4;
-      }
-      least_of_cells = worth();
-    }
-    std::vector<double> worths = order.worth;
-    for (const double worth : surfaces) {
-      if (worth > 0) worths.push_back(worth);
-    }
-    std::sort(worths.rbegin(), worths.rend());
-    std::size_t enough = 0;
-    std::size_t too_many = worths.size();
-    for (int step = 0; step < kSearchSteps && enough + 1 < too_many; ++step) {
-      const std::size_t middle = enough + (too_many - enough) / 2;
-      (try_with(std::min(worths[middle], least_of_cells), worths[middle]) ? enough : too_many) = middle;
-    }
+    CopySearch(*this, stage, memory, most_memory, placement, copies).run();
   }
 
   /// Of those without a keeper.
