@@ -16,12 +16,12 @@ double side_of(const Vec3d& point, const Vec3d& a, const Vec3d& b, const Vec3d& 
   return length > 0 ? vec::dot(normal, vec::cross(along, vec::subtract(point, a))) / length : 0;
 }
 
-double ConvexCut::area_of(const PositionPolygon& polygon, const Vec3d& normal) const {
+double ConvexCut::doubled_area(const PositionPolygon& polygon, const Vec3d& normal) const {
   Vec3d sum{0, 0, 0};
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
     sum = vec::add(sum, vec::cross(vec::subtract(at(polygon[i]), at(polygon[0])),
                                    vec::subtract(at(polygon[i + 1]), at(polygon[0]))));
-  return 0.5 * std::abs(vec::dot(sum, normal));
+  return vec::dot(sum, normal);
 }
 
 std::uint32_t ConvexCut::crossing(std::uint32_t a, std::uint32_t b, double side_a, double side_b) {
@@ -56,14 +56,14 @@ std::pair<PositionPolygon, PositionPolygon> ConvexCut::split(const PositionPolyg
   }
   for (PositionPolygon* part : {&parts.first, &parts.second}) {
     while (part->size() > 1 && part->back() == part->front()) part->pop_back();
-    if (part->size() < 3 || area_of(*part, normal) <= near_ * near_) part->clear();
+    if (part->size() < 3 || 0.5 * std::abs(doubled_area(*part, normal)) <= near_ * near_) part->clear();
   }
   return parts;
 }
 
 bool ConvexCut::take_away(const PositionPolygon& piece, const PositionPolygon& outline, const Vec3d& normal,
                           std::vector<PositionPolygon>& left) {
-  const Vec3d up = vec::scale(normal, runs_backwards(outline, normal) ? -1 : 1);
+  const Vec3d up = vec::scale(normal, doubled_area(outline, normal) < 0 ? -1 : 1);
   if (parted_by(outline, piece, up) || parted_by(piece, outline, normal)) {
     left.push_back(piece);
     return false;
@@ -94,14 +94,6 @@ bool ConvexCut::parted_by(const PositionPolygon& polygon, const PositionPolygon&
     if (std::ranges::all_of(other, [&](std::uint32_t p) { return side_of(at(p), a, b, up) <= near_; })) return true;
   }
   return false;
-}
-
-bool ConvexCut::runs_backwards(const PositionPolygon& outline, const Vec3d& normal) const {
-  double doubled = 0;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    doubled += vec::dot(normal, vec::cross(vec::subtract(at(outline[i]), at(outline[0])),
-                                           vec::subtract(at(outline[i + 1]), at(outline[0]))));
-  return doubled < 0;
 }
 
 }  // namespace torolux

@@ -28,7 +28,8 @@ class ConvexCut {
 
  private:
   const Vec3d& at(std::uint32_t p) const { return scene_.positions[p]; }
-  double area_of(const PositionPolygon& polygon, const Vec3d& normal) const;
+  /// Below 0: it runs clockwise, seen with the normal towards the eye.
+  double doubled_area(const PositionPolygon& polygon, const Vec3d& normal) const;
   /// Where an edge meets a line; the same for both ways to run through it.
   std::uint32_t crossing(std::uint32_t a, std::uint32_t b, double side_a, double side_b);
   /// The parts of a convex polygon to the left and to the right of a line.
@@ -36,7 +37,6 @@ class ConvexCut {
                                                     const Vec3d& normal);
   /// Whether an edge of a polygon, counter-clockwise about `up`, has all of another on its outer side.
   bool parted_by(const PositionPolygon& polygon, const PositionPolygon& other, const Vec3d& up) const;
-  bool runs_backwards(const PositionPolygon& outline, const Vec3d& normal) const;
 
   Scene& scene_;
   NearVertices& vertices_;

@@ -45,14 +45,7 @@ TEST(RadiosityPhase, PointsAreDealtToAllPesAndMoreToWhoHasDoneSome) {
 // At the end nobody has two pieces while another has none.
 TEST(RadiosityPhase, TheLastPiecesGoToWhoHasNothing) {
   FakePort port(9);
-  RadiosityPhase phase(settings(9));
-  phase.start(port);
-  port.take();
-  for (PeNumber pe = 0; pe < 9; ++pe) {
-    std::vector<Candidate> candidates;
-    if (pe == 3) candidates.push_back(candidate(400, 1, 0, ShotKind::emitted));
-    offer(phase, port, pe, candidates, 1000);
-  }
+  RadiosityPhase phase = one_shot(port, settings(9), 3, 1);
   EXPECT_EQ(deals_in(port.take()), (std::vector<PeNumber>{0, 1, 2, 3, 4, 5, 6, 7})) << "the eight parts of one point";
 }
 
@@ -109,15 +102,7 @@ TEST(RadiosityPhase, ADealIsNoLongerThanItsMessage) {
   FakePort port(50);
   RadiositySettings some = settings(50);
   some.credits = 5000;
-  some.emission_points = 16;
-  RadiosityPhase phase(some);
-  phase.start(port);
-  port.take();
-  for (PeNumber pe = 0; pe < 50; ++pe) {
-    std::vector<Candidate> candidates;
-    if (pe == 7) candidates.push_back(candidate(400, 1, 0, ShotKind::emitted));
-    offer(phase, port, pe, candidates, 1000);
-  }
+  RadiosityPhase phase = one_shot(port, some, 7, 16);
   std::vector<std::uint32_t> counts;
   for (const Sent& one : port.take()) {
     if (one.is(MessageKind::deal)) counts.push_back(one.as<std::uint32_t>());

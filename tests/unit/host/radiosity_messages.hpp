@@ -109,9 +109,9 @@ inline std::vector<Sent> finish_round(RadiosityPhase& phase, FakePort& port) {
   return all;
 }
 
-/// One owner with one emitted shot of 64 points, the others with nothing; all asked.
-inline RadiosityPhase one_shot(FakePort& port, RadiositySettings some, PeNumber owner) {
-  some.emission_points = 8;
+/// One owner with one emitted shot of k x k points, the others with nothing; all asked.
+inline RadiosityPhase one_shot(FakePort& port, RadiositySettings some, PeNumber owner, std::uint32_t k = 8) {
+  some.emission_points = k;
   RadiosityPhase phase(some);
   phase.start(port);
   port.take();
