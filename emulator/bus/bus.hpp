@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "emulator/bus/bus_figures.hpp"
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/jitter.hpp"
 #include "emulator/time/ready_set.hpp"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/engines/debugging.hpp"
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine/debugging.hpp"
+#include "emulator/engines/engine_names.hpp"
 
 namespace torolux {
 

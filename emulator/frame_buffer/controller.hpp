@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "emulator/description/description.hpp"
 #include "emulator/host/host_program.hpp"
-#include "emulator/machine/description.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/block.hpp"
 

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "emulator/description/description.hpp"
 #include "emulator/host/host_clock.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/host/host_queue.hpp"
-#include "emulator/machine/description.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/ready_set.hpp"
 #include "emulator/torus/block.hpp"

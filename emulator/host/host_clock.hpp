@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "emulator/host/host_work.hpp"
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
+#include "emulator/description/host_work.hpp"
 #include "emulator/time/event_queue.hpp"
 
 namespace torolux {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/host/host_work.hpp"
+#include "emulator/description/host_work.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/niu_window.hpp"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "emulator/bus/bus.hpp"
-#include "emulator/engines/engine.hpp"
-#include "emulator/engines/image.hpp"
+#include "emulator/engines/engine/engine.hpp"
+#include "emulator/engines/image/image.hpp"
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
 #include "emulator/machine/machine.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "emulator/engines/source_line.hpp"
+#include "emulator/engines/image/source_line.hpp"
 #include "emulator/hexadecimal.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/machine.hpp"

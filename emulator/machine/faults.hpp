@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "emulator/engines/image.hpp"
+#include "emulator/engines/image/image.hpp"
 #include "emulator/niu/channel.hpp"
 #include "firmware/protocol/niu_window.hpp"
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "emulator/bus/bus_figures.hpp"
-#include "emulator/engines/debugging.hpp"
-#include "emulator/engines/engine.hpp"
-#include "emulator/engines/image.hpp"
+#include "emulator/description/description.hpp"
+#include "emulator/engines/engine/debugging.hpp"
+#include "emulator/engines/engine_names.hpp"
+#include "emulator/engines/image/image.hpp"
 #include "emulator/host/host_program.hpp"
-#include "emulator/machine/description.hpp"
 #include "emulator/machine/time_line.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/torus/figures.hpp"

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 
 namespace torolux {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "emulator/description/description.hpp"
 #include "emulator/host/host_queue.hpp"
-#include "emulator/machine/description.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/waker.hpp"
 #include "emulator/time/bound_tree.hpp"

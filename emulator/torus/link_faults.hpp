@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 #include "emulator/torus/block.hpp"
 
 namespace torolux {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/jitter.hpp"
 #include "emulator/torus/block.hpp"

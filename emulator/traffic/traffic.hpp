@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 #include "emulator/time/event_queue.hpp"
 
 namespace torolux {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Records, replays.
 #include "host_tools/bench/replay.hpp"
+#include "emulator/engines/engine_names.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -11,7 +12,7 @@
 
 #include "emulator/engines/qemu/hint_log.hpp"
 #include "emulator/engines/qemu/qemu_engine.hpp"
-#include "emulator/engines/translated/translated_image.hpp"
+#include "emulator/engines/translated/run/translated_image.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"

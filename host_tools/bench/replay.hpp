@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/engines/engine.hpp"
-#include "emulator/engines/image.hpp"
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
+#include "emulator/engines/engine/engine.hpp"
+#include "emulator/engines/image/image.hpp"
 
 namespace torolux {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "emulator/engines/debugging.hpp"
+#include "emulator/engines/engine/debugging.hpp"
 
 namespace CLI {
 class App;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 
 namespace CLI {
 class App;

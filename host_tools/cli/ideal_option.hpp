@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 
 namespace CLI {
 class App;

@@ -16,7 +16,7 @@
 #include "host_tools/cli/help_format.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/cli/parse_error.hpp"
-#include "host_tools/version.hpp"
+#include "host_tools/report/version.hpp"
 
 namespace torolux {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/nearest_name.hpp"
 #include "firmware/protocol/stores.hpp"

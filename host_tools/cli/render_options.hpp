@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "emulator/engines/debugging.hpp"
+#include "emulator/engines/engine/debugging.hpp"
+#include "host_tools/camera/pixel_samples.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
-#include "host_tools/layout/scheme.hpp"
 #include "host_tools/picture/layers.hpp"
-#include "host_tools/render/presets.hpp"
 #include "host_tools/scene/missing_materials.hpp"
-#include "host_tools/stages/pixel_samples.hpp"
+#include "host_tools/settings/presets.hpp"
+#include "host_tools/settings/scheme.hpp"
 
 namespace CLI {
 class App;

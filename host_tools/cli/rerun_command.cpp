@@ -11,10 +11,10 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/cli/run_options.hpp"
 #include "host_tools/cli/same_run.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/settings_json.hpp"
-#include "host_tools/run/run_options.hpp"
 
 namespace torolux {
 namespace {

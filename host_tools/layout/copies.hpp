@@ -15,6 +15,13 @@
 
 namespace torolux {
 
+/// Subspaces that stand on every PE in a stage.
+struct StageCopies {
+  std::uint64_t cells = 0;
+  std::uint64_t bytes = 0;  ///< that they take of each PE's memory, surfaces that all have included
+  std::uint64_t kept = 0;   ///< surfaces that one PE alone has (ray tracing stage)
+};
+
 /// part: of Mesh::parts, its triangle has sides.
 SurfaceSize surface_size(const Mesh& mesh, std::uint32_t part);
 /// Bytes of a polygon in a PE's stores: itself, normals, patch references or lattice and tree to it, texture points.

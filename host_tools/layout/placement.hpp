@@ -11,8 +11,8 @@
 #include "firmware/protocol/stores.hpp"
 #include "host_tools/layout/heat.hpp"
 #include "host_tools/layout/polygon_groups.hpp"
-#include "host_tools/layout/scheme.hpp"
 #include "host_tools/mesh/mesh.hpp"
+#include "host_tools/settings/scheme.hpp"
 #include "host_tools/subspace/allocation.hpp"
 #include "host_tools/subspace/grid.hpp"
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "host_tools/irradiance/vertex_irradiance.hpp"
 #include "host_tools/layout/light_units.hpp"
 #include "host_tools/layout/stage_layout.hpp"
-#include "host_tools/mesh/lattice.hpp"
 
 namespace torolux {
 

@@ -9,9 +9,9 @@
 #include "host_tools/mesh/clusters.hpp"
 #include "host_tools/mesh/element_trees.hpp"
 #include "host_tools/mesh/levels.hpp"
+#include "host_tools/mesh/lit_sides.hpp"
 #include "host_tools/mesh/mesh_size.hpp"
 #include "host_tools/mesh/reflectance.hpp"
-#include "host_tools/mesh/sides.hpp"
 #include "host_tools/mesh/wall_pieces.hpp"
 #include "host_tools/scene/vec.hpp"
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "firmware/protocol/stores.hpp"
-#include "host_tools/mesh/hiding.hpp"
 #include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/normalise.hpp"
+#include "host_tools/mesh/occlusion.hpp"
 #include "host_tools/mesh/smooth_surfaces.hpp"
 #include "host_tools/mesh/textures.hpp"
 #include "host_tools/mesh/walls.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host_tools/render/setup.hpp"
+#include "host_tools/setup/setup.hpp"
 
 namespace torolux {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "emulator/host/host_program.hpp"
 #include "host_tools/picture/layers.hpp"
-#include "host_tools/render/setup.hpp"
+#include "host_tools/setup/setup.hpp"
 
 namespace torolux {
 

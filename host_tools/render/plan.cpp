@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "emulator/errors.hpp"
-#include "host_tools/render/advice.hpp"
 #include "host_tools/render/predict.hpp"
 #include "host_tools/render/render.hpp"
-#include "host_tools/render/setup.hpp"
+#include "host_tools/setup/advice.hpp"
+#include "host_tools/setup/setup.hpp"
 
 namespace torolux {
 

@@ -6,9 +6,11 @@
 #include <numeric>
 #include <thread>
 
+#include "firmware/protocol/messages.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
-#include "host_tools/render/camera_sample.hpp"
-#include "host_tools/render/path_sample.hpp"
+#include "host_tools/setup/camera_sample.hpp"
+#include "host_tools/setup/path_sample.hpp"
+#include "host_tools/stages/radiosity_settings.hpp"
 
 namespace torolux {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "host_tools/render/render.hpp"
-#include "host_tools/render/setup.hpp"
+#include "host_tools/setup/setup.hpp"
 
 namespace torolux {
 

@@ -2,7 +2,7 @@
 // The block `settings` of a run's statistics enters, the command line that leads to it again leaves.
 #include <nlohmann/json.hpp>
 
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
 #include "host_tools/report/settings_json.hpp"
 

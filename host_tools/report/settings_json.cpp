@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host_tools/version.hpp"
+#include "host_tools/report/version.hpp"
 
 namespace torolux {
 namespace {

@@ -10,7 +10,7 @@
 #include "host_tools/report/machine_json.hpp"
 #include "host_tools/report/settings_json.hpp"
 #include "host_tools/report/text.hpp"
-#include "host_tools/version.hpp"
+#include "host_tools/report/version.hpp"
 
 namespace torolux {
 namespace {

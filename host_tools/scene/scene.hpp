@@ -70,9 +70,6 @@ struct Camera {
   double field_of_view_degrees = 40;  ///< vertical
 };
 
-inline constexpr std::uint32_t kMostSamples = 65536;  ///< of a pixel
-inline constexpr std::uint32_t kMostEmissionRecords = 1'000'000'000;
-
 /// Values that a scene.toml suggests for options the user did not give.
 struct SceneDefaults {
   std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, emission_records, max_shots, bounces,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads scene.toml: meshes, material overrides, lights, camera, defaults.
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/settings/quality.hpp"
 
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/imported_mesh.hpp"

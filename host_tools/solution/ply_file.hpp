@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "host_tools/irradiance/vertex_irradiance.hpp"
 #include "host_tools/layout/light_units.hpp"
-#include "host_tools/mesh/lattice.hpp"
 
 namespace torolux {
 

@@ -11,7 +11,7 @@
 #include "emulator/errors.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "host_tools/files/write_file.hpp"
-#include "host_tools/render/presets.hpp"
+#include "host_tools/settings/presets.hpp"
 
 namespace torolux {
 namespace {

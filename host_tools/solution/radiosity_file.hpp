@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/settings/quality.hpp"
 #include "host_tools/solution/solution.hpp"
 
 namespace torolux {

@@ -2,13 +2,13 @@
 // What the radiosity stage leaves: flux of every element and patch side, and the sums that prove none was lost.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "firmware/protocol/stores.hpp"
 #include "host_tools/layout/light_units.hpp"
 #include "host_tools/mesh/mesh.hpp"
-#include "host_tools/render/render.hpp"
 
 namespace torolux {
 
@@ -32,6 +32,11 @@ struct Solution {
   protocol::Flux emitted_shot{};        ///< flux of all shots of emitted light
   protocol::Flux reflected_shot{};      ///< flux of all shots of reflected light
   std::uint64_t shots = 0;
+};
+
+/// [W], R G B.
+struct EnergyBalance {
+  std::array<double, 3> emitted{}, absorbed{}, absorbed_specular{}, unshot{}, escaped{}, cut_off{}, back_side{};
 };
 
 /// Checks in integers that no flux was lost or made: every side's incident flux is that of its elements, and emitted =

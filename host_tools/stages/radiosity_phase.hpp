@@ -9,23 +9,10 @@
 #include "host_tools/mesh/mesh.hpp"
 #include "host_tools/stages/credit_pool.hpp"
 #include "host_tools/stages/phase.hpp"
+#include "host_tools/stages/radiosity_settings.hpp"
 #include "host_tools/stages/rounds.hpp"
 
 namespace torolux {
-
-struct RadiositySettings {
-  unsigned pes = 1;
-  std::uint64_t credits = 256;     ///< W, > 0
-  std::uint32_t shooters = 8;      ///< S: shots in a round, 1..kMostShooters
-  std::int64_t least_unshot = 0;   ///< sides with no more than this are not shot [quanta, R + G + B]
-  std::int64_t enough_unshot = 0;  ///< the stage ends when no more than this is unshot [quanta, R + G + B]
-  double emitted = 0;              ///< all that the emitters have [quanta, R + G + B]
-  std::uint32_t max_shots = 0;     ///< 0: no limit
-  std::vector<std::array<protocol::Fraction, 3>> reflectance;  ///< by global patch
-  std::uint32_t shot_points = 1, emission_points = 1;          ///< as in protocol::StageLayout
-  float points_per_quantum = 1;
-  bool points_travel = true;  ///< to whoever has little work; else each is expanded by the patch's owner
-};
 
 class RadiosityPhase : public Phase {
  public:

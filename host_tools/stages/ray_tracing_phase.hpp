@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "host_tools/camera/camera_rays.hpp"
 #include "host_tools/layout/placement.hpp"
-#include "host_tools/stages/camera_rays.hpp"
 #include "host_tools/stages/credit_pool.hpp"
 #include "host_tools/stages/ray_phase.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "host_tools/layout/stage_image.hpp"
 #include "host_tools/stages/load_phase.hpp"
+#include "host_tools/stages/radiosity_phase.hpp"
 #include "host_tools/stages/read_phase.hpp"
 #include "host_tools/stages/report_phase.hpp"
 #include "host_tools/stages/tile_phase.hpp"

@@ -7,11 +7,13 @@
 #include <optional>
 
 #include "emulator/host/host_program.hpp"
-#include "host_tools/mesh/lattice.hpp"
-#include "host_tools/render/setup.hpp"
+#include "host_tools/camera/camera_rays.hpp"
+#include "host_tools/irradiance/vertex_irradiance.hpp"
+#include "host_tools/setup/setup.hpp"
 #include "host_tools/solution/solution.hpp"
-#include "host_tools/stages/camera_rays.hpp"
 #include "host_tools/stages/phase.hpp"
+#include "host_tools/stages/progress.hpp"
+#include "host_tools/stages/radiosity_settings.hpp"
 #include "host_tools/stages/ray_tracing_phase.hpp"
 #include "host_tools/stages/rounds.hpp"
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <optional>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 
 namespace torolux::study {
 namespace {

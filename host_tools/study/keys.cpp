@@ -8,8 +8,8 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/cli/run_options.hpp"
 #include "host_tools/report/settings_json.hpp"
-#include "host_tools/run/run_options.hpp"
 #include "host_tools/study/options.hpp"
 
 namespace torolux::study {

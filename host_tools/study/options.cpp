@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 #include "emulator/nearest_name.hpp"
 #include "host_tools/cli/command.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 #include "emulator/nearest_name.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"

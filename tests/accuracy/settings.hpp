@@ -4,7 +4,8 @@
 
 #include <array>
 
-#include "host_tools/render/presets.hpp"
+#include "host_tools/scene/scene.hpp"
+#include "host_tools/settings/presets.hpp"
 
 namespace torolux::accuracy {
 

@@ -8,7 +8,7 @@
 #include "firmware/protocol/niu_window.hpp"
 #include "tests/images/triangles.hpp"
 #include "tests/translated/runs.hpp"
-#include "tests/unit/engines/engine_support.hpp"
+#include "tests/unit/emulator/engines/engine_support.hpp"
 
 namespace torolux::test {
 namespace {

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "firmware/protocol/messages.hpp"
+#include "host_tools/irradiance/cluster_light.hpp"
+#include "host_tools/irradiance/irradiance_fit.hpp"
+#include "host_tools/irradiance/vertex_irradiance.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
 #include "host_tools/layout/stage_image.hpp"
-#include "host_tools/mesh/cluster_light.hpp"
-#include "host_tools/mesh/irradiance_fit.hpp"
-#include "host_tools/mesh/lattice.hpp"
-#include "host_tools/render/setup.hpp"
 #include "host_tools/scene/load_scene.hpp"
+#include "host_tools/setup/setup.hpp"
 #include "host_tools/stages/ray_tracing_phase.hpp"
 
 namespace torolux::test {

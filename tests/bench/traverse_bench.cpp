@@ -2,7 +2,7 @@
 // Rays per second through a room with a ball in it, with the PEs' own code compiled for this computer.
 #include <benchmark/benchmark.h>
 
-#include "tests/unit/firmware/closed_rooms.hpp"
+#include "tests/unit/firmware/pe/closed_rooms.hpp"
 
 namespace torolux::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "emulator/engines/image.hpp"
+#include "emulator/description/description.hpp"
+#include "emulator/engines/image/image.hpp"
 #include "emulator/errors.hpp"
-#include "emulator/machine/description.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The default machine file, cut and changed at random (a fixed seed): nothing crashes, each refusal says where. The
-// same is done to images in tests/unit/engines/image_test.cpp.
+// same is done to images in tests/unit/emulator/engines/image/image_test.cpp.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -10,8 +10,8 @@
 #include "emulator/errors.hpp"
 #include "host_tools/stages/radiosity_phase.hpp"
 #include "host_tools/stages/tile_phase.hpp"
-#include "tests/unit/firmware/fake_machine.hpp"
-#include "tests/unit/host/fake_port.hpp"
+#include "tests/unit/firmware/pe/fake_machine.hpp"
+#include "tests/unit/host_tools/stages/fake_port.hpp"
 
 namespace torolux {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/engines/source_line.hpp"
+#include "emulator/engines/image/source_line.hpp"
 #include "emulator/errors.hpp"
 #include "host_tools/run/run.hpp"
 

@@ -10,7 +10,7 @@
 #include "emulator/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/translated/runs.hpp"
-#include "tests/unit/engines/engine_support.hpp"
+#include "tests/unit/emulator/engines/engine_support.hpp"
 
 namespace torolux::test {
 namespace {

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <thread>
 
-#include "emulator/engines/image.hpp"
+#include "emulator/engines/image/image.hpp"
 #include "tests/machine/gdb_client.hpp"
 #include "tests/machine/process.hpp"
 #include "tests/support/temporary_folder.hpp"

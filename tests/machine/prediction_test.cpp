@@ -3,7 +3,7 @@
 // lobes, mirrors, glass, shadow rays, a draft.
 #include <gtest/gtest.h>
 
-#include "host_tools/render/presets.hpp"
+#include "host_tools/settings/presets.hpp"
 #include "tests/support/render_support.hpp"
 
 namespace torolux::test {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine_names.hpp"
 #include "tests/machine/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/niu/processor_side.hpp"
 

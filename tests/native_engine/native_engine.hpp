@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine/engine.hpp"
 #include "firmware/niu/niu.hpp"
 
 namespace torolux::test {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/soak/random_machine.hpp"
-#include "tests/unit/firmware/closed_rooms.hpp"
+#include "tests/unit/firmware/pe/closed_rooms.hpp"
 
 namespace torolux::test {
 namespace {

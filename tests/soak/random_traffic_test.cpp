@@ -6,7 +6,7 @@
 #include "emulator/traffic/pattern.hpp"
 #include "emulator/traffic/traffic.hpp"
 #include "tests/soak/random_machine.hpp"
-#include "tests/unit/emulator/wanderers.hpp"
+#include "tests/unit/emulator/machine/wanderers.hpp"
 
 namespace torolux::test {
 namespace {

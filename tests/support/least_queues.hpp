@@ -3,7 +3,7 @@
 // where a machine would lock first.
 #pragma once
 
-#include "emulator/machine/description.hpp"
+#include "emulator/description/description.hpp"
 
 namespace torolux::test {
 

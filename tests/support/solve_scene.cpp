@@ -2,7 +2,7 @@
 // See solve_scene.hpp.
 #include "tests/support/solve_scene.hpp"
 
-#include "host_tools/render/setup.hpp"
+#include "host_tools/setup/setup.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cache of translated code: used when it is whole, rebuilt when it is not, harmless where it cannot be written.
-#include "emulator/engines/translated/cache.hpp"
+#include "emulator/engines/translated/compile/cache.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <sstream>
 #include <thread>
 
-#include "emulator/engines/translated/translated_image.hpp"
+#include "emulator/engines/translated/run/translated_image.hpp"
 #include "tests/translated/runs.hpp"
 
 namespace torolux::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A folder and files that others could change are refused; what is made is closed to them. As root and as any user.
-#include "emulator/engines/translated/private_folder.hpp"
+#include "emulator/engines/translated/compile/private_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "emulator/engines/translated/cache.hpp"
+#include "emulator/engines/translated/compile/cache.hpp"
 
 namespace torolux::test {
 namespace {

@@ -2,9 +2,9 @@
 // Whole images: what they send, leave in memory and take in cycles is the same on all ways of running them.
 #include <gtest/gtest.h>
 
-#include "emulator/engines/translated/generator.hpp"
+#include "emulator/engines/translated/generate/generator.hpp"
 #include "tests/translated/runs.hpp"
-#include "tests/unit/engines/engine_support.hpp"
+#include "tests/unit/emulator/engines/engine_support.hpp"
 
 namespace torolux::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The queue of PEs that may run: under threads that wake, take, claim and park at random no wake-up is lost and no PE
 // is on two threads at once.
-#include "emulator/engines/translated/run_queue.hpp"
+#include "emulator/engines/translated/run/run_queue.hpp"
 
 #include <gtest/gtest.h>
 

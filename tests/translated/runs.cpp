@@ -8,10 +8,10 @@
 #include <cstring>
 #include <sstream>
 
-#include "emulator/engines/translated/translated_engine.hpp"
+#include "emulator/engines/translated/run/translated_engine.hpp"
 #include "emulator/errors.hpp"
-#include "tests/unit/engines/elf_builder.hpp"
-#include "tests/unit/engines/engine_support.hpp"
+#include "tests/unit/emulator/engines/elf_builder.hpp"
+#include "tests/unit/emulator/engines/engine_support.hpp"
 
 namespace torolux::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine/engine.hpp"
 #include "tests/translated/assembler.hpp"
 
 namespace torolux::test {

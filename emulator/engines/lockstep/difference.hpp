@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "emulator/engines/image.hpp"
+#include "emulator/engines/image/image.hpp"
 #include "emulator/engines/lockstep/shadow.hpp"
 #include "emulator/engines/qemu/hint_meeting.hpp"
-#include "emulator/engines/translated/code_map.hpp"
+#include "emulator/engines/translated/decode/code_map.hpp"
 
 namespace torolux::lockstep {
 

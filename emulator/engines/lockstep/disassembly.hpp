@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "emulator/engines/translated/instruction.hpp"
+#include "emulator/engines/translated/decode/instruction.hpp"
 
 namespace torolux::lockstep {
 

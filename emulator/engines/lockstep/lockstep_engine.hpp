@@ -9,8 +9,8 @@
 #include <memory>
 #include <string_view>
 
-#include "emulator/engines/engine.hpp"
-#include "emulator/engines/translated/translated_image.hpp"
+#include "emulator/engines/engine/engine.hpp"
+#include "emulator/engines/translated/run/translated_image.hpp"
 
 namespace torolux::lockstep {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "emulator/engines/shared_memory.hpp"
+#include "emulator/engines/engine/shared_memory.hpp"
 
 namespace torolux::lockstep {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "emulator/engines/translated/interpreter.hpp"
+#include "emulator/engines/translated/run/interpreter.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux::lockstep {

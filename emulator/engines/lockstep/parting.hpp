@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
-#include "emulator/engines/translated/code_map.hpp"
-#include "emulator/engines/translated/translated_image.hpp"
+#include "emulator/engines/translated/decode/code_map.hpp"
+#include "emulator/engines/translated/run/translated_image.hpp"
 
 namespace torolux::lockstep {
 

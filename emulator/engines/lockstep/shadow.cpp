@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine/engine.hpp"
 #include "emulator/engines/qemu/hint_effects.hpp"
 
 namespace torolux::lockstep {

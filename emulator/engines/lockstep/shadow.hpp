@@ -10,7 +10,7 @@
 
 #include "emulator/engines/lockstep/memory_pair.hpp"
 #include "emulator/engines/qemu/hint_meeting.hpp"
-#include "emulator/engines/translated/translated_image.hpp"
+#include "emulator/engines/translated/run/translated_image.hpp"
 #include "emulator/niu/processor_side.hpp"
 
 namespace torolux::lockstep {

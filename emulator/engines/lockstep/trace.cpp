@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "emulator/engines/translated/interpreter.hpp"
+#include "emulator/engines/translated/run/interpreter.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux::lockstep {

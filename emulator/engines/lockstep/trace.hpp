@@ -7,7 +7,7 @@
 #include <deque>
 #include <optional>
 
-#include "emulator/engines/translated/code_map.hpp"
+#include "emulator/engines/translated/decode/code_map.hpp"
 #include "emulator/engines/translated/semantics/pe_state.hpp"
 
 namespace torolux::lockstep {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "emulator/engines/debugging.hpp"
+#include "emulator/engines/engine/debugging.hpp"
 
 namespace torolux {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "emulator/engines/debugging.hpp"
-#include "emulator/engines/engine.hpp"
+#include "emulator/engines/engine/debugging.hpp"
+#include "emulator/engines/engine/engine.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
 
 namespace torolux {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What runs the PEs' processors. The scheduler does not know which engine it is: they meet in the NIU channels alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "emulator/description/description.hpp"
+#include "emulator/engines/engine/shared_memory.hpp"
+#include "emulator/engines/image/image.hpp"
+#include "emulator/niu/waker.hpp"
+#include "firmware/protocol/machine.hpp"
+
+namespace torolux {
+
+/// One PE as engine and emulator share it: local memory with the image loaded and the NIU window filled in.
+struct PeMemory {
+  SharedMemory channel;  ///< a NiuChannel
+  SharedMemory local;    ///< local memory, from kLocalMemoryBase; may be mapped larger than the PE's size
+  std::uint32_t local_memory_bytes;
+};
+
+/// Bytes to map as PeMemory::local for a PE with this much local memory: engines may need room behind it.
+std::size_t mapped_bytes_for(std::uint32_t local_memory_bytes);
+
+/// What it refers to must outlive the engine.
+struct EngineSetup {
+  const MachineDescription& machine;
+  const Image& image;
+  std::vector<PeMemory>& pes;
+  unsigned threads;                  ///< host threads to use, >= 1
+  std::vector<bool> elsewhere = {};  ///< by number: PEs that another engine of this machine runs; empty: none
+
+  bool runs(std::size_t pe) const { return elsewhere.empty() || !elsewhere[pe]; }
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;  ///< leaves no process, thread or file behind
+  virtual std::string_view name() const = 0;
+  /// Lets every PE begin at `_start`. Returns at once.
+  virtual void start() = 0;
+  /// Throws MachineFailure (PE, reason, log) if a PE can no longer go on. Cheap; called at least five times a second.
+  virtual void check() = 0;
+  /// Ends all PEs that still run. Called once, after the channels have been told to stop.
+  virtual void stop() = 0;
+  /// Host CPU time that the PEs have used so far [s]; 0 where the engine cannot tell it from the emulator's own.
+  virtual double cpu_seconds() const { return 0; }
+
+  // ---- For engines whose PEs run in this process; only the scheduler's thread calls these ----
+
+  /// Who is told that this PE may go on; none: it sleeps on its channel.
+  virtual ProcessorWaker* waker(unsigned /*pe*/) { return nullptr; }
+  /// The scheduler has nothing to do until this PE's bound is later than `wanted`: runs that PE, or another, for some
+  /// milliseconds at most. False: nothing to run here; sleep. Throws as check() does.
+  virtual bool help(unsigned /*pe*/, std::uint64_t /*wanted*/) { return false; }
+  /// This PE will probably be the next to be helped: what that needs, fetched into the caches meanwhile.
+  virtual void fetch_ahead(unsigned /*pe*/) const {}
+  /// Time spent in `help` so far [s].
+  virtual double help_seconds() const { return 0; }
+};
+
+inline constexpr const char* kQemuEngine = "qemu";  ///< the reference
+
+}  // namespace torolux

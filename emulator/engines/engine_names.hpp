@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The engines by name: a name and a setup enter, an engine leaves.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "emulator/engines/engine/engine.hpp"
+
+namespace torolux {
+
+using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>;
+
+/// Where the user names none.
+inline constexpr const char* kDefaultEngine = "translated";
+
+/// Engines by name. `qemu`, `translated` and `interpreted` are always there; others register before main's work (tests
+/// add `native`).
+void register_engine(std::string_view name, EngineFactory factory);
+/// Whether its PEs need no memory that other processes can map. Throws as engine_named.
+bool engine_runs_here(std::string_view name);
+/// Throws UsageError with the known names.
+const EngineFactory& engine_named(std::string_view name);
+std::vector<std::string_view> engine_names();
+
+}  // namespace torolux

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Threads take PEs that may run; the scheduler's thread lends a hand instead of sleeping.
+#include "emulator/engines/translated/run/translated_engine.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <thread>
+
+#include "emulator/engines/translated/run/processor.hpp"
+#include "emulator/engines/translated/run/run_queue.hpp"
+#include "emulator/niu/channel.hpp"
+#include "emulator/pause.hpp"
+
+namespace torolux {
+namespace {
+
+using translated::Goal;
+using translated::Processor;
+using translated::RunQueue;
+using translated::TranslatedImage;
+using Clock = std::chrono::steady_clock;
+
+/// Looks for news or another PE before the scheduler's thread sleeps: some 20 microseconds.
+constexpr int kLooks = 500;
+
+/// While takers have nothing to do, the scheduler's thread is wanted: by the news of a PE.
+class News final : public Goal {
+ public:
+  News(const NiuChannel& channel, std::uint64_t wanted, const RunQueue& queue)
+      : channel_(channel), wanted_(wanted), queue_(queue) {}
+  bool there() const {
+    return channel_.bound.load(std::memory_order_relaxed) > wanted_ ||
+           wait_kind(channel_.wait.load(std::memory_order_relaxed)) != WaitKind::running;
+  }
+  bool reached() const override { return queue_.has_idle_takers() && there(); }
+
+ private:
+  const NiuChannel& channel_;
+  std::uint64_t wanted_;
+  const RunQueue& queue_;
+};
+
+class TranslatedEngine final : public Engine, private ProcessorWaker {
+ public:
+  TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
+      : setup_(setup),
+        interprets_(options.interpret),
+        code_(setup.image, setup.machine.processor.latency, options),
+        queue_(setup.pes.size(), setup.threads - 1) {
+    for (unsigned pe = 0; pe < setup.pes.size(); ++pe) {
+      if (!setup_.runs(pe) && queue_.claim(pe)) queue_.finish(pe);
+    }
+  }
+  TranslatedEngine(const TranslatedEngine&) = delete;
+  TranslatedEngine& operator=(const TranslatedEngine&) = delete;
+  ~TranslatedEngine() override { end(); }
+
+  std::string_view name() const override { return interprets_ ? "interpreted" : "translated"; }
+
+  void start() override {
+    for (unsigned pe = 0; pe < setup_.pes.size(); ++pe) processors_.emplace_back(code_, setup_, pe);
+    for (unsigned i = 1; i < setup_.threads; ++i) threads_.emplace_back([this] { work(); });
+  }
+
+  /// A PE that can never go on tells the network itself.
+  void check() override {}
+
+  void stop() override { end(); }
+
+  ProcessorWaker* waker(unsigned /*pe*/) override { return this; }
+  bool help(unsigned pe, std::uint64_t wanted) override;
+  void fetch_ahead(unsigned pe) const override { processors_[pe].fetch_ahead(); }
+  double help_seconds() const override { return std::chrono::duration<double>(helped_).count(); }
+
+ private:
+  void wake(unsigned pe) override { queue_.wake(pe); }
+  void work();
+  void run(unsigned pe, const Goal* goal);
+  void end();
+
+  EngineSetup setup_;
+  bool interprets_;
+  TranslatedImage code_;
+  RunQueue queue_;
+  std::deque<Processor> processors_;
+  std::vector<std::thread> threads_;
+  std::atomic<bool> ending_ = false;
+  Clock::duration helped_{};
+};
+
+/// Runs a PE that is the calling thread's until it is not any more.
+void TranslatedEngine::run(unsigned pe, const Goal* goal) {
+  for (;;) {
+    switch (processors_[pe].run(goal)) {
+      case Processor::Stop::waits:
+        if (queue_.park(pe)) return;
+        break;  // woken: the HINT is tried again
+      case Processor::Stop::enough:
+      case Processor::Stop::slice:
+        return queue_.put_back(pe);
+      case Processor::Stop::finished:
+        return queue_.finish(pe);
+    }
+  }
+}
+
+void TranslatedEngine::work() {
+  while (!ending_.load(std::memory_order_relaxed)) {
+    if (const auto pe = queue_.wait_and_take()) run(*pe, nullptr);
+  }
+}
+
+bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
+  const News news(processors_[pe].channel(), wanted, queue_);
+  if (!queue_.claim(pe)) {
+    std::optional<unsigned> other = queue_.take();
+    for (int i = 0; i < kLooks && !other; ++i) {
+      if (news.there()) return true;
+      torolux::pause();
+      other = queue_.take();
+    }
+    if (!other) return false;
+    pe = *other;
+  }
+  const Clock::time_point begin = Clock::now();
+  queue_.scheduler_runs_pe(true);
+  run(pe, threads_.empty() ? nullptr : &news);
+  queue_.scheduler_runs_pe(false);
+  helped_ += Clock::now() - begin;
+  return true;
+}
+
+void TranslatedEngine::end() {
+  ending_ = true;
+  queue_.close();
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_translated_engine(const EngineSetup& setup,
+                                               const translated::TranslationOptions& options) {
+  return std::make_unique<TranslatedEngine>(setup, options);
+}
+
+}  // namespace torolux

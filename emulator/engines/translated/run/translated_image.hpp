@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// An image as code of this computer, shared by all PEs that run it. Enters: image and latency table; leaves: a PE's
+// state, advanced to its next HINT. Everything here is const once made: any number of threads may run their PEs.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "emulator/description/description.hpp"
+#include "emulator/engines/image/image.hpp"
+#include "emulator/engines/translated/analysis/blocks.hpp"
+#include "emulator/engines/translated/decode/code_map.hpp"
+#include "emulator/engines/translated/run/interpreter.hpp"
+#include "emulator/engines/translated/semantics/pe_state.hpp"
+
+namespace torolux::translated {
+
+struct TranslationOptions {
+  std::filesystem::path cache_folder;  ///< empty: the user's; see Cache
+  bool interpret = false;              ///< translate nothing: slow, needs no compiler
+};
+
+class TranslatedImage {
+ public:
+  /// Takes the code from the cache, or translates and compiles it (seconds). Throws MachineFailure where no compiler
+  /// is found or it fails.
+  TranslatedImage(const Image& image, const LatencyTable& latency, const TranslationOptions& options = {});
+  ~TranslatedImage();
+  TranslatedImage(const TranslatedImage&) = delete;
+  TranslatedImage& operator=(const TranslatedImage&) = delete;
+
+  /// Whether the cache had it.
+  bool from_cache() const { return from_cache_; }
+
+  /// Puts a PE to the beginning of `_start`, without calls at HINTs and cycle limit. local_memory: the image is loaded
+  /// and the NIU window filled in; it outlives the PE. mapped_bytes: as mapped_bytes_for, what QEMU would be given.
+  void start(TranslatedPe& pe, std::span<std::byte> local_memory, std::size_t mapped_bytes) const;
+
+  enum class Stop : std::uint8_t {
+    hint,         ///< executed and counted, pc behind it; hint_immediate says which. pe.hint has been asked, if the
+                  ///< code is translated. Set pe.cycles if it waits
+    cycle_limit,  ///< pe.cycles >= pe.cycle_limit
+    stuck,        ///< it will never execute anything again: a trap while mtvec points to nothing (mcause, mepc and
+                  ///< mtval tell of the last trap)
+    waits,        ///< nor after this: wfi, counted, at pc
+  };
+  /// Goes on from where the PE stands. Call it again after each HINT.
+  Stop run(TranslatedPe& pe) const;
+
+ private:
+  struct Library;
+  static constexpr std::uint16_t kNone = 0xFFFF;
+  struct Way {
+    std::uint16_t function = kNone;  ///< kNone: not an entry
+    bool begins_function = false;
+    Cost rest{0, 0};  ///< of its block from this instruction on
+  };
+
+  void load(const Image& image, const TranslationOptions& options);
+  bool may_run_translated(const TranslatedPe& pe) const;
+  void refresh(TranslatedPe& pe) const;
+  Interpreter::Step interpret(TranslatedPe& pe) const;
+  void give_back_rest(TranslatedPe& pe) const;
+  const Way* way_at(std::uint32_t address) const;
+  void find_ways(const Block& block, std::size_t function, bool begins_function);
+  Exit run_translated(TranslatedPe& pe, const Way& way) const;
+
+  CodeMap code_;
+  Interpreter interpreter_;
+  std::vector<Way> ways_;
+  std::optional<std::set<std::uint32_t>> trap_handlers_;  // of Liveness
+  EnterFunction enter_ = nullptr;
+  const HostFunction* called_ = nullptr;   // by number of the function
+  const HostFunction* resumed_ = nullptr;  // likewise
+  std::unique_ptr<Library> library_;
+  bool from_cache_ = false;
+  bool has_float_ = false;
+  bool interpret_ = false;
+};
+
+}  // namespace torolux::translated

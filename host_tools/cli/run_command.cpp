@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// `torolux run IMAGE.elf`: options enter; the PEs' text, statistics and a summary leave.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "host_tools/cli/command.hpp"
+#include "host_tools/cli/run_options.hpp"
+#include "host_tools/files/write_file.hpp"
+#include "host_tools/report/csv.hpp"
+#include "host_tools/report/text.hpp"
+#include "host_tools/run/run.hpp"
+
+namespace torolux {
+namespace {
+
+void print_summary(const MachineSetup& setup, const MachineFigures& figures, double wall_seconds) {
+  std::uint64_t packets = 0;
+  for (const PeFigures& pe : figures.pes) packets += pe.packets_delivered;
+  std::cerr << "torolux: " << figures.pes.size() << " PEs halted at cycle " << grouped(figures.now) << " ("
+            << significant(1e3 * static_cast<double>(figures.now) / setup.description.processor.clock_hertz, 4)
+            << " ms of virtual time); " << grouped(figures.instructions()) << " instructions, " << grouped(packets)
+            << " packets; " << duration(wall_seconds) << "\n";
+}
+
+}  // namespace
+
+RunEnd run_prepared(const RunOptions& options) {
+  const MachineSetup setup = setup_from(options);
+  const Image image = load_image(options.image);
+  if (options.stats) {
+    check_file_writable(*options.stats);
+  }
+  if (options.stats_csv) {
+    check_stats_folder(*options.stats_csv);
+  }
+  const InputFile image_file{"image", options.image, sha256_of_file(options.image)};
+  const auto begin = std::chrono::steady_clock::now();
+  const auto print = [](const PeText& text) {
+    std::cout << "PE " << text.pe << " @ " << text.time << ": " << text.text << std::endl;
+  };
+  const MachineFigures figures = run_image(setup, image, print, [](Cycles) { return !interrupted(); });
+  if (interrupted()) {
+    return {kInterrupted, ""};
+  }
+  const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::string statistics = run_stats_json(setup, image_file, figures, wall_seconds);
+  if (options.stats) {
+    write_file(*options.stats, statistics);
+  }
+  if (options.stats_csv) {
+    write_stats_tables(*options.stats_csv, stats_tables(figures));
+  }
+  if (!options.quiet) {
+    print_summary(setup, figures, wall_seconds);
+  }
+  return {0, std::move(statistics)};
+}
+
+void add_run_command(CLI::App& app, CommandAction& action) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Run any firmware image and print what its PEs say");
+  add_run_options(*command, *options);
+  command->callback([options, &action] { action = [options] { return run_prepared(*options).exit_code; }; });
+}
+
+}  // namespace torolux

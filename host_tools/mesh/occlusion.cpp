@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// See hiding.hpp.
+#include "host_tools/mesh/occlusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "firmware/protocol/random.hpp"
+#include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/mesh/edges.hpp"
+#include "host_tools/mesh/mesh.hpp"
+
+namespace torolux {
+namespace {
+
+/// Points are looked at from so high over their triangle, as walls' feet are, in the space's longest edge.
+constexpr double kHeight = 1e-5;
+/// A thing that leaves this much of half a sphere open, in steradians, has an opening: light may come in.
+constexpr double kOpening = 1e-4;
+/// Larger things hide nothing: to look from many points would take too long.
+constexpr std::size_t kMostTriangles = 20'000;
+/// A facet is looked at in 4^kParts parts.
+constexpr std::uint32_t kParts = 2;
+
+bool contains(const vec::Box& box, const Vec3d& point) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (point[axis] < box.low[axis] || point[axis] > box.high[axis]) return false;
+  }
+  return true;
+}
+
+std::array<Vec3d, 3> corners_of(const MeshTriangle& triangle) {
+  return {to_double(triangle.corner[0]), to_double(triangle.corner[1]), to_double(triangle.corner[2])};
+}
+
+/// Triangles that hang together, by triangle.
+struct Sets {
+  std::vector<std::uint32_t> root;  ///< the lowest of the set
+  std::vector<bool> alike;          ///< by root: wound alike, no edge is shared by more than two
+  std::vector<std::pair<std::uint32_t, std::uint8_t>> border;  ///< triangle and edge, of edges that one triangle has
+};
+
+/// A set before it is known whether it may hide.
+struct Candidate {
+  std::vector<std::array<Vec3d, 3>> triangles;
+  std::vector<std::array<Vec3d, 2>> border;
+};
+
+Sets sets_of(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> positions;
+  for (const MeshTriangle& triangle : mesh.triangles) positions.push_back(triangle.position);
+  const std::vector<EdgeUse> uses = edge_uses(positions);
+  DisjointSets joined(positions.size());
+  std::vector<bool> alike(positions.size(), true);
+  std::vector<std::pair<std::uint32_t, std::uint8_t>> border;
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 1) border.emplace_back(edge[0].triangle, edge[0].edge);
+    const bool one_way = edge.size() == 1 || (edge.size() == 2 && edge[0].forward != edge[1].forward);
+    for (const EdgeUse& use : edge) {
+      joined.merge(edge[0].triangle, use.triangle);
+      if (!one_way) alike[use.triangle] = false;
+    }
+  });
+  Sets sets{{}, std::vector<bool>(positions.size(), true), std::move(border)};
+  for (std::uint32_t t = 0; t < positions.size(); ++t) {
+    sets.root.push_back(joined.root(t));
+    if (!alike[t]) sets.alike[sets.root[t]] = false;
+  }
+  return sets;
+}
+
+}  // namespace
+
+PlanePoint middle_of_grid(std::uint32_t code) {
+  const auto corner = grid_points(code);
+  constexpr double unit = 1.0 / (1U << protocol::kMostLevels);
+  return {unit * ((corner[0].i + corner[1].i + corner[2].i) / 3.0),
+          unit * ((corner[0].j + corner[1].j + corner[2].j) / 3.0)};
+}
+
+Hiding::Hiding(const Mesh& mesh, const Scene& scene) {
+  Sets sets = sets_of(mesh);
+  thing_of_ = std::move(sets.root);
+  std::vector<Candidate> all(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const SceneMaterial& material = scene.materials[mesh.triangles[t].material];
+    Candidate& candidate = all[thing_of_[t]];
+    candidate.triangles.push_back(corners_of(mesh.triangles[t]));
+    if (material.kind == SurfaceKind::glass || emits(material)) sets.alike[thing_of_[t]] = false;
+  }
+  for (const auto& [triangle, edge] : sets.border) {
+    const auto corner = corners_of(mesh.triangles[triangle]);
+    all[thing_of_[triangle]].border.push_back({corner[edge], corner[(edge + 1) % 3]});
+  }
+  std::vector<std::uint32_t> number(all.size(), protocol::kNoSide);
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const std::size_t size = all[s].triangles.size();
+    if (size < 4 || size > kMostTriangles || !sets.alike[s]) continue;
+    Thing& thing = things_.emplace_back();
+    for (const auto& triangle : all[s].triangles)
+      for (const Vec3d& corner : triangle) thing.box.include(corner);
+    thing.angle = SolidAngle(std::move(all[s].triangles), all[s].border);
+    number[s] = static_cast<std::uint32_t>(things_.size() - 1);
+  }
+  // Those that an emitter stands in are left out, and the numbers close ranks.
+  const std::vector<bool> lit = lit_inside(mesh, scene);
+  std::vector<std::uint32_t> kept(things_.size(), protocol::kNoSide);
+  std::vector<Thing> dark;
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    if (lit[i]) continue;
+    kept[i] = static_cast<std::uint32_t>(dark.size());
+    dark.push_back(std::move(things_[i]));
+  }
+  things_ = std::move(dark);
+  for (std::uint32_t& thing : thing_of_) {
+    thing = number[thing];
+    if (thing < kept.size()) thing = kept[thing];
+  }
+}
+
+std::vector<bool> Hiding::lit_inside(const Mesh& mesh, const Scene& scene) const {
+  std::vector<bool> lit(things_.size(), false);
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (!emits(scene.materials[triangle.material])) continue;
+    const auto corner = corners_of(triangle);
+    const Vec3d middle = vec::scale(vec::add(vec::add(corner[0], corner[1]), corner[2]), 1.0 / 3);
+    for (std::size_t i = 0; i < things_.size(); ++i) {
+      if (lit[i] || !contains(things_[i].box, middle)) continue;
+      // Half a sphere is enough for what stands on the floor: elsewhere, be careful.
+      if (std::abs(things_[i].angle.seen_from(middle)) > std::numbers::pi) lit[i] = true;
+    }
+  }
+  return lit;
+}
+
+bool Hiding::hides(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side, const PlanePoint& point) const {
+  if (things_.empty()) return false;
+  const auto corner = corners_of(mesh.triangles[triangle]);
+  const Vec3d across = vec::subtract(corner[1], corner[0]);
+  const Vec3d up = vec::subtract(corner[2], corner[0]);
+  const Vec3d normal = vec::unit(vec::cross(across, up));
+  Vec3d at = vec::add(corner[0], vec::add(vec::scale(across, point.b1), vec::scale(up, point.b2)));
+  at = vec::add(at, vec::scale(normal, side == 0 ? kHeight : -kHeight));
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    if (thing_of_[triangle] == i || !contains(things_[i].box, at)) continue;
+    // What stands on the triangle fills half a sphere, whether it has a bottom of its own or not.
+    if (std::abs(things_[i].angle.seen_from(at)) > 2 * std::numbers::pi - kOpening) return true;
+  }
+  return false;
+}
+
+bool is_hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code) {
+  if (mesh.walls.touch(triangle, code)) return false;  // at its very foot, a wall fills more than it does beside it
+  for (std::uint32_t side = 0; side < 2; ++side) {
+    if ((mesh.triangles[triangle].sides & (1U << side)) == 0) continue;
+    if (mesh.hiding.hides(mesh, triangle, side, middle_of_grid(code))) return true;
+  }
+  return false;
+}
+
+std::optional<std::uint32_t> sending_part(const Mesh& mesh, const MeshFacet& facet) {
+  if (!mesh.walls.touch(facet.triangle, facet.code)) {
+    // What came to a hidden part of an element came to its pieces that reach out beside the foot.
+    if (facet.is_piece && is_hidden(mesh, facet.triangle, facet.code)) return std::nullopt;
+    return facet.code;
+  }
+  const std::uint32_t most = std::min(kParts, protocol::kMostLevels - protocol::level_of_code(facet.code));
+  const auto hidden = [&](std::uint32_t code) { return is_hidden(mesh, facet.triangle, code); };
+  const auto parts = [&](std::uint32_t levels) {
+    std::vector<std::uint32_t> codes;
+    for (std::uint32_t path = 0; path < protocol::triangles_of_level(levels); ++path) {
+      codes.push_back(facet.code << (2 * levels) | path);
+    }
+    return codes;
+  };
+  if (std::ranges::none_of(parts(most), hidden)) return facet.code;
+  for (std::uint32_t levels = 0; levels <= most; ++levels) {
+    std::vector<std::uint32_t> open = parts(levels);
+    std::erase_if(open, [&](std::uint32_t code) { return mesh.walls.touch(facet.triangle, code) || hidden(code); });
+    // Any of them, so that not all elements along a wall lean one way.
+    if (!open.empty()) return open[protocol::hash_combine(facet.triangle, facet.code) % open.size()];
+  }
+  return std::nullopt;
+}
+
+}  // namespace torolux

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// See setup.hpp.
+#include "host_tools/setup/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/cells.hpp"
+#include "firmware/protocol/random.hpp"
+#include "host_tools/camera/pixel_samples.hpp"
+#include "host_tools/setup/placements.hpp"
+
+namespace torolux {
+namespace {
+
+/// Quanta of a pixel for one unit of radiance (the scene's greatest emitted one). With reflectances below 0.99 a
+/// surface shows at most 100 units, 2^47 quanta, far from the 2^63 at which the frame buffer's integers end.
+constexpr float kPixelScale = 0x1p40F;
+/// Branches that would add less than this to a sample are not followed; weights are divided by the samples.
+constexpr float kLeastWeight = 1e-4F;
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28U;
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw UsageError(what);
+}
+
+void check(const Quality& quality, const MachineChoice& machine) {
+  require(quality.width > 0 && quality.height > 0 && std::uint64_t{quality.width} * quality.height <= kMostPixels,
+          "--size: at least 1x1 and at most " + std::to_string(kMostPixels) + " pixels");
+  require(quality.samples > 0 && quality.samples <= kMostSamples, "--samples: 1 to " + std::to_string(kMostSamples));
+  require(quality.hemicube >= 4 && quality.hemicube <= protocol::kMostHemicubeSize && quality.hemicube % 2 == 0,
+          "--hemicube: an even number from 4 to " + std::to_string(protocol::kMostHemicubeSize));
+  require(quality.shot_points > 0 && quality.shot_points <= protocol::kMostShotPoints,
+          "--shot-points: 1 to " + std::to_string(protocol::kMostShotPoints));
+  require(quality.bounces > 0 && quality.bounces <= protocol::kMostBounces,
+          "--bounces: 1 to " + std::to_string(protocol::kMostBounces));
+  require(quality.refine >= 0 && quality.refine <= 100, "--refine: 0 to 100");
+  require(quality.texels > 0 && quality.texels <= kMostTexels, "--texels: 1 to " + std::to_string(kMostTexels));
+  require(quality.unshot >= 0 && quality.unshot <= 1, "--unshot: a fraction from 0 to 1");
+  require(!quality.patch_length || *quality.patch_length > 0, "--patches: a length greater than 0, or auto");
+  require(!quality.element_length || *quality.element_length > 0, "--elements: a length greater than 0, or auto");
+  require(
+      machine.columns > 0 && machine.rows > 0 && std::uint64_t{machine.columns} * machine.rows <= protocol::kMostPes,
+      "--pes: at least 1x1 and at most " + std::to_string(protocol::kMostPes) + " in all");
+}
+
+/// A record of reflected light is to carry no less than this part of what a record of emission does, on average.
+constexpr double kFaintestRecord = 0.2;
+
+void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality, StageParameters& parameters) {
+  double emitting = 0;
+  for (const MeshPatch& patch : mesh.patches) {
+    if (emits(scene.materials[patch.material])) emitting += quality.two_sided_lights ? 2.0 : 1.0;
+  }
+  const double wanted = std::sqrt(quality.emission_records / (protocol::hemicube_pixels(quality.hemicube) * emitting));
+  parameters.shot_points = quality.shot_points;
+  parameters.emission_points =
+      static_cast<std::uint32_t>(std::clamp(std::floor(wanted), static_cast<double>(quality.shot_points),
+                                            static_cast<double>(protocol::kMostEmissionPoints)));
+  const double points = emitting * parameters.emission_points * parameters.emission_points;
+  parameters.points_per_quantum = static_cast<float>(points / (kFaintestRecord * kEmittedQuanta));
+}
+
+/// The map of the cells that each PE has is told before they are filled.
+void require_small_map(std::array<std::uint32_t, 3> cells, Scheme scheme, std::uint64_t image, std::uint64_t memory) {
+  const auto bytes = [&cells, scheme] {
+    std::uint64_t count = 1;
+    for (const std::uint32_t n : cells) count *= n;
+    const std::uint64_t entries = scheme == Scheme::paper ? count : 0;  // of cells with anything in them, else
+    return count / 32 * sizeof(protocol::CellWord) + entries * sizeof(protocol::CellEntry);
+  };
+  const std::uint64_t needed = bytes();
+  if (needed + image <= memory) return;
+  while (bytes() > memory / 2) {
+    for (std::uint32_t& n : cells) n = std::max(1U, n / 2);
+  }
+  throw InputError("--subspaces: the map of the subspaces takes " + with_commas(needed) +
+                   " bytes beside the image of each PE, which has " + with_commas(memory) + ": use " +
+                   std::to_string(cells[0]) + "x" + std::to_string(cells[1]) + "x" + std::to_string(cells[2]) +
+                   " or fewer, or more --pe-memory");
+}
+
+}  // namespace
+
+Quality draft_of(Quality quality) {
+  quality.shot_points = std::max(1U, quality.shot_points / 4);
+  quality.emission_records /= 8;
+  quality.unshot = std::max(quality.unshot, 0.05);
+  return quality;
+}
+
+std::uint32_t machine_seed(std::uint64_t seed) {
+  const std::uint32_t low = protocol::hash_combine(0, static_cast<std::uint32_t>(seed));
+  return protocol::hash_combine(low, static_cast<std::uint32_t>(seed >> 32U));
+}
+
+MeshChoice mesh_choice(const Quality& quality, const std::vector<Split>& splits) {
+  return {quality.patch_length, quality.element_length, quality.two_sided_lights, quality.texels, splits,
+          quality.patch_factor, quality.element_factor, quality.cluster_factor};
+}
+
+RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+                       const Image& image, const std::vector<Split>& splits) {
+  check(quality, machine);
+  RenderSetup setup;
+  const std::uint64_t memory = machine.pe_memory.value_or(protocol::kLargestLocalMemory);
+  const std::uint64_t pes = std::uint64_t{machine.columns} * machine.rows;
+  if (machine.subspaces)
+    require_small_map(*machine.subspaces, machine.scheme, image.stores_begin - protocol::kLocalMemoryBase, memory);
+  setup.mesh = make_mesh(scene, mesh_choice(quality, splits), pes * memory);
+  setup.notes = setup.mesh.notes;
+  setup.units = light_units(scene, setup.mesh, quality.two_sided_lights);
+  setup.parameters.seed = machine_seed(quality.seed);
+  setup.parameters.bounces = quality.bounces;
+  setup.parameters.hemicube = quality.hemicube;
+  choose_points(scene, setup.mesh, quality, setup.parameters);
+  setup.parameters.pixel_scale = kPixelScale;
+  setup.parameters.layers = quality.layers;
+  if (quality.shadow_rays) {
+    setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
+  }
+  setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.samples);
+  const MachineDescription::Records& records = machine.description.records;
+  setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,
+               records.gather_records};
+  setup.load_together = machine.scheme == Scheme::spread;
+  setup.points_travel = machine.points == Points::travel;
+  if (machine.camera_rays == RayMaker::pes) {
+    setup.parameters.pixel_samples = quality.samples;
+    setup.parameters.filter_entries = PixelSamples::entries(quality.filter, quality.samples);
+  }
+  Placements placements = choose_placements(scene, camera, quality, machine, setup.mesh, setup.parameters, setup.map);
+  setup.placement = std::move(placements.radiosity);
+  setup.ray_placement = std::move(placements.ray_tracing);
+  setup.radiosity_copies = placements.radiosity_copies;
+  setup.ray_tracing_copies = placements.ray_tracing_copies;
+  setup.need = std::move(placements.need);
+  setup.memory = placements.memory;
+  setup.credits = std::uint64_t{machine.description.records.credits_per_pe} * setup.placement.torus.pes();
+  if (!machine.pe_memory && setup.memory) {
+    setup.notes.push_back("memory of each PE: " + with_commas(*setup.memory) + " bytes (the fullest, PE " +
+                          std::to_string(setup.need.fullest) + ", needs " + with_commas(setup.need.most()) + ")");
+  }
+  if (const std::uint32_t idle = setup.placement.idle_pes(); idle > 0) {
+    setup.notes.push_back(with_commas(idle) + " of " + with_commas(setup.placement.torus.pes()) +
+                          " PEs hold nothing of the scene, and have little to do or nothing: use fewer --pes, finer "
+                          "--subspaces, or --allocation balanced");
+  }
+  for (const SceneMaterial& material : scene.materials) {
+    if (material.kind != SurfaceKind::diffuse && material.emission != Vec3d{0, 0, 0}) {
+      setup.notes.push_back("material '" + material.name + "' is mirror or glass: its emission (Ke) is ignored");
+    }
+  }
+  return setup;
+}
+
+}  // namespace torolux

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// How far a render is.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/machine/machine.hpp"
+
+namespace torolux {
+
+enum class RenderStage { load, radiosity, ray_tracing };
+
+struct RenderProgress {
+  RenderStage stage;
+  double fraction;         ///< of the stage, estimated, 0..1
+  double unshot_fraction;  ///< of the emitted flux
+  std::uint64_t credits_home, credits_total;
+  Cycles virtual_time;
+  double overall = 0;  ///< of all stages together, drafts' included, 0..1; rough
+};
+
+}  // namespace torolux

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Proves: files are written whole or not at all, what cannot be written is refused beforehand and afterwards, and
+// nothing is left behind.
+#include "host_tools/files/write_file.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "emulator/errors.hpp"
+#include "host_tools/picture/picture.hpp"
+#include "tests/unit/host_tools/picture/sample_picture.hpp"
+
+namespace torolux {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing_support::bytes_of;
+using testing_support::message_of;
+using testing_support::TemporaryFolder;
+
+constexpr std::size_t kMost = 1U << 20U;
+
+/// Within its life no file can grow beyond so many bytes: as a full disk, but for the error's name.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &now);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(WriteFile, ReplacesAndLeavesNothingElse) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "a";
+  write_file(file, "first, and longer");
+  write_file(file, "second");
+  EXPECT_EQ(read_file(file, kMost), bytes_of("second"));
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(WriteFile, NameOfGreatestLength) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / std::string(255, 'n');
+  write_file(file, "x");
+  EXPECT_TRUE(fs::exists(file));
+}
+
+TEST(WriteFile, FollowsALink) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "target", "old");
+  fs::create_symlink(folder.path() / "target", folder.path() / "link");
+  write_file(folder.path() / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(read_file(folder.path() / "target", kMost), bytes_of("new"));
+}
+
+TEST(WriteFile, DoesNotReplaceADevice) {
+  write_file("/dev/null", "x");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  check_file_writable("/dev/null");
+}
+
+TEST(WriteFile, FullDiskKeepsTheOldFileAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "a.pfm";
+  write_file(file, "old");
+  {
+    const FileSizeLimit limit(4096);
+    const Picture picture = testing_support::sample_picture(64, 64);
+    EXPECT_THAT(message_of<InputError>([&] { write_picture(picture, file); }), HasSubstr("a.pfm"));
+  }
+  EXPECT_EQ(read_file(file, kMost), bytes_of("old"));
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(WriteFile, MissingFolderIsRefusedBeforehand) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "missing" / "a.png";
+  EXPECT_THAT(message_of<InputError>([&] { check_writable(file); }), HasSubstr("missing/a.png"));
+  EXPECT_THROW(write_file(file, "x"), InputError);
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+TEST(WriteFile, FolderInsteadOfFileIsRefused) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "b.png");
+  EXPECT_THROW(check_writable(folder.path() / "b.png"), InputError);
+  EXPECT_THROW(write_file(folder.path() / "b.png", "x"), InputError);
+}
+
+TEST(WriteFile, FolderWithoutRightsIsRefused) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THROW(check_writable(folder.path() / "a.png"), InputError);
+  fs::permissions(folder.path(), fs::perms::owner_all);
+}
+
+TEST(WriteFile, FolderOfTheKernelIsRefused) {
+  EXPECT_THROW(check_writable("/proc/self/a.png"), InputError);
+}
+
+TEST(CheckWritable, LeavesNothingAndKeepsWhatIsThere) {
+  const TemporaryFolder folder;
+  check_writable(folder.path() / "new.exr");
+  EXPECT_EQ(folder.files(), 0U);
+  write_file(folder.path() / "old.png", "old");
+  check_writable(folder.path() / "old.png");
+  EXPECT_EQ(read_file(folder.path() / "old.png", kMost), bytes_of("old"));
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(CheckWritable, UnknownExtensionIsUsage) {
+  for (const char* name : {"a.jpg", "a", ".png.", "png"})
+    EXPECT_THAT(message_of<UsageError>([&] { check_writable(name); }), HasSubstr(".png, .exr or .pfm")) << name;
+}
+
+TEST(WritePicture, RefusesAnEmptyPicture) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_picture(Picture{}, folder.path() / "a.png"), InputError);
+}
+
+TEST(ReadFile, RefusesMoreThanAllowed) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "a", std::string(100, 'x'));
+  EXPECT_EQ(read_file(folder.path() / "a", 100).size(), 100U);
+  EXPECT_THROW(read_file(folder.path() / "a", 99), InputError);
+}
+
+}  // namespace
+}  // namespace torolux

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Saved radiosities: what was saved comes back; any byte that is wrong or missing is refused; so is another scene's.
+#include "host_tools/solution/radiosity_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "emulator/errors.hpp"
+#include "tests/unit/host_tools/test_scenes.hpp"
+
+namespace torolux {
+namespace {
+
+class RadiosityFileTest : public testing::Test {
+ protected:
+  RadiosityFileTest() {
+    solution_.sides.resize(mesh_.patch_sides);
+    solution_.elements.resize(mesh_.elements);
+    for (std::uint32_t i = 0; i < mesh_.patch_sides; ++i) solution_.sides[i] = {{i + 5, 2, 3}, {i, 1, 0}, {7, 8, i}};
+    for (std::uint32_t i = 0; i < mesh_.elements; ++i) solution_.elements[i] = {{i, i + 1, i + 2}, {1, 2, 3}};
+    solution_.tally.escaped = {1, 2, 3};
+    solution_.emitted_shot = {4, 5, 6};
+    solution_.shots = 99;
+  }
+
+  std::string refusal(std::span<const std::byte> bytes, const RadiosityOrigin& expected) const {
+    try {
+      unpack_radiosity(parse_radiosity(bytes, "file"), expected, mesh_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  Scene scene_ = test::room_with_box();
+  Quality quality_ = [] {
+    Quality quality;
+    quality.patch_length = quality.element_length = 0.9;
+    return quality;
+  }();
+  Mesh mesh_ = make_mesh(scene_, {quality_.patch_length, quality_.element_length, false});
+  RadiosityOrigin origin_ = radiosity_origin(scene_, quality_, mesh_);
+  std::vector<Split> splits_{{2, 1}, {2, 6}, {5, 1}};
+  Solution solution_;
+};
+
+TEST_F(RadiosityFileTest, ComesBackAsItWas) {
+  const auto bytes = pack_radiosity(origin_, splits_, solution_);
+  const Solution back = unpack_radiosity(parse_radiosity(bytes, "file"), origin_, mesh_);
+  EXPECT_EQ(pack_radiosity(origin_, splits_, back), bytes);
+  EXPECT_EQ(back.sides[3].incident, solution_.sides[3].incident);
+  EXPECT_EQ(back.elements[5].direct, solution_.elements[5].direct);
+  EXPECT_EQ(back.tally.escaped, solution_.tally.escaped);
+  EXPECT_EQ(back.shots, 99U);
+  EXPECT_EQ(parse_radiosity(bytes, "file").splits, splits_);
+}
+
+TEST_F(RadiosityFileTest, EveryDamagedByteIsRefused) {
+  auto bytes = pack_radiosity(origin_, splits_, solution_);
+  for (std::size_t at = 0; at < bytes.size(); at += at < 400 ? 1 : 37) {
+    bytes[at] ^= std::byte{0x10};
+    EXPECT_NE(refusal(bytes, origin_), "") << "byte " << at;
+    bytes[at] ^= std::byte{0x10};
+  }
+  EXPECT_EQ(refusal(bytes, origin_), "");
+}
+
+TEST_F(RadiosityFileTest, EveryLengthButTheRightOneIsRefused) {
+  auto bytes = pack_radiosity(origin_, splits_, solution_);
+  for (std::size_t length = 0; length < bytes.size(); length += length < 400 ? 1 : 37) {
+    EXPECT_NE(refusal(std::span(bytes).first(length), origin_), "") << length;
+  }
+  bytes.push_back(std::byte{0});
+  EXPECT_NE(refusal(bytes, origin_), "");
+}
+
+TEST_F(RadiosityFileTest, SplitsOutOfOrderAreRefused) {
+  splits_ = {{5, 1}, {2, 1}};
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("splits"), std::string::npos);
+  splits_ = {{5, 1}, {5, 1}};
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("splits"), std::string::npos);
+}
+
+TEST_F(RadiosityFileTest, SaysWhatDiffers) {
+  const auto bytes = pack_radiosity(origin_, splits_, solution_);
+  Quality quality = quality_;
+  quality.hemicube = 32;
+  quality.seed = 77;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_))
+                .find("--seed 1, this run has 77; give --seed 1 --hemicube 8, or make them anew"),
+            std::string::npos);
+  Scene scene = scene_;
+  scene.positions[3][1] += 1e-9;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene, quality_, mesh_)).find("geometry"), std::string::npos);
+  scene = scene_;
+  scene.materials[1].emission[2] = 5;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene, quality_, mesh_)).find("materials"), std::string::npos);
+  quality = quality_;
+  quality.two_sided_lights = true;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("leave --two-sided-lights out"),
+            std::string::npos);
+  quality = quality_;
+  quality.shadow_rays = !quality.shadow_rays;  // nothing was split for either way
+  EXPECT_EQ(refusal(bytes, radiosity_origin(scene_, quality, mesh_)), "");
+  quality = quality_;
+  quality.width = 999;  // the view is free
+  quality.samples = 9;
+  EXPECT_EQ(refusal(bytes, radiosity_origin(scene_, quality, mesh_)), "");
+}
+
+TEST_F(RadiosityFileTest, SplitsForAnotherDirectLightAreRefused) {
+  quality_.refine = 4;
+  const auto bytes = pack_radiosity(radiosity_origin(scene_, quality_, mesh_), splits_, solution_);
+  const SavedRadiosity saved = parse_radiosity(bytes, "file");
+  EXPECT_NO_THROW(check_radiosity(saved, scene_, quality_));
+  quality_.shadow_rays = false;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality_, mesh_))
+                .find("--direct shadow-rays, this run has radiosity; give --direct shadow-rays"),
+            std::string::npos);
+  EXPECT_THROW(check_radiosity(saved, scene_, quality_), InputError) << "known before there is a mesh";
+}
+
+/// A setting changed, and the word by which the refusal names it; null: the file serves both.
+struct Change {
+  void (*make)(Quality&);
+  const char* named;
+};
+
+// Every member of Quality: what splits and sums depend on is refused, before there is a mesh as well; the view is free.
+TEST_F(RadiosityFileTest, EverySettingOfTheSolutionIsRefusedAndNoOther) {
+  // One that is added does not compile here until it stands in the list below.
+  [[maybe_unused]] const auto [width, height, samples, filter, layers, patch_length, element_length, patch_factor,
+                               element_factor, cluster_factor, refine, hemicube, shot_points, emission_records, unshot,
+                               max_shots, bounces, shadow_rays, two_sided_lights, texels, seed] = quality_;
+  const Change changes[]{{[](Quality& q) { q.width = 9; }, nullptr},
+                         {[](Quality& q) { q.height = 9; }, nullptr},
+                         {[](Quality& q) { q.samples = 9; }, nullptr},
+                         {[](Quality& q) { q.filter = PixelFilter::tent; }, nullptr},
+                         {[](Quality& q) { q.layers = 1; }, nullptr},
+                         {[](Quality& q) { q.patch_length = 0.7; }, "--patches 0.9"},
+                         {[](Quality& q) { q.element_length = 0.7; }, "--elements 0.9"},
+                         {[](Quality& q) { q.patch_factor = 3; }, "--quality"},
+                         {[](Quality& q) { q.element_factor = 3; }, "--quality"},
+                         {[](Quality& q) { q.cluster_factor = 0.5; }, "--elements"},
+                         {[](Quality& q) { q.refine = 3; }, "--refine 4"},
+                         {[](Quality& q) { q.hemicube = 12; }, "--hemicube"},
+                         {[](Quality& q) { q.shot_points = 3; }, "--shot-points"},
+                         {[](Quality& q) { q.emission_records = 3; }, "--emission-records"},
+                         {[](Quality& q) { q.unshot = 0.3; }, "--unshot"},
+                         {[](Quality& q) { q.max_shots = 3; }, "--max-shots"},
+                         {[](Quality& q) { q.bounces = 3; }, "--bounces"},
+                         {[](Quality& q) { q.shadow_rays = false; }, "--direct shadow-rays"},
+                         {[](Quality& q) { q.two_sided_lights = true; }, "--two-sided-lights"},
+                         {[](Quality& q) { q.texels = 3; }, "--texels"},
+                         {[](Quality& q) { q.seed = 3; }, "--seed"}};
+  quality_.refine = 4;
+  const auto bytes = pack_radiosity(radiosity_origin(scene_, quality_, mesh_), splits_, solution_);
+  const SavedRadiosity saved = parse_radiosity(bytes, "file");
+  for (const auto& [make, named] : changes) {
+    Quality changed = quality_;
+    make(changed);
+    const std::string refused = refusal(bytes, radiosity_origin(scene_, changed, mesh_));
+    if (named == nullptr) {
+      EXPECT_EQ(refused, "");
+      EXPECT_NO_THROW(check_radiosity(saved, scene_, changed));
+    } else {
+      EXPECT_NE(refused.find(named), std::string::npos) << named << ": " << refused;
+      EXPECT_THROW(check_radiosity(saved, scene_, changed), InputError) << named;
+    }
+  }
+}
+
+TEST_F(RadiosityFileTest, ImpossibleFluxIsRefused) {
+  solution_.sides[2].shot = {1000000, 0, 0};
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_), "");
+  solution_.sides[2].shot = {};
+  solution_.elements[0].flux[0] = -1;
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_), "");
+}
+
+}  // namespace
+}  // namespace torolux
