@@ -47,7 +47,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void await(unsigned pe, Cycles wanted);
   void fetch_next_turn_ahead() const;
   void attend_now_and_then();
-  bool settled(unsigned pe);
+  bool at_rest(unsigned pe);
   // Figures (stages.cpp)
   void begin_stage(std::string_view name) override;
   void note(HostGauge gauge, double value) override { time_line_.note(gauge, value, host_.now()); }

@@ -134,7 +134,7 @@ bool Emulation::empty() const {
 // ---- Figures ----
 
 /// Whether a PE can do nothing before something else happens.
-bool Emulation::settled(unsigned pe) {
+bool Emulation::at_rest(unsigned pe) {
   nius_[pe].refresh(events_, pool_, times_);
   return nius_[pe].waits_for() != WaitKind::running;
 }

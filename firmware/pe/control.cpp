@@ -116,7 +116,7 @@ void load_store(Pe& pe, Niu& niu) {
 
 void read(Pe& pe, Niu& niu) {
   const LoadBlock block = checked_block(niu);
-  pe.homecoming.flush_pixels(niu);  // the buffer is theirs while there are any
+  pe.results.flush_pixels(niu);  // the buffer is theirs while there are any
   MessageBuffer& answer = niu.batch();
   answer.header.kind = static_cast<std::uint16_t>(MessageKind::data);
   answer.header.bytes = sizeof(LoadBlock) + block.bytes;

@@ -47,7 +47,7 @@ glm::vec3 point_on(const Emitter& emitter, float a, float b) {
 
 /// One point by the emitters' power alone. False: no light comes from there.
 bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
-                     const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample) {
+                     const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
   float place = 0.0F;
   const Emitter& emitter = choose(scene, numbers.x, place);
   const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
@@ -56,7 +56,7 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
   sample.direction = way * (1.0F / std::sqrt(square));
   sample.polygon = emitter.polygon;
   const float leaving = glm::dot(sample.direction, normal);
-  if (!(leaving > 0.0F) || !(glm::dot(sample.direction, flat) > 0.0F)) return false;
+  if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
   float arriving = -glm::dot(sample.direction, unit_normal(emitter.corner));
   if (emitter.both_sides != 0) arriving = std::fabs(arriving);
   if (!(arriving > 0.0F)) return false;
@@ -74,7 +74,8 @@ std::uint32_t candidates_of(const Scene& scene) {
 }  // namespace
 
 bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, std::uint32_t choice,
-                    const glm::vec3& point, const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample) {
+                    const glm::vec3& point, const glm::vec3& normal, const glm::vec3& geometric,
+                    EmitterSample& sample) {
   const std::uint32_t candidates = candidates_of(scene);
   float u = protocol::uniform_float(choice);
   float all = 0.0F;
@@ -83,7 +84,7 @@ bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers,
     // Evenly over all emitters' power, so that none with a candidate's share of it is ever left out.
     const protocol::StratifiedPair here{numbers.x + i * (0xFFFF'FFFFU / candidates), numbers.y + i * 0x9E37'79B9U};
     EmitterSample candidate;
-    if (!sample_by_power(scene, here, point, normal, flat, candidate)) continue;
+    if (!sample_by_power(scene, here, point, normal, geometric, candidate)) continue;
     const glm::vec3& light = candidate.irradiance_over_pi;
     const float brings = (light.x + light.y) + light.z;
     if (!(brings > 0.0F)) continue;

@@ -17,9 +17,9 @@ struct EmitterSample {
 };
 
 /// numbers, choice: uniform, apart from each other; pairs that keep apart give points that do. normal: unit length, of
-/// the side from which the surface is seen; flat: likewise, of the polygon without its corner normals. The scene has
-/// emitters. False: no light comes that way.
+/// the side from which the surface is seen; geometric: likewise, of the polygon without its corner normals. The scene
+/// has emitters. False: no light comes that way.
 bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, std::uint32_t choice,
-                    const glm::vec3& point, const glm::vec3& normal, const glm::vec3& flat, EmitterSample& sample);
+                    const glm::vec3& point, const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample);
 
 }  // namespace torolux::pe

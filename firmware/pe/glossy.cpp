@@ -58,11 +58,11 @@ glm::vec3 around(const glm::vec3& axis, float power, float height, float turn) {
   return glm::normalize((across * (sine * x) + up * (sine * y)) + axis * (1.0F + less_one));
 }
 
-LobeSample sample_lobe(const protocol::Material& material, const glm::vec3& in, const glm::vec3& flat,
+LobeSample sample_lobe(const protocol::Material& material, const glm::vec3& in, const glm::vec3& geometric,
                        const glm::vec3& shading, float height, float turn) {
-  const glm::vec3 direction = around(reflect(in, flat, shading), material.lobe_power, height, turn);
-  const float cosine = glm::dot(direction, flat);
-  return {direction, glm::dot(in, flat) > 0.0F ? -cosine : cosine};
+  const glm::vec3 direction = around(reflect(in, geometric, shading), material.lobe_power, height, turn);
+  const float cosine = glm::dot(direction, geometric);
+  return {direction, glm::dot(in, geometric) > 0.0F ? -cosine : cosine};
 }
 
 }  // namespace torolux::pe

@@ -21,9 +21,9 @@ struct LobeSample {
   float cosine;         ///< to the polygon's normal; not above 0: below the surface, where light ends
 };
 
-/// in: unit, towards the surface; flat, shading: unit normals of either sign, as `reflect` has them. height, turn:
+/// in: unit, towards the surface; geometric, shading: unit normals of either sign, as `reflect` has them. height, turn:
 /// uniform in [0, 1); pairs that keep apart give directions that do.
-LobeSample sample_lobe(const protocol::Material& material, const glm::vec3& in, const glm::vec3& flat,
+LobeSample sample_lobe(const protocol::Material& material, const glm::vec3& in, const glm::vec3& geometric,
                        const glm::vec3& shading, float height, float turn);
 
 }  // namespace torolux::pe

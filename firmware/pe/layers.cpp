@@ -26,22 +26,22 @@ const protocol::Vec3f& carried_irradiance(const RayRecord& record) {
 
 void add_irradiance(Pe& pe, Niu& niu, const RayRecord& record, const glm::vec3& over_pi) {
   const glm::vec3 value = over_pi * pe.scene.layout.pixel_scale;
-  pe.homecoming.add(niu, Plane::irradiance, record.pixel, {to_quanta(value.x), to_quanta(value.y), to_quanta(value.z)});
+  pe.results.add(niu, Plane::irradiance, record.pixel, {to_quanta(value.x), to_quanta(value.y), to_quanta(value.z)});
 }
 
 void note_depth(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
-  pe.homecoming.add(niu, Plane::depth, record.pixel, {to_quanta(hit.t / protocol::kLayerUnit), 1, 0});
+  pe.results.add(niu, Plane::depth, record.pixel, {to_quanta(hit.t / protocol::kLayerUnit), 1, 0});
 }
 
 void note_normal(Pe& pe, Niu& niu, const RayRecord& record, const Polygon& polygon, const Hit& hit) {
   const glm::vec3 normal = shading_normal(pe.scene, polygon, hit) * ((hit.front ? 1.0F : -1.0F) / protocol::kLayerUnit);
-  pe.homecoming.add(niu, Plane::normals, record.pixel, {to_quanta(normal.x), to_quanta(normal.y), to_quanta(normal.z)});
+  pe.results.add(niu, Plane::normals, record.pixel, {to_quanta(normal.x), to_quanta(normal.y), to_quanta(normal.z)});
 }
 
 /// The element under a hit. The host makes a number of it (host_tools/render/frame_layers.cpp).
 void note_element(Pe& pe, Niu& niu, const RayRecord& record, const Polygon& polygon, const Hit& hit) {
   const std::int64_t code = element_code_at(pe.scene, polygon, hit);
-  pe.homecoming.add(niu, Plane::elements, record.pixel, {std::int64_t{polygon.number} + 1, code, hit.front ? 0 : 1});
+  pe.results.add(niu, Plane::elements, record.pixel, {std::int64_t{polygon.number} + 1, code, hit.front ? 0 : 1});
 }
 
 }  // namespace
@@ -57,12 +57,12 @@ void note_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, con
   if (record.sample != 0) return;
   if (wanted(pe, Plane::elements)) note_element(pe, niu, record, polygon, hit);
   if (wanted(pe, Plane::owner)) {
-    pe.homecoming.add(niu, Plane::owner, record.pixel, {std::int64_t{niu.pe()} + 1, 0, 0});
+    pe.results.add(niu, Plane::owner, record.pixel, {std::int64_t{niu.pe()} + 1, 0, 0});
   }
 }
 
 void note_way(Pe& pe, Niu& niu, const RayRecord& record, const Way& way) {
-  if (wanted(pe, Plane::cost)) pe.homecoming.add(niu, Plane::cost, record.pixel, {way.visited, 0, 0});
+  if (wanted(pe, Plane::cost)) pe.results.add(niu, Plane::cost, record.pixel, {way.visited, 0, 0});
   if (way.end != WayEnd::hit || record.bounce != 0 || (record.flags & protocol::kShadow) == 0) return;
   if (wanted(pe, Plane::irradiance) && pe.scene.polygons[way.hit.polygon].number == record.target) {
     add_irradiance(pe, niu, record, to_vector(carried_irradiance(record)));

@@ -9,10 +9,10 @@ using protocol::ArrivalKind;
 
 /// Before it sleeps.
 void flush(Pe& pe, Niu& niu) {
-  if (pe.outbox.empty() && pe.homecoming.empty()) return;
+  if (pe.outbox.empty() && pe.results.empty()) return;
   const PhaseMark<Phase::flush> mark(niu);
   pe.outbox.flush(niu, pe.slots);
-  pe.homecoming.flush(niu);
+  pe.results.flush(niu);
 }
 
 void handle_records(Pe& pe, Niu& niu, const NiuWindow::Arrival& arrival) {
@@ -47,7 +47,7 @@ void run_pe(Pe& pe, Niu& niu) {
         return;
       }
     }
-    if (pe.state == State::running) settle(pe, niu);
+    if (pe.state == State::running) report_work(pe, niu);
   }
 }
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "firmware/niu/niu.hpp"
-#include "firmware/pe/homecoming.hpp"
 #include "firmware/pe/outbox.hpp"
+#include "firmware/pe/results.hpp"
 #include "firmware/pe/scene.hpp"
 #include "firmware/pe/shot.hpp"
 #include "firmware/pe/tile.hpp"
@@ -33,7 +33,7 @@ struct Pe {
   Scene scene;
   RecordSlots slots;
   Outbox outbox;
-  Homecoming homecoming;
+  Results results;
   Shot shot;
   Points points;
   Expansion expansion;

@@ -41,18 +41,18 @@ bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   const Material& material = pe.scene.materials[polygon.material];
   const glm::vec3 in = to_vector(record.direction);
   const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + in * hit.t);
-  const glm::vec3 flat = unit_normal(polygon);
-  const glm::vec3 round = shading_normal(pe.scene, polygon, hit);
+  const glm::vec3 geometric = unit_normal(polygon);
+  const glm::vec3 shading = shading_normal(pe.scene, polygon, hit);
   record.key = protocol::hash_combine(record.key, record.bounce);
   glm::vec3 out{};
   if (material.kind == MaterialKind::mirror) {
     attenuate(pe, record, material.specular_fraction);
-    out = reflect(in, flat, round);
+    out = reflect(in, geometric, shading);
   } else {
     const float eta = hit.front ? 1.0F / material.refractive_index : material.refractive_index;
-    const Refraction way = refract(in, flat, round, eta);
+    const Refraction way = refract(in, geometric, shading, eta);
     if (protocol::uniform(record.key, protocol::Dimension::fresnel) < way.reflectance) {
-      out = reflect(in, flat, round);
+      out = reflect(in, geometric, shading);
     } else {
       attenuate(pe, record, material.transmittance_fraction);
       out = way.direction;

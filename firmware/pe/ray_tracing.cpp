@@ -42,7 +42,7 @@ void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, cons
   const Material& material = pe.scene.materials[polygon.material];
   glm::vec3 radiance = diffuse_reflectance(pe.scene, polygon, hit) * irradiance_over_pi;
   if (hit.front || material.emits_from_back != 0) radiance += to_vector(material.emission);
-  pe.homecoming.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
+  pe.results.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
 }
 
 /// They keep apart over the samples of a pixel that come this way: the same bounce, with as many branches waiting.
@@ -76,10 +76,10 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
 }
 
 /// A shadow ray has met something: the emitter, or what is before it. Glass and mirrors cast shadows: the light that
-/// comes by way of them is no emitter's own, and is in the lattice.
+/// comes by way of them is no emitter's own, and is in the irradiance at vertices.
 void end_shadow(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
   if (pe.scene.polygons[hit.polygon].number != record.target) return;
-  pe.homecoming.add_pixel(niu, record.pixel, to_vector(record.weight) * pe.scene.layout.pixel_scale);
+  pe.results.add_pixel(niu, record.pixel, to_vector(record.weight) * pe.scene.layout.pixel_scale);
 }
 
 /// Glass's two ways, each with what it weighs.
@@ -89,13 +89,13 @@ struct Ways {
   float reflectance;
 };
 
-Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hit, const glm::vec3& flat,
-                   const glm::vec3& round) {
+Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hit, const glm::vec3& geometric,
+                   const glm::vec3& shading) {
   const glm::vec3 in = to_vector(record.direction);
   const glm::vec3 weight = to_vector(record.weight);
   const float eta = hit.front ? 1.0F / glass.refractive_index : glass.refractive_index;
-  const Refraction way = refract(in, flat, round, eta);
-  Ways ways{reflect(in, flat, round), way.direction, weight * way.reflectance, glm::vec3(0.0F), way.reflectance};
+  const Refraction way = refract(in, geometric, shading, eta);
+  Ways ways{reflect(in, geometric, shading), way.direction, weight * way.reflectance, glm::vec3(0.0F), way.reflectance};
   // A ray keeps its radiance over the square of the refractive index (Born & Wolf, Principles of Optics, 4.8).
   const glm::vec3 passes = to_vector(glass.transmittance) * (eta * eta);
   if (way.reflectance < 1.0F) ways.refracted_weight = (weight * (1.0F - way.reflectance)) * passes;
@@ -182,17 +182,17 @@ bool turn_ray(const Pe& pe, RayRecord& record, const Hit& hit) {
   const Material& material = pe.scene.materials[polygon.material];
   const glm::vec3 in = to_vector(record.direction);
   const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + in * hit.t);
-  const glm::vec3 flat = unit_normal(polygon);
-  const glm::vec3 round = shading_normal(pe.scene, polygon, hit);
+  const glm::vec3 geometric = unit_normal(polygon);
+  const glm::vec3 shading = shading_normal(pe.scene, polygon, hit);
   record.key = protocol::hash_combine(record.key, record.bounce);
   if (material.kind == MaterialKind::mirror) {
     const glm::vec3 weight = to_vector(record.weight) * to_vector(material.specular);
     if (!worth_following(pe, weight)) return false;
     record.weight = to_array(weight);
-    turn(record, origin, reflect(in, flat, round), polygon.number);
+    turn(record, origin, reflect(in, geometric, shading), polygon.number);
     return true;
   }
-  const Ways ways = ways_at_glass(record, material, hit, flat, round);
+  const Ways ways = ways_at_glass(record, material, hit, geometric, shading);
   const bool reflects = worth_following(pe, ways.reflected_weight);
   const bool refracts = worth_following(pe, ways.refracted_weight);
   if (!reflects && !refracts) return false;

@@ -32,7 +32,7 @@ struct Scene {
   std::span<const protocol::HemicubeEntry> hemicube;
   HemicubeGrid hemicube_grid;
   // Ray tracing stage.
-  std::span<const protocol::LatticeTriangle> lattice;
+  std::span<const protocol::CornerIrradiance> irradiance;
   std::span<const protocol::KeptSurface> kept;
   std::span<const protocol::Texture> textures;
   std::span<const protocol::Texel> texels;
@@ -58,7 +58,7 @@ struct Scene {
     elements = memory.store<protocol::Element>(layout.elements);
     facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
-    lattice = memory.store<const protocol::LatticeTriangle>(layout.lattice);
+    irradiance = memory.store<const protocol::CornerIrradiance>(layout.irradiance);
     kept = memory.store<const protocol::KeptSurface>(layout.kept);
     textures = memory.store<const protocol::Texture>(layout.textures);
     texels = memory.store<const protocol::Texel>(layout.texels);

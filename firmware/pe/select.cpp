@@ -80,7 +80,7 @@ class Best {
 };
 
 void send_candidates(Pe& pe, Niu& niu, std::uint32_t count, const Flux& unshot) {
-  pe.homecoming.flush_pixels(niu);  // the buffer is theirs while there are any
+  pe.results.flush_pixels(niu);  // the buffer is theirs while there are any
   MessageBuffer& message = niu.batch();
   auto& out = *message.as<Candidates>();
   std::uint32_t sent = 0;

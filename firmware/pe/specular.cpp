@@ -30,17 +30,17 @@ Refraction refracted(const glm::vec3& direction, const glm::vec3& normal, float 
 }  // namespace
 
 glm::vec3 reflect(const glm::vec3& direction, const glm::vec3& geometric, const glm::vec3& shading) {
-  const glm::vec3 flat = towards_light(geometric, direction);
+  const glm::vec3 facing = towards_light(geometric, direction);
   const glm::vec3 out = mirrored(direction, shading);
-  return glm::dot(out, flat) > 0.0F ? out : mirrored(direction, flat);
+  return glm::dot(out, facing) > 0.0F ? out : mirrored(direction, facing);
 }
 
 Refraction refract(const glm::vec3& direction, const glm::vec3& geometric, const glm::vec3& shading, float eta) {
-  const glm::vec3 flat = towards_light(geometric, direction);
-  glm::vec3 round = glm::dot(shading, flat) < 0.0F ? -shading : shading;
-  if (!(glm::dot(direction, round) < 0.0F)) round = flat;
-  const Refraction out = refracted(direction, round, eta);
-  if (out.reflectance < 1.0F && !(glm::dot(out.direction, flat) < 0.0F)) return refracted(direction, flat, eta);
+  const glm::vec3 facing = towards_light(geometric, direction);
+  glm::vec3 smooth = glm::dot(shading, facing) < 0.0F ? -shading : shading;
+  if (!(glm::dot(direction, smooth) < 0.0F)) smooth = facing;
+  const Refraction out = refracted(direction, smooth, eta);
+  if (out.reflectance < 1.0F && !(glm::dot(out.direction, facing) < 0.0F)) return refracted(direction, facing, eta);
   return out;
 }
 

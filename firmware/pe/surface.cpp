@@ -51,7 +51,7 @@ SurfaceLight light_at(const Scene& scene, protocol::PeNumber pe, const protocol:
     leaf = protocol::find_leaf(scene.nodes.data(), scene.kept[light.place].node, at);
   }
   if (!hit.front && (polygon.sides & protocol::kFrontPresent) != 0) ++leaf;
-  const auto& corner = scene.lattice[leaf].irradiance_over_pi;
+  const auto& corner = scene.irradiance[leaf].irradiance_over_pi;
   light.irradiance_over_pi =
       (to_vector(corner[0]) * at.b0 + to_vector(corner[1]) * at.b1) + to_vector(corner[2]) * at.b2;
   return light;

@@ -138,12 +138,12 @@ class Verifier {
       range(StoreIndex::surface, p.surface, patches, scene_.patch_references.size());
       for (std::uint32_t i = 0; i < patches; ++i) check(p, scene_.patch_references[p.surface + i]);
     } else {
-      check_surface(p.surface, lattice_limit(p.sides == 3U ? 2 : 1), 0);
+      check_surface(p.surface, irradiance_limit(p.sides == 3U ? 2 : 1), 0);
     }
   }
-  /// Of a leaf's number: lattice triangles of all lit sides, the back's behind the front's, follow it.
-  std::size_t lattice_limit(std::size_t sides) const {
-    return scene_.lattice.size() >= sides ? scene_.lattice.size() - sides + 1 : 0;
+  /// Of a leaf's number: corner irradiances of all lit sides, the back's behind the front's, follow it.
+  std::size_t irradiance_limit(std::size_t sides) const {
+    return scene_.irradiance.size() >= sides ? scene_.irradiance.size() - sides + 1 : 0;
   }
   /// As check_tree; a leaf may stand for a part that is kept, here or elsewhere.
   void check_surface(std::uint32_t node, std::size_t limit, std::uint32_t depth) {

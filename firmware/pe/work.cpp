@@ -28,7 +28,7 @@ void work(Pe& pe, Niu& niu) {
   }
 }
 
-void settle(Pe& pe, Niu& niu) {
+void report_work(Pe& pe, Niu& niu) {
   if (pe.done.points > 0) {
     niu.send(protocol::MessageKind::work_done, pe.done);
     pe.done = {};
@@ -36,13 +36,13 @@ void settle(Pe& pe, Niu& niu) {
   Credits& credits = pe.credits;
   const bool works = has_work(pe);
   if (!works && credits.homewards) {
-    if (credits.in_hand > 0) pe.homecoming.add_credits(niu, credits.in_hand);
+    if (credits.in_hand > 0) pe.results.add_credits(niu, credits.in_hand);
     credits.in_hand = 0;
   } else if (works && credits.in_hand == 0 && !credits.asked) {
     niu.send(protocol::MessageKind::need);
     credits.asked = true;
-  } else if (credits.in_hand >= pe.scene.layout.credits_kept + Homecoming::kManyCredits) {
-    pe.homecoming.add_credits(niu, credits.in_hand - pe.scene.layout.credits_kept);
+  } else if (credits.in_hand >= pe.scene.layout.credits_kept + Results::kManyCredits) {
+    pe.results.add_credits(niu, credits.in_hand - pe.scene.layout.credits_kept);
     credits.in_hand = pe.scene.layout.credits_kept;
   }
 }

@@ -35,6 +35,6 @@ bool can_work(const Pe& pe);
 /// Makes a few records, and follows each; then others get their turn.
 void work(Pe& pe, Niu& niu);
 /// Tells the host of work done, sends home the credits that are not needed here, and asks for those that are.
-void settle(Pe& pe, Niu& niu);
+void report_work(Pe& pe, Niu& niu);
 
 }  // namespace torolux::pe

@@ -196,7 +196,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(LayoutFie
     "elements: address %, count %",
     "facets: address %, count %",
     "hemi-cube: address %, count %",
-    "lattice: address %, count %",
+    "irradiance: address %, count %",
     "kept surfaces: address %, count %",
     "textures: address %, count %",
     "texels: address %, count %",

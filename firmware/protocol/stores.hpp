@@ -24,7 +24,7 @@ struct Subspace {
 };
 static_assert(sizeof(Subspace) == 8);
 
-/// Which sides of a polygon have elements (or, in the ray tracing stage, lattice values).
+/// Which sides of a polygon have elements (or, in the ray tracing stage, irradiance at corners).
 inline constexpr std::uint8_t kFrontPresent = 1;
 inline constexpr std::uint8_t kBackPresent = 2;
 
@@ -33,7 +33,7 @@ struct Polygon {
   std::array<Vec3f, 3> corner;  ///< counter-clockwise seen from the front
   std::uint32_t number;         ///< global
   std::uint32_t surface;  ///< radiosity: index of its first PatchReference. Ray tracing: node (triangle_grid.hpp) whose
-                          ///< leaves are indices of lattice triangles (the front's first, then the back's, as present)
+                          ///< leaves are indices of corner irradiances (the front's first, then the back's, as present)
   std::uint32_t normals;  ///< index of its first of three corner normals, or kNoPolygon: flat
   std::uint32_t texture_points;  ///< ray tracing, textured: index of its first of three texture points
   std::uint16_t material;
@@ -162,10 +162,10 @@ constexpr std::uint32_t hemicube_pixels(std::uint32_t n) {
 
 /// Irradiance / pi at the corners of one side of an element, in units of the scene's greatest emitted radiance; times
 /// reflectance = radiance.
-struct LatticeTriangle {
+struct CornerIrradiance {
   std::array<Vec3f, 3> irradiance_over_pi;  ///< by corner
 };
-static_assert(sizeof(LatticeTriangle) == 36);
+static_assert(sizeof(CornerIrradiance) == 36);
 
 /// Of a part of a polygon (patch level), what is seen on it, which this PE alone has (kKept).
 struct KeptSurface {
@@ -257,7 +257,7 @@ struct StageLayout {
   std::uint32_t emission_points;  ///< k for emitted light
   float points_per_quantum;       ///< of reflected light, by the greatest channel of what is shot
   // Ray tracing stage.
-  Store lattice;         ///< LatticeTriangle[]
+  Store irradiance;      ///< CornerIrradiance[]
   Store kept;            ///< KeptSurface[]
   Store textures;        ///< Texture[]
   Store texels;          ///< Texel[]
@@ -265,9 +265,9 @@ struct StageLayout {
   Store sample_places;   ///< SamplePlace[view.samples]; empty: the host makes the camera rays
   Store filter;          ///< float[2^view.filter_bits + 1], or empty likewise
   CameraView view;
-  Store emitters;        ///< Emitter[]; not empty: `lattice` has no light straight from emitters, shadow rays bring it
-  float pixel_scale;     ///< quanta per unit of radiance
-  float least_weight;    ///< a ray whose weights are all below dies
+  Store emitters;      ///< Emitter[]; not empty: `irradiance` has no light straight from emitters, shadow rays bring it
+  float pixel_scale;   ///< quanta per unit of radiance
+  float least_weight;  ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
 static_assert(sizeof(StageLayout) == 344);

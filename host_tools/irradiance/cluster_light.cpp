@@ -15,7 +15,7 @@ ClusterLight::ClusterLight(const ClusterVertices& vertices, std::span<const prot
     irradiance_.push_back(vec::scale(sum, 1 / cluster.area));
   }
   fit();
-  make_up();
+  add_residual();
 }
 
 void ClusterLight::fit() {
@@ -29,19 +29,20 @@ void ClusterLight::fit() {
   }
 }
 
-void ClusterLight::make_up() {
-  std::vector<Vec3d> missing = irradiance_;
+void ClusterLight::add_residual() {
+  std::vector<Vec3d> residual = irradiance_;
   for (const ClusterVertices::Facet& facet : of_.facets()) {
     const double share = facet.area / of_.clusters()[facet.cluster].area / 3;
     for (const std::uint32_t v : facet.vertex) {
-      missing[facet.cluster] = vec::subtract(missing[facet.cluster], vec::scale(fits_[v].facing(facet.normal), share));
+      residual[facet.cluster] =
+          vec::subtract(residual[facet.cluster], vec::scale(fits_[v].facing(facet.normal), share));
     }
   }
   for (std::size_t v = 0; v < fits_.size(); ++v) {
     Vec3d sum{0, 0, 0};
     double weight = 0;
     for (const ClusterVertices::Near& at : of_.near(of_.vertices()[v])) {
-      sum = vec::add(sum, vec::scale(missing[at.cluster], at.weight));
+      sum = vec::add(sum, vec::scale(residual[at.cluster], at.weight));
       weight += at.weight;
     }
     fits_[v].value = vec::add(fits_[v].value, vec::scale(sum, 1 / weight));

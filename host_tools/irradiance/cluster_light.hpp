@@ -25,7 +25,7 @@ class ClusterLight {
   void fit();
   /// What was smoothed away of each cluster's own light is added again, itself smoothed ("twicing", Tukey 1977,
   /// "Exploratory data analysis").
-  void make_up();
+  void add_residual();
 
   const ClusterVertices& of_;
   std::vector<Vec3d> irradiance_;    ///< by cluster [quanta / user unit^2]

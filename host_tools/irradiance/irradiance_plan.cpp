@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See lattice_plan.hpp.
+// See irradiance_plan.hpp.
 #include "host_tools/irradiance/irradiance_plan.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ constexpr double kNarrow = 0.5;
 
 class SidePlanner {
  public:
-  /// first: by facet, of its triangles in the lattice.
+  /// first: by facet, of its entries in VertexIrradiance.
   SidePlanner(const Mesh& mesh, const std::vector<std::uint32_t>& first, std::uint32_t side)
       : mesh_(mesh), first_(first), side_(side), vertices_(mesh, side) {
     for (const MeshFacet& facet : mesh.facets) {
@@ -192,7 +192,7 @@ class SidePlanner {
 
 }  // namespace
 
-LatticePlan::LatticePlan(const Mesh& mesh) : first(mesh.facets.size(), 0) {
+IrradiancePlan::IrradiancePlan(const Mesh& mesh) : first(mesh.facets.size(), 0) {
   for (const MeshPatch& patch : mesh.patches) {
     const std::uint32_t sides =
         (patch.side[0] != protocol::kNoSide ? 1U : 0U) + (patch.side[1] != protocol::kNoSide ? 1U : 0U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What of the lattice depends on the mesh alone. Enters: the mesh; leaves: which elements, vertices and weights make
-// the light at each corner, so that with the elements' flux only sums are left to do (lattice.hpp).
+// What of vertex irradiance depends on the mesh alone. Enters: the mesh; leaves: which elements, vertices and weights
+// make the light at each corner, so that with the elements' flux only sums are left to do (vertex_irradiance.hpp).
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct SidePlan {
 
   struct Facet {
     std::uint32_t element;
-    std::uint32_t triangle;            ///< of Lattice::triangles
+    std::uint32_t triangle;            ///< of VertexIrradiance::triangles
     Corners corner;                    ///< vertices
     std::uint32_t counts;              ///< bit c: its flux goes to corner c's sum; 0 where it is a cluster's
     double of_element;                 ///< so much of the flux
@@ -62,11 +62,11 @@ struct SidePlan {
   ClusterVertices clusters;
 };
 
-struct LatticePlan {
-  explicit LatticePlan(const Mesh& mesh);
+struct IrradiancePlan {
+  explicit IrradiancePlan(const Mesh& mesh);
 
   std::array<SidePlan, 2> side;      ///< front, back
-  std::vector<std::uint32_t> first;  ///< by facet: Lattice::first
+  std::vector<std::uint32_t> first;  ///< by facet: VertexIrradiance::first
   std::uint32_t triangles = 0;
 };
 

@@ -23,7 +23,7 @@ constexpr double kSpreads = 4;
 constexpr double kLeastRecords = 8;
 
 /// How wrong interpolated light may be on an element, times its area.
-struct Doubt {
+struct ErrorEstimate {
   double light = 0;    ///< with noise
   double noise = 0;    ///< its spread
   double records = 0;  ///< of both drafts, that came here
@@ -31,14 +31,14 @@ struct Doubt {
   double beyond_noise() const { return records < 4 * kLeastRecords ? 0 : light - kSpreads * noise; }
 };
 
-struct Wish {
+struct SplitCandidate {
   std::int64_t key;  ///< how much cutting it helps
   Split split;
   std::uint32_t sides;  ///< 1 or 2
   std::uint32_t added;  ///< levels below the draft's element
-  Doubt doubt;
+  ErrorEstimate error;
 
-  bool operator<(const Wish& other) const {  // the greatest comes first, of equal ones the first in the mesh
+  bool operator<(const SplitCandidate& other) const {  // the greatest comes first, of equal ones the first in the mesh
     return key != other.key ? key < other.key : split > other.split;
   }
 };
@@ -52,17 +52,18 @@ using Deviation = std::array<double, 4>;
 
 /// What interpolation makes of the two solutions on one side of all surfaces, and how much of it is noise: by how much
 /// they differ on the elements around.
-class SideDoubts {
+class SideErrors {
  public:
-  SideDoubts(const Mesh& mesh, const Scene& scene, const DraftLight& draft, const std::array<Lattice, 2>& lattices,
-             std::uint32_t side)
+  SideErrors(const Mesh& mesh, const Scene& scene, const DraftLight& draft,
+             const std::array<VertexIrradiance, 2>& irradiances, std::uint32_t side)
       : mesh_(mesh), draft_(draft), side_(side), vertices_(mesh, side), noise_(vertices_.count()) {
     for (std::size_t k = 0; k < 2; ++k) {
       deviations_[k].resize(mesh.facets.size());
       for (const MeshPatch& patch : mesh.patches) {
         for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
           if (!may_cut(patch, f)) continue;
-          deviations_[k][f] = deviation(patch, f, draft.flux[k], lattices[k], scene.materials[patch.material].diffuse);
+          deviations_[k][f] =
+              deviation(patch, f, draft.flux[k], irradiances[k], scene.materials[patch.material].diffuse);
         }
       }
     }
@@ -76,7 +77,7 @@ class SideDoubts {
   }
 
   /// Shadows are sharper than elements show, so some of what corners differ by counts, too.
-  Doubt of(const MeshPatch& patch, std::uint32_t facet) const {
+  ErrorEstimate of(const MeshPatch& patch, std::uint32_t facet) const {
     const Deviation& a = deviations_[0][facet];
     const Deviation& b = deviations_[1][facet];
     const auto mean = [&](std::size_t i) { return std::abs(a[i] + b[i]) / 2; };
@@ -120,13 +121,13 @@ class SideDoubts {
   }
 
   Deviation deviation(const MeshPatch& patch, std::uint32_t facet, const std::vector<protocol::Flux>& flux,
-                      const Lattice& lattice, const Vec3d& reflectance) const {
+                      const VertexIrradiance& irradiance, const Vec3d& reflectance) const {
     const protocol::Flux& here = flux[patch.first_element[side_] + mesh_.facets[facet].element];
     const double to_radiance = 1 / (seen_area(facet) * std::numbers::pi);
     protocol::Vec3f own{};
     for (std::size_t c = 0; c < 3; ++c) own[c] = static_cast<float>(static_cast<double>(here[c]) * to_radiance);
     const bool behind = side_ == 1 && patch.side[0] != protocol::kNoSide;
-    const auto& corners = lattice.triangles[lattice.first[facet] + (behind ? 1U : 0U)];
+    const auto& corners = irradiance.triangles[irradiance.first[facet] + (behind ? 1U : 0U)];
     std::array<double, 3> value{};
     for (std::size_t c = 0; c < 3; ++c) value[c] = sum_of(corners.irradiance_over_pi[c], reflectance);
     return {sum_of(own, reflectance) - (value[0] + value[1] + value[2]) / 3, value[1] - value[0], value[2] - value[1],
@@ -171,57 +172,62 @@ void add_ancestors(std::vector<Split>& splits) {
 }
 
 /// The greater of its sides' for each element that may be cut; keys are not set.
-std::vector<Wish> wishes_of(const Mesh& mesh, const Scene& scene, const DraftLight& draft) {
-  const LatticePlan plan(mesh);
-  const std::array<Lattice, 2> lattices{make_lattice(plan, draft.flux[0], 1, 1),
-                                        make_lattice(plan, draft.flux[1], 1, 1)};
-  const std::array<SideDoubts, 2> sides{SideDoubts(mesh, scene, draft, lattices, 0),
-                                        SideDoubts(mesh, scene, draft, lattices, 1)};
-  std::vector<Wish> wishes;
+std::vector<SplitCandidate> candidates_of(const Mesh& mesh, const Scene& scene, const DraftLight& draft) {
+  const IrradiancePlan plan(mesh);
+  const std::array<VertexIrradiance, 2> irradiances{make_vertex_irradiance(plan, draft.flux[0], 1, 1),
+                                                    make_vertex_irradiance(plan, draft.flux[1], 1, 1)};
+  const std::array<SideErrors, 2> sides{SideErrors(mesh, scene, draft, irradiances, 0),
+                                        SideErrors(mesh, scene, draft, irradiances, 1)};
+  std::vector<SplitCandidate> candidates;
   for (const MeshPatch& patch : mesh.patches) {
     for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
-      Wish wish{0, {mesh.facets[f].triangle, mesh.facets[f].code}, 0, 0, {}};
-      for (const SideDoubts& side : sides) {
+      SplitCandidate candidate{0, {mesh.facets[f].triangle, mesh.facets[f].code}, 0, 0, {}};
+      for (const SideErrors& side : sides) {
         if (!side.may_cut(patch, f)) continue;
-        const Doubt doubt = side.of(patch, f);
-        if (wish.sides == 0 || doubt.beyond_noise() > wish.doubt.beyond_noise()) wish.doubt = doubt;
-        ++wish.sides;
+        const ErrorEstimate error = side.of(patch, f);
+        if (candidate.sides == 0 || error.beyond_noise() > candidate.error.beyond_noise()) candidate.error = error;
+        ++candidate.sides;
       }
-      if (wish.sides > 0) wishes.push_back(wish);
+      if (candidate.sides > 0) candidates.push_back(candidate);
     }
   }
-  return wishes;
+  return candidates;
 }
 
 /// Of a quarter as large an element, across which light changes half as much. Its noise is twice as much; but that of
 /// the whole solution, which has some four times the records of both drafts, is half of the drafts'.
-Doubt of_child(const Wish& wish) {
-  return {wish.doubt.light / 8, wish.doubt.noise / (wish.added == 0 ? 4 : 2), wish.doubt.records / 4};
+ErrorEstimate of_child(const SplitCandidate& candidate) {
+  return {candidate.error.light / 8, candidate.error.noise / (candidate.added == 0 ? 4 : 2),
+          candidate.error.records / 4};
 }
 
 }  // namespace
 
 std::vector<Split> choose_splits(const Mesh& mesh, const Scene& scene, const DraftLight& draft, std::uint64_t more) {
-  std::vector<Wish> all = wishes_of(mesh, scene, draft);
+  std::vector<SplitCandidate> all = candidates_of(mesh, scene, draft);
   double greatest = 0;
-  for (const Wish& wish : all) greatest = std::max(greatest, wish.doubt.beyond_noise());
-  std::priority_queue<Wish> wishes;
-  const auto wish_for = [&](Wish wish) {
-    const double beyond = wish.doubt.beyond_noise();
-    if (beyond <= 0 || protocol::level_of_code(wish.split.code) == protocol::kMostLevels) return;
-    wish.key = std::llround(std::ldexp(beyond / greatest, 60));
-    wishes.push(wish);
+  for (const SplitCandidate& candidate : all) greatest = std::max(greatest, candidate.error.beyond_noise());
+  std::priority_queue<SplitCandidate> candidates;
+  const auto propose = [&](SplitCandidate candidate) {
+    const double beyond = candidate.error.beyond_noise();
+    if (beyond <= 0 || protocol::level_of_code(candidate.split.code) == protocol::kMostLevels) return;
+    candidate.key = std::llround(std::ldexp(beyond / greatest, 60));
+    candidates.push(candidate);
   };
-  for (const Wish& wish : all) wish_for(wish);
+  for (const SplitCandidate& candidate : all) propose(candidate);
   std::vector<Split> splits;
-  for (std::uint64_t added = 0; added < more && !wishes.empty();) {
-    const Wish wish = wishes.top();
-    wishes.pop();
-    splits.push_back(wish.split);
-    added += 3 * wish.sides;
-    if (wish.added + 1 == kMostAdded) continue;
+  for (std::uint64_t added = 0; added < more && !candidates.empty();) {
+    const SplitCandidate candidate = candidates.top();
+    candidates.pop();
+    splits.push_back(candidate.split);
+    added += 3 * candidate.sides;
+    if (candidate.added + 1 == kMostAdded) continue;
     for (std::uint32_t child = 0; child < 4; ++child) {
-      wish_for({0, {wish.split.triangle, wish.split.code << 2U | child}, wish.sides, wish.added + 1, of_child(wish)});
+      propose({0,
+               {candidate.split.triangle, candidate.split.code << 2U | child},
+               candidate.sides,
+               candidate.added + 1,
+               of_child(candidate)});
     }
   }
   add_ancestors(splits);

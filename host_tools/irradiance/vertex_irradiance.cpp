@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See lattice.hpp.
+// See vertex_irradiance.hpp.
 #include "host_tools/irradiance/vertex_irradiance.hpp"
 
 #include <algorithm>
@@ -26,9 +26,9 @@ class SideLight {
   SideLight(const SidePlan& plan, std::span<const protocol::Flux> flux)
       : plan_(plan), flux_(flux), clusters_(plan.clusters, flux) {
     take_means();
-    settle();
+    spread_and_anchor();
     follow_to_borders();
-    settle();
+    spread_and_anchor();
     note_lit_sides();
   }
 
@@ -62,7 +62,7 @@ class SideLight {
   }
 
   /// First what is known spreads, then vertices on edges of larger elements take what lies between these's ends.
-  void settle() {
+  void spread_and_anchor() {
     for (const SidePlan::Hanging& hanging : plan_.first_known) values_[hanging.vertex] = between_ends(hanging);
     for (const SidePlan::Spread& spread : plan_.spreads) {
       Vec3d sum{0, 0, 0};
@@ -128,22 +128,22 @@ class SideLight {
 
 }  // namespace
 
-Lattice make_lattice(const LatticePlan& plan, std::span<const protocol::Flux> flux, double watts_per_quantum,
-                     double unit_radiance) {
+VertexIrradiance make_vertex_irradiance(const IrradiancePlan& plan, std::span<const protocol::Flux> flux,
+                                        double watts_per_quantum, double unit_radiance) {
   const double factor = watts_per_quantum / (std::numbers::pi * unit_radiance);
-  Lattice lattice;
-  lattice.first = plan.first;
-  lattice.triangles.resize(plan.triangles);
+  VertexIrradiance irradiance;
+  irradiance.first = plan.first;
+  irradiance.triangles.resize(plan.triangles);
   for (const SidePlan& side : plan.side) {
-    lattice.fits += side.clusters.fits();
+    irradiance.fits += side.clusters.fits();
     const SideLight light(side, flux);
     for (const SidePlan::Facet& facet : side.facets) {
       const std::array<Vec3d, 3> corners = light.at_corners(facet);
-      auto& to = lattice.triangles[facet.triangle].irradiance_over_pi;
+      auto& to = irradiance.triangles[facet.triangle].irradiance_over_pi;
       for (std::size_t c = 0; c < 3; ++c) to[c] = to_float(vec::scale(corners[c], factor));
     }
   }
-  return lattice;
+  return irradiance;
 }
 
 }  // namespace torolux

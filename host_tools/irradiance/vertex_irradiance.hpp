@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lattice: from flux per element to irradiance at the elements' corners, continuous over each smooth surface.
+// Vertex irradiance: from flux per element to irradiance at the elements' corners, continuous over each smooth surface.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace torolux {
 
-struct Lattice {
-  std::vector<protocol::LatticeTriangle> triangles;  ///< by facet; of each the front, then the back, as present
-  std::vector<std::uint32_t> first;                  ///< by facet: into `triangles`
-  std::uint64_t fits = 0;                            ///< fits of irradiance that were made for it
+struct VertexIrradiance {
+  std::vector<protocol::CornerIrradiance> triangles;  ///< by facet; of each the front, then the back, as present
+  std::vector<std::uint32_t> first;                   ///< by facet: into `triangles`
+  std::uint64_t fits = 0;                             ///< fits of irradiance that were made for it
 };
 
 /// flux: incident, by global element (Mesh::elements of them), in quanta. watts_per_quantum: of the flux.
@@ -23,12 +23,12 @@ struct Lattice {
 /// A vertex takes the flux of all elements around it on its smooth surface, divided by their area. A vertex on the edge
 /// of a larger element is anchored: it lies on the line between that element's corners. Facets of clusters share their
 /// vertices' light but for what their own normals make of it.
-Lattice make_lattice(const LatticePlan& plan, std::span<const protocol::Flux> flux, double watts_per_quantum,
-                     double unit_radiance);
+VertexIrradiance make_vertex_irradiance(const IrradiancePlan& plan, std::span<const protocol::Flux> flux,
+                                        double watts_per_quantum, double unit_radiance);
 /// With a plan for this once.
-inline Lattice make_lattice(const Mesh& mesh, std::span<const protocol::Flux> flux, double watts_per_quantum,
-                            double unit_radiance) {
-  return make_lattice(LatticePlan(mesh), flux, watts_per_quantum, unit_radiance);
+inline VertexIrradiance make_vertex_irradiance(const Mesh& mesh, std::span<const protocol::Flux> flux,
+                                               double watts_per_quantum, double unit_radiance) {
+  return make_vertex_irradiance(IrradiancePlan(mesh), flux, watts_per_quantum, unit_radiance);
 }
 
 }  // namespace torolux

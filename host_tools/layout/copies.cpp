@@ -100,7 +100,7 @@ std::uint64_t polygon_bytes(const MeshTriangle& triangle, Stage stage) {
   if (radiosity) return bytes + parts * sizeof(protocol::PatchReference);
   // Every four children add three leaves.
   bytes += (triangle.facets - 1U) / 3 * 4 * sizeof(std::uint32_t);
-  return bytes + std::uint64_t{triangle.side_count()} * triangle.facets * sizeof(protocol::LatticeTriangle);
+  return bytes + std::uint64_t{triangle.side_count()} * triangle.facets * sizeof(protocol::CornerIrradiance);
 }
 
 std::uint64_t shape_bytes(const Mesh& mesh, const MeshTriangle& triangle, Stage stage) {

@@ -24,7 +24,7 @@ struct StageCopies {
 
 /// part: of Mesh::parts, its triangle has sides.
 SurfaceSize surface_size(const Mesh& mesh, std::uint32_t part);
-/// Bytes of a polygon in a PE's stores: itself, normals, patch references or lattice and tree to it, texture points.
+/// Bytes of a polygon in a PE's stores: itself, normals, patch references or irradiance and tree to it, texture points.
 /// What several polygons share (materials, textures) is not in it.
 std::uint64_t polygon_bytes(const MeshTriangle& triangle, protocol::Stage stage);
 /// The same without the surfaces of its parts, which need not stand where it does (keepers.hpp): ray tracing stage.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who keeps the surfaces (lattice and the trees to it) that do not stand wherever their polygons do: heat and bytes
+// Who keeps the surfaces (irradiance and the trees to it) that do not stand wherever their polygons do: heat and bytes
 // enter; leaves: for each one PE of those that have its polygon, work and memory as even as that allows. No picture
 // depends on it.
 #pragma once

@@ -26,15 +26,16 @@ struct PatchHome {
 
 /// Of a part of a polygon, ray tracing stage: entries in the stores for what is seen on it.
 struct SurfaceSize {
-  std::uint32_t nodes = 0, lattice = 0;
+  std::uint32_t nodes = 0, irradiance = 0;
 
   SurfaceSize& operator+=(const SurfaceSize& other) {
     nodes += other.nodes;
-    lattice += other.lattice;
+    irradiance += other.irradiance;
     return *this;
   }
   std::uint64_t bytes() const {
-    return std::uint64_t{nodes} * sizeof(std::uint32_t) + std::uint64_t{lattice} * sizeof(protocol::LatticeTriangle);
+    return std::uint64_t{nodes} * sizeof(std::uint32_t) +
+           std::uint64_t{irradiance} * sizeof(protocol::CornerIrradiance);
   }
 };
 

@@ -32,7 +32,7 @@ class ImageWriter {
     if (common == nullptr) return;
     common_ = common->layout;
     next_node_ = common_.nodes.count;
-    next_lattice_ = common_.lattice.count;
+    next_irradiance_ = common_.irradiance.count;
     copy_stores(*common);
   }
 
@@ -47,11 +47,11 @@ class ImageWriter {
     return std::move(bytes_);
   }
 
-  std::vector<std::byte> ray_tracing(const Lattice& lattice, const CameraTables& camera) {
+  std::vector<std::byte> ray_tracing(const VertexIrradiance& irradiance, const CameraTables& camera) {
     write_subspaces();
     write_textures();
-    write_polygons(&lattice);
-    write_kept(lattice);
+    write_polygons(&irradiance);
+    write_kept(irradiance);
     if (common_.emitters.count == 0 && layout_.emitters.count > 0)
       put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
     if (common_.sample_places.count == 0 && layout_.sample_places.count > 0) {
@@ -134,15 +134,15 @@ class ImageWriter {
     put_all<protocol::CellWord>(layout_.cell_words, words);
   }
 
-  /// lattice: null in the radiosity stage.
-  void write_polygons(const Lattice* lattice) {
+  /// irradiance: null in the radiosity stage.
+  void write_polygons(const VertexIrradiance* irradiance) {
     const std::vector<std::uint32_t> textures = textures_of_pe(mesh_, placement_, pe_);
     for (std::uint32_t m = 0; m < mesh_.materials; ++m) {
       protocol::Material material = machine_material(scene_.materials[m], units_);
       const auto texture = std::lower_bound(textures.begin(), textures.end(), scene_.materials[m].texture);
       // Of a texture that none of its polygons shows, a PE has nothing.
       const bool shown = texture != textures.end() && *texture == scene_.materials[m].texture;
-      if (lattice != nullptr && shown) material.texture = static_cast<std::uint32_t>(texture - textures.begin());
+      if (irradiance != nullptr && shown) material.texture = static_cast<std::uint32_t>(texture - textures.begin());
       put(layout_.materials, m, material);
     }
     std::uint32_t normals = common_.normals.count;
@@ -159,7 +159,7 @@ class ImageWriter {
         polygon.normals = normals;
         for (std::uint32_t i = 0; i < 3; ++i) put(layout_.normals, normals++, mesh_.normals[triangle.normals + i]);
       }
-      if (lattice != nullptr && triangle.texture != protocol::kNoTexture) {
+      if (irradiance != nullptr && triangle.texture != protocol::kNoTexture) {
         polygon.texture_points = texture_points;
         for (std::uint32_t i = 0; i < 3; ++i) {
           put(layout_.texture_points, texture_points++, mesh_.texture_points[triangle.texture_points + i]);
@@ -168,7 +168,7 @@ class ImageWriter {
       polygon.material = static_cast<std::uint16_t>(triangle.material);
       polygon.sides = triangle.sides;
       polygon.patch_level = triangle.patch_level;
-      if (triangle.sides != 0) polygon.surface = lattice != nullptr ? write_surface(*lattice, t) : references;
+      if (triangle.sides != 0) polygon.surface = irradiance != nullptr ? write_surface(*irradiance, t) : references;
       if (triangle.sides != 0) references += protocol::triangles_of_level(triangle.patch_level);
       put(layout_.polygons, local, polygon);
     }
@@ -187,28 +187,28 @@ class ImageWriter {
   }
 
   /// Returns the node of the polygon's tree.
-  std::uint32_t write_surface(const Lattice& lattice, std::uint32_t t) {
+  std::uint32_t write_surface(const VertexIrradiance& irradiance, std::uint32_t t) {
     return write_polygon_tree(mesh_.triangles[t], 0, 0, [&](std::uint32_t part) {
-      if (!placement_.has_keeper(part)) return write_lattice(lattice, part);
+      if (!placement_.has_keeper(part)) return write_irradiance(irradiance, part);
       return protocol::kept_leaf(placement_.keeper_of_part[part], placement_.place_of_part[part]);
     });
   }
 
-  void write_kept(const Lattice& lattice) {
+  void write_kept(const VertexIrradiance& irradiance) {
     for (std::size_t place = 0; place < placement_.kept_by_pe[pe_].size(); ++place) {
       const std::uint32_t part = placement_.kept_by_pe[pe_][place];
       const std::uint32_t polygon = local_polygon(mesh_.facets[mesh_.parts[part].facet].triangle);
-      put(layout_.kept, place, protocol::KeptSurface{polygon, write_lattice(lattice, part)});
+      put(layout_.kept, place, protocol::KeptSurface{polygon, write_irradiance(irradiance, part)});
     }
   }
 
   /// Returns the node of the part's tree.
-  std::uint32_t write_lattice(const Lattice& lattice, std::uint32_t part) {
+  std::uint32_t write_irradiance(const VertexIrradiance& irradiance, std::uint32_t part) {
     const std::uint32_t facet = mesh_.parts[part].facet;
     const std::uint32_t sides = mesh_.triangles[mesh_.facets[facet].triangle].side_count();
-    const std::uint32_t first = next_lattice_;
-    for (std::uint32_t i = 0; i < surface_size(mesh_, part).lattice; ++i) {
-      put(layout_.lattice, next_lattice_++, lattice.triangles[lattice.first[facet] + i]);
+    const std::uint32_t first = next_irradiance_;
+    for (std::uint32_t i = 0; i < surface_size(mesh_, part).irradiance; ++i) {
+      put(layout_.irradiance, next_irradiance_++, irradiance.triangles[irradiance.first[facet] + i]);
     }
     return write_tree(mesh_.parts[part].tree, [&](std::uint32_t leaf) { return first + leaf * sides; });
   }
@@ -317,7 +317,7 @@ class ImageWriter {
   const protocol::StageLayout& layout_;
   protocol::StageLayout common_{};  ///< of what stands there already: its counts are where each store goes on
   std::uint32_t next_node_ = 0;
-  std::uint32_t next_lattice_ = 0;
+  std::uint32_t next_irradiance_ = 0;
   std::vector<std::byte> bytes_;  ///< elements stay zero
 };
 
@@ -329,9 +329,9 @@ std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, con
 }
 
 std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe,
-                                         const LightUnits& units, const Lattice& lattice, const PeLayout& layout,
-                                         const CameraTables& camera, const PeLoad* common) {
-  return ImageWriter(scene, mesh, placement, pe, units, layout, common).ray_tracing(lattice, camera);
+                                         const LightUnits& units, const VertexIrradiance& irradiance,
+                                         const PeLayout& layout, const CameraTables& camera, const PeLoad* common) {
+  return ImageWriter(scene, mesh, placement, pe, units, layout, common).ray_tracing(irradiance, camera);
 }
 
 }  // namespace torolux

@@ -32,8 +32,8 @@ std::vector<std::byte> radiosity_image(const Scene& scene, const Mesh& mesh, con
                                        protocol::PeNumber pe, const LightUnits& units, const PeLayout& layout,
                                        const PeLoad* common = nullptr);
 std::vector<std::byte> ray_tracing_image(const Scene& scene, const Mesh& mesh, const Placement& placement,
-                                         protocol::PeNumber pe, const LightUnits& units, const Lattice& lattice,
-                                         const PeLayout& layout, const CameraTables& camera = {},
-                                         const PeLoad* common = nullptr);
+                                         protocol::PeNumber pe, const LightUnits& units,
+                                         const VertexIrradiance& irradiance, const PeLayout& layout,
+                                         const CameraTables& camera = {}, const PeLoad* common = nullptr);
 
 }  // namespace torolux

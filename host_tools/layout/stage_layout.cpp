@@ -22,11 +22,11 @@ struct Counts {
   std::uint64_t cell_words = 0, cell_entries = 0, subspaces = 0, polygon_list = 0, polygons = 0, materials = 0,
                 normals = 0;
   std::uint64_t nodes = 0, patch_references = 0, patch_parts = 0, patches = 0, patch_sides = 0, elements = 0,
-                facets = 0, hemicube = 0, lattice = 0, kept = 0;
+                facets = 0, hemicube = 0, irradiance = 0, kept = 0;
   std::uint64_t textures = 0, texels = 0, texture_points = 0;
-  std::uint64_t uncut_lattice = 0, uncut_facets = 0;  ///< of triangles that are one facet, whatever --elements is
+  std::uint64_t uncut_irradiance = 0, uncut_facets = 0;  ///< of triangles that are one facet, whatever --elements is
 
-  Lessened lattice_by() const { return 2 * uncut_lattice > lattice ? Lessened::pes : Lessened::elements; }
+  Lessened irradiance_by() const { return 2 * uncut_irradiance > irradiance ? Lessened::pes : Lessened::elements; }
   Lessened facets_by() const { return 2 * uncut_facets > facets ? Lessened::pes : Lessened::elements; }
 };
 
@@ -34,12 +34,12 @@ struct Counts {
 void leave_to_keepers(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe, Counts& counts) {
   const SurfaceSize& all = placement.surfaces_with_keepers[pe];
   counts.nodes -= all.nodes;
-  counts.lattice -= all.lattice;
+  counts.irradiance -= all.irradiance;
   for (const std::uint32_t part : placement.kept_by_pe[pe]) {
     const SurfaceSize size = surface_size(mesh, part);
     counts.nodes += size.nodes;
-    counts.lattice += size.lattice;
-    if (mesh.patches[mesh.parts[part].patch].is_clustered()) counts.uncut_lattice += size.lattice;
+    counts.irradiance += size.irradiance;
+    if (mesh.patches[mesh.parts[part].patch].is_clustered()) counts.uncut_irradiance += size.irradiance;
   }
   counts.kept = placement.kept_by_pe[pe].size();
 }
@@ -63,8 +63,8 @@ Counts count(const Mesh& mesh, const Placement& placement, protocol::PeNumber pe
     } else {
       // Every four children add three leaves.
       counts.nodes += (triangle.facets - 1U) / 3 * 4;
-      counts.lattice += std::uint64_t{triangle.side_count()} * triangle.facets;
-      if (triangle.facets == 1 && placement.keeper_of_part.empty()) counts.uncut_lattice += triangle.side_count();
+      counts.irradiance += std::uint64_t{triangle.side_count()} * triangle.facets;
+      if (triangle.facets == 1 && placement.keeper_of_part.empty()) counts.uncut_irradiance += triangle.side_count();
     }
   }
   if (stage == Stage::ray_tracing && !placement.keeper_of_part.empty()) leave_to_keepers(mesh, placement, pe, counts);
@@ -191,7 +191,8 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.elements = allocator.place("elements", Lessened::elements, counts.elements, sizeof(protocol::Element));
   layout.facets = allocator.place("facets", counts.facets_by(), counts.facets, sizeof(protocol::Facet));
   layout.hemicube = allocator.place("hemi-cube", Lessened::hemicube, counts.hemicube, sizeof(protocol::HemicubeEntry));
-  layout.lattice = allocator.place("lattice", counts.lattice_by(), counts.lattice, sizeof(protocol::LatticeTriangle));
+  layout.irradiance =
+      allocator.place("irradiance", counts.irradiance_by(), counts.irradiance, sizeof(protocol::CornerIrradiance));
   layout.kept = allocator.place("kept surfaces", Lessened::patches, counts.kept, sizeof(protocol::KeptSurface));
   layout.textures = allocator.place("textures", Lessened::texels, counts.textures, sizeof(protocol::Texture));
   layout.texels = allocator.place("texels", Lessened::texels, counts.texels, sizeof(protocol::Texel));

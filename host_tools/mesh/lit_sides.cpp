@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See sides.hpp.
+// See lit_sides.hpp.
 #include "host_tools/mesh/lit_sides.hpp"
 
 #include <algorithm>

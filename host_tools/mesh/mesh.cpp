@@ -149,7 +149,7 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64
   std::vector<bool> cut_up;
   for (const int level : cutting.patch_level) cut_up.push_back(level >= 0);
   mesh.walls = Walls(mesh, cut_up);
-  mesh.hiding = Hiding(mesh, scene);
+  mesh.occlusion = Occlusion(mesh, scene);
   return cutting;
 }
 

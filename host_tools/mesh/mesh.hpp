@@ -109,7 +109,7 @@ struct Mesh {
   std::vector<MachineTexture> textures;  ///< by number in the scene
   SmoothSurfaces smooth;
   Walls walls;  ///< of triangles that are cut
-  Hiding hiding;
+  Occlusion occlusion;
   std::vector<MeshPart> parts;
   std::vector<std::uint32_t> nodes;
   std::vector<MeshFacet> facets;  ///< patch by patch, there in the order of the trees' leaves

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See hiding.hpp.
+// See occlusion.hpp.
 #include "host_tools/mesh/occlusion.hpp"
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace {
 
 /// Points are looked at from so high over their triangle, as walls' feet are, in the space's longest edge.
 constexpr double kHeight = 1e-5;
-/// A thing that leaves this much of half a sphere open, in steradians, has an opening: light may come in.
+/// A occluder that leaves this much of half a sphere open, in steradians, has an opening: light may come in.
 constexpr double kOpening = 1e-4;
-/// Larger things hide nothing: to look from many points would take too long.
+/// Larger occluders hide nothing: to look from many points would take too long.
 constexpr std::size_t kMostTriangles = 20'000;
 /// A facet is looked at in 4^kParts parts.
 constexpr std::uint32_t kParts = 2;
@@ -79,73 +79,73 @@ PlanePoint middle_of_grid(std::uint32_t code) {
           unit * ((corner[0].j + corner[1].j + corner[2].j) / 3.0)};
 }
 
-Hiding::Hiding(const Mesh& mesh, const Scene& scene) {
+Occlusion::Occlusion(const Mesh& mesh, const Scene& scene) {
   Sets sets = sets_of(mesh);
-  thing_of_ = std::move(sets.root);
+  occluder_of_ = std::move(sets.root);
   std::vector<Candidate> all(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const SceneMaterial& material = scene.materials[mesh.triangles[t].material];
-    Candidate& candidate = all[thing_of_[t]];
+    Candidate& candidate = all[occluder_of_[t]];
     candidate.triangles.push_back(corners_of(mesh.triangles[t]));
-    if (material.kind == SurfaceKind::glass || emits(material)) sets.alike[thing_of_[t]] = false;
+    if (material.kind == SurfaceKind::glass || emits(material)) sets.alike[occluder_of_[t]] = false;
   }
   for (const auto& [triangle, edge] : sets.border) {
     const auto corner = corners_of(mesh.triangles[triangle]);
-    all[thing_of_[triangle]].border.push_back({corner[edge], corner[(edge + 1) % 3]});
+    all[occluder_of_[triangle]].border.push_back({corner[edge], corner[(edge + 1) % 3]});
   }
   std::vector<std::uint32_t> number(all.size(), protocol::kNoSide);
   for (std::size_t s = 0; s < all.size(); ++s) {
     const std::size_t size = all[s].triangles.size();
     if (size < 4 || size > kMostTriangles || !sets.alike[s]) continue;
-    Thing& thing = things_.emplace_back();
+    Occluder& occluder = occluders_.emplace_back();
     for (const auto& triangle : all[s].triangles)
-      for (const Vec3d& corner : triangle) thing.box.include(corner);
-    thing.angle = SolidAngle(std::move(all[s].triangles), all[s].border);
-    number[s] = static_cast<std::uint32_t>(things_.size() - 1);
+      for (const Vec3d& corner : triangle) occluder.box.include(corner);
+    occluder.angle = SolidAngle(std::move(all[s].triangles), all[s].border);
+    number[s] = static_cast<std::uint32_t>(occluders_.size() - 1);
   }
   // Those that an emitter stands in are left out, and the numbers close ranks.
   const std::vector<bool> lit = lit_inside(mesh, scene);
-  std::vector<std::uint32_t> kept(things_.size(), protocol::kNoSide);
-  std::vector<Thing> dark;
-  for (std::size_t i = 0; i < things_.size(); ++i) {
+  std::vector<std::uint32_t> kept(occluders_.size(), protocol::kNoSide);
+  std::vector<Occluder> dark;
+  for (std::size_t i = 0; i < occluders_.size(); ++i) {
     if (lit[i]) continue;
     kept[i] = static_cast<std::uint32_t>(dark.size());
-    dark.push_back(std::move(things_[i]));
+    dark.push_back(std::move(occluders_[i]));
   }
-  things_ = std::move(dark);
-  for (std::uint32_t& thing : thing_of_) {
-    thing = number[thing];
-    if (thing < kept.size()) thing = kept[thing];
+  occluders_ = std::move(dark);
+  for (std::uint32_t& occluder : occluder_of_) {
+    occluder = number[occluder];
+    if (occluder < kept.size()) occluder = kept[occluder];
   }
 }
 
-std::vector<bool> Hiding::lit_inside(const Mesh& mesh, const Scene& scene) const {
-  std::vector<bool> lit(things_.size(), false);
+std::vector<bool> Occlusion::lit_inside(const Mesh& mesh, const Scene& scene) const {
+  std::vector<bool> lit(occluders_.size(), false);
   for (const MeshTriangle& triangle : mesh.triangles) {
     if (!emits(scene.materials[triangle.material])) continue;
     const auto corner = corners_of(triangle);
     const Vec3d middle = vec::scale(vec::add(vec::add(corner[0], corner[1]), corner[2]), 1.0 / 3);
-    for (std::size_t i = 0; i < things_.size(); ++i) {
-      if (lit[i] || !contains(things_[i].box, middle)) continue;
+    for (std::size_t i = 0; i < occluders_.size(); ++i) {
+      if (lit[i] || !contains(occluders_[i].box, middle)) continue;
       // Half a sphere is enough for what stands on the floor: elsewhere, be careful.
-      if (std::abs(things_[i].angle.seen_from(middle)) > std::numbers::pi) lit[i] = true;
+      if (std::abs(occluders_[i].angle.seen_from(middle)) > std::numbers::pi) lit[i] = true;
     }
   }
   return lit;
 }
 
-bool Hiding::hides(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side, const PlanePoint& point) const {
-  if (things_.empty()) return false;
+bool Occlusion::occludes(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side, const PlanePoint& point) const {
+  if (occluders_.empty()) return false;
   const auto corner = corners_of(mesh.triangles[triangle]);
   const Vec3d across = vec::subtract(corner[1], corner[0]);
   const Vec3d up = vec::subtract(corner[2], corner[0]);
   const Vec3d normal = vec::unit(vec::cross(across, up));
   Vec3d at = vec::add(corner[0], vec::add(vec::scale(across, point.b1), vec::scale(up, point.b2)));
   at = vec::add(at, vec::scale(normal, side == 0 ? kHeight : -kHeight));
-  for (std::size_t i = 0; i < things_.size(); ++i) {
-    if (thing_of_[triangle] == i || !contains(things_[i].box, at)) continue;
+  for (std::size_t i = 0; i < occluders_.size(); ++i) {
+    if (occluder_of_[triangle] == i || !contains(occluders_[i].box, at)) continue;
     // What stands on the triangle fills half a sphere, whether it has a bottom of its own or not.
-    if (std::abs(things_[i].angle.seen_from(at)) > 2 * std::numbers::pi - kOpening) return true;
+    if (std::abs(occluders_[i].angle.seen_from(at)) > 2 * std::numbers::pi - kOpening) return true;
   }
   return false;
 }
@@ -154,7 +154,7 @@ bool is_hidden(const Mesh& mesh, std::uint32_t triangle, std::uint32_t code) {
   if (mesh.walls.touch(triangle, code)) return false;  // at its very foot, a wall fills more than it does beside it
   for (std::uint32_t side = 0; side < 2; ++side) {
     if ((mesh.triangles[triangle].sides & (1U << side)) == 0) continue;
-    if (mesh.hiding.hides(mesh, triangle, side, middle_of_grid(code))) return true;
+    if (mesh.occlusion.occludes(mesh, triangle, side, middle_of_grid(code))) return true;
   }
   return false;
 }

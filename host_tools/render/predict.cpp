@@ -256,12 +256,12 @@ double load_cycles(const RenderSetup& setup, const MachineDescription& machine, 
   return table + std::max({all / machine.bus.bytes_per_cycle, most, host});
 }
 
-double lattice_cycles(const RenderSetup& setup, const MachineDescription& machine) {
+double irradiance_cycles(const RenderSetup& setup, const MachineDescription& machine) {
   double triangles = 0;
   for (const MeshPatch& patch : setup.mesh.patches) {
     for (const std::uint32_t side : patch.side) triangles += side == protocol::kNoSide ? 0 : patch.facets;
   }
-  return host_cycles(machine, HostWork::lattice_triangle, triangles);
+  return host_cycles(machine, HostWork::irradiance_triangle, triangles);
 }
 
 /// Subspaces that a camera ray enters before it begins.
@@ -310,7 +310,7 @@ Prediction predict(const Scene& scene, const Camera& camera, const RenderSetup& 
   Prediction prediction = predict_radiosity(scene, setup, quality);
   prediction.load_cycles = load_cycles(setup, machine.description, protocol::Stage::radiosity) +
                            load_cycles(setup, machine.description, protocol::Stage::ray_tracing) +
-                           lattice_cycles(setup, machine.description);
+                           irradiance_cycles(setup, machine.description);
   predict_rays(scene, camera, setup, quality, machine, prediction);
   if (draft != nullptr) {
     const Prediction rough = predict_radiosity(scene, *draft, draft_of(quality));

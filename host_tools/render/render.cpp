@@ -57,7 +57,7 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
   figures.ray_tracing_copies = setup.ray_tracing_copies;
 }
 
-RenderSetup settled_setup(const Scene& scene, const Camera& camera, const Quality& quality,
+RenderSetup fitting_setup(const Scene& scene, const Camera& camera, const Quality& quality,
                           const MachineChoice& machine, const Image& image, const std::vector<Split>& splits) {
   RenderSetup setup = make_setup(scene, camera, quality, machine, image, splits);
   if (!setup.memory) throw InputError(does_not_fit(scene, camera, quality, machine, image, splits, setup));
@@ -111,7 +111,7 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
   std::vector<Split> splits;
   std::uint64_t more = 0;
   for (std::uint32_t round = 0; round < kDraftRounds; ++round) {
-    RenderSetup setup = settled_setup(scene, camera, quality, choice, image, splits);
+    RenderSetup setup = fitting_setup(scene, camera, quality, choice, image, splits);
     DraftLight light;
     for (std::uint32_t half = 0; half < light.flux.size(); ++half) {
       setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
@@ -154,7 +154,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
     if (!chosen) return result;
     splits = std::move(*chosen);
   }
-  const RenderSetup setup = settled_setup(scene, camera, quality, machine, image, splits);
+  const RenderSetup setup = fitting_setup(scene, camera, quality, machine, image, splits);
   RenderJob job = job_of(scene, camera, quality, machine, setup, false);
   const RadiosityOrigin origin = radiosity_origin(scene, quality, setup.mesh);
   if (saved) {
@@ -177,9 +177,10 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   if (!files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
   if (files.save_radiosity) save_radiosity(*files.save_radiosity, origin, splits, *program.solution());
   if (files.save_mesh) {
-    const Lattice lattice = make_lattice(setup.mesh, incident_flux(*program.solution(), false),
-                                         setup.units.watts_per_quantum, setup.units.unit_radiance);
-    save_ply(*files.save_mesh, scene, setup.mesh, setup.units, lattice);
+    const VertexIrradiance irradiance =
+        make_vertex_irradiance(setup.mesh, incident_flux(*program.solution(), false), setup.units.watts_per_quantum,
+                               setup.units.unit_radiance);
+    save_ply(*files.save_mesh, scene, setup.mesh, setup.units, irradiance);
   }
   const FrameBuffer& sums = torolux.frame_buffer();
   result.figures.picture_sha256 = digest_of(sums, protocol::Plane::colour);

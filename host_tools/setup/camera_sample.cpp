@@ -32,14 +32,10 @@ class CameraFollower {
  public:
   CameraFollower(const Scene& scene, const Mesh& mesh, const Placement& placement, const CameraSampleChoice& choice,
                  PathSample& sample, Heat* heat)
-      : scene_(scene),
-        choice_(choice),
-        sample_(sample),
-        walker_(mesh, placement, sample, heat),
-        emitters_(scene, mesh) {}
+      : scene_(scene), choice_(choice), sample_(sample), cost_(mesh, placement, sample, heat), emitters_(scene, mesh) {}
 
-  void follow(const SampleRay& ray, const SampleWalker::Cell& cell, Chance& chance) {
-    walker_.begin(1, cell);
+  void follow(const SampleRay& ray, const PathCost::Cell& cell, Chance& chance) {
+    cost_.begin(1, cell);
     waiting_.assign(1, {ray, cell, 1, 0});
     while (!waiting_.empty()) {
       Way way = waiting_.back();
@@ -52,7 +48,7 @@ class CameraFollower {
  private:
   struct Way {
     SampleRay ray;
-    SampleWalker::Cell cell;
+    PathCost::Cell cell;
     double weight;
     std::uint32_t bounce;
   };
@@ -61,7 +57,7 @@ class CameraFollower {
 
   /// One segment. False: the way ends with it.
   bool go(Way& way, Chance& chance) {
-    const Meeting met = walker_.walk(way.ray, way.cell);
+    const Meeting met = cost_.walk(way.ray, way.cell);
     if (met.triangle == nullptr) {
       sample_.escaped += 1;
       return false;
@@ -72,12 +68,12 @@ class CameraFollower {
     const Vec3d normal = front ? flat : vec::scale(flat, -1);
     const SceneMaterial& material = scene_.materials[met.triangle->material];
     if (material.kind != SurfaceKind::diffuse) return turn(way, normal, front, material, chance);
-    walker_.see(met);
+    cost_.see(met);
     return scatter(way, normal, material, chance);
   }
 
   bool turn(Way& way, const Vec3d& normal, bool front, const SceneMaterial& material, Chance& chance) {
-    walker_.work().turns += 1;
+    cost_.work().turns += 1;
     if (++way.bounce >= choice_.bounces) return false;
     const Vec3d reflected = mirrored(way.ray.direction, normal);
     if (material.kind == SurfaceKind::mirror) {
@@ -113,7 +109,7 @@ class CameraFollower {
   }
 
   bool choose_lobe(Way& way, const Vec3d& normal, const SceneMaterial& material, Chance& chance) {
-    walker_.work().turns += 1;
+    cost_.work().turns += 1;
     if (++way.bounce >= choice_.bounces) return false;
     way.ray.direction = chance.lobe_direction(mirrored(way.ray.direction, normal), material.exponent);
     way.weight *= vec::largest(material.specular) * (material.exponent + 2) / (material.exponent + 1) *
@@ -122,21 +118,21 @@ class CameraFollower {
   }
 
   void cast_shadow(const Way& from, const Vec3d& normal, Chance& chance) {
-    walker_.work().aims += points_of_aim(emitters_.count());
+    cost_.work().aims += points_of_aim(emitters_.count());
     const EmitterPoints::Point target = emitters_.point(chance);
     const Vec3d there = vec::subtract(target.place, from.ray.origin);
     if (!(vec::length(there) > 0) || !(vec::dot(there, normal) > 0)) return;
     if (!choice_.two_sided_lights && !(vec::dot(there, normal_of(*target.triangle)) < 0)) return;
-    SampleWalker::Cell cell = from.cell;
-    const Meeting met = walker_.walk({from.ray.origin, vec::unit(there)}, cell);
-    if (met.triangle == target.triangle) walker_.work().deposits += 1;
+    PathCost::Cell cell = from.cell;
+    const Meeting met = cost_.walk({from.ray.origin, vec::unit(there)}, cell);
+    if (met.triangle == target.triangle) cost_.work().deposits += 1;
     if (met.triangle == nullptr) sample_.escaped += 1;
   }
 
   const Scene& scene_;
   CameraSampleChoice choice_;
   PathSample& sample_;
-  SampleWalker walker_;
+  PathCost cost_;
   EmitterPoints emitters_;
   std::vector<Way> waiting_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See sample_walk.hpp.
+// See path_cost.hpp.
 #include "host_tools/setup/path_cost.hpp"
 
 #include <algorithm>
@@ -156,13 +156,13 @@ EmitterPoints::Point EmitterPoints::point(Chance& chance) const {
   return {&triangle, place};
 }
 
-SampleWalker::SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample, Heat* heat)
+PathCost::PathCost(const Mesh& mesh, const Placement& placement, PathSample& sample, Heat* heat)
     : mesh_(mesh), placement_(placement), sample_(sample), heat_(heat) {
   sample_.of_pe.resize(placement.torus.pes());
   sample_.hits.resize(mesh.triangles.size());
 }
 
-void SampleWalker::begin(double records, const Cell& cell) {
+void PathCost::begin(double records, const Cell& cell) {
   records_ = static_cast<float>(records);
   first_ = true;
   at_.reset();
@@ -171,12 +171,12 @@ void SampleWalker::begin(double records, const Cell& cell) {
   }
 }
 
-double SampleWalker::elsewhere() const {
+double PathCost::elsewhere() const {
   return at_ ? 1 : 1 - 1.0 / placement_.torus.pes();
 }
 
 /// The record is handed over where the subspace is not held.
-void SampleWalker::enter(CellIndex cell) {
+void PathCost::enter(CellIndex cell) {
   if (!placement_.stop_cell[cell] || placement_.common_cell[cell]) return;
   const protocol::PeNumber pe = placement_.pe_of_cell[cell];
   if (at_ == pe) return;
@@ -184,19 +184,19 @@ void SampleWalker::enter(CellIndex cell) {
   at_ = pe;
 }
 
-void SampleWalker::add_to_heat(CellIndex cell) {
+void PathCost::add_to_heat(CellIndex cell) {
   if (heat_ == nullptr) return;
   if (!placement_.stop_cell[cell]) return;
   heat_->steps.push_back({cell, records_, first_});
   first_ = false;
 }
 
-SampleWalker::Cell SampleWalker::cell_of(const Vec3d& point) const {
+PathCost::Cell PathCost::cell_of(const Vec3d& point) const {
   return placement_.grid.cell_of(to_float(point));
 }
 
 /// What find_nearest of firmware/pe/traverse.cpp does. from, to: where the ray enters and leaves.
-void SampleWalker::look_into(const SampleRay& ray, CellIndex index, const Cell& cell, double from, double to) {
+void PathCost::look_into(const SampleRay& ray, CellIndex index, const Cell& cell, double from, double to) {
   const auto& entries = placement_.entries_of_cell[index];
   if (entries.empty()) return;
   const protocol::Vec3f begin = to_float(vec::add(ray.origin, vec::scale(ray.direction, from)));
@@ -216,7 +216,7 @@ void SampleWalker::look_into(const SampleRay& ray, CellIndex index, const Cell& 
   }
 }
 
-Meeting SampleWalker::walk(const SampleRay& ray, Cell& cell) {
+Meeting PathCost::walk(const SampleRay& ray, Cell& cell) {
   const Grid& grid = placement_.grid;
   double entered = 0;
   enter(grid.index(cell));
@@ -258,7 +258,7 @@ std::uint32_t part_at(const Meeting& met) {
 
 }  // namespace
 
-void SampleWalker::see(const Meeting& met) {
+void PathCost::see(const Meeting& met) {
   work().deposits += 1;
   if (met.triangle->sides == 0) return;
   const std::uint32_t part = part_at(met);
@@ -268,7 +268,7 @@ void SampleWalker::see(const Meeting& met) {
   work().hand_overs += 1;
 }
 
-std::uint32_t SampleWalker::deposit(const Meeting& met) {
+std::uint32_t PathCost::deposit(const Meeting& met) {
   const std::uint32_t patch = mesh_.parts[part_at(met)].patch;
   const protocol::PeNumber owner = placement_.patch_home[patch].pe;
   work().deposits += 1;

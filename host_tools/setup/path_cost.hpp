@@ -89,12 +89,12 @@ class EmitterPoints {
 };
 
 /// Follows segments through the subspaces and adds up what that takes.
-class SampleWalker {
+class PathCost {
  public:
   using Cell = std::array<std::uint32_t, 3>;
 
   /// sample: gets room for all PEs and triangles. heat: gets the ways of records too, if given.
-  SampleWalker(const Mesh& mesh, const Placement& placement, PathSample& sample, Heat* heat = nullptr);
+  PathCost(const Mesh& mesh, const Placement& placement, PathSample& sample, Heat* heat = nullptr);
 
   /// A record begins, at whichever PE has made it: scheme `paper`, or a single PE: who owns `cell`. records: that it
   /// stands for.

@@ -36,7 +36,7 @@ class Follower {
       : scene_(scene),
         mesh_(mesh),
         sample_(sample),
-        walker_(mesh, placement, sample, heat),
+        cost_(mesh, placement, sample, heat),
         bounces_(bounces),
         records_(records) {}
 
@@ -44,12 +44,12 @@ class Follower {
   std::optional<Start> follow(const Start& start, Chance& chance) {
     ++paths_;
     flux_ += start.flux;
-    Path path{{start.place, chance.cosine_direction(start.normal)}, walker_.cell_of(start.place), start.flux};
-    walker_.begin(records_ * start.flux, path.cell);
+    Path path{{start.place, chance.cosine_direction(start.normal)}, cost_.cell_of(start.place), start.flux};
+    cost_.begin(records_ * start.flux, path.cell);
     std::optional<Start> chosen;
     double fallen = 0;
     for (std::uint32_t bounce = 0; bounce < bounces_; ++bounce) {
-      const Meeting met = walker_.walk(path.ray, path.cell);
+      const Meeting met = cost_.walk(path.ray, path.cell);
       if (met.triangle == nullptr) {
         sample_.escaped += 1;
         break;
@@ -64,7 +64,7 @@ class Follower {
         continue;
       }
       sample_.hits[static_cast<std::size_t>(met.triangle - mesh_.triangles.data())][front ? 0 : 1] += path.flux;
-      const std::uint32_t patch = walker_.deposit(met);
+      const std::uint32_t patch = cost_.deposit(met);
       fallen += path.flux;
       if (chance.uniform() * fallen < path.flux)
         chosen = Start{path.ray.origin, normal, mesh_.patches[patch].mean_reflectance()};
@@ -87,12 +87,12 @@ class Follower {
  private:
   struct Path {
     SampleRay ray;
-    SampleWalker::Cell cell;
+    PathCost::Cell cell;
     double flux;
   };
 
   void turn(Path& path, const Vec3d& normal, const SceneMaterial& material) {
-    walker_.work().turns += 1;
+    cost_.work().turns += 1;
     if (material.kind == SurfaceKind::mirror) {
       path.ray.direction = mirrored(path.ray.direction, normal);
       path.flux *= mean_of(material.specular);
@@ -107,8 +107,8 @@ class Follower {
     const double weight = (material.exponent + 2) / (material.exponent + 1);
     const double most = std::min(1.0, weight * vec::largest(material.specular));
     if (!(chance.uniform() < most * vec::dot(out, normal))) return false;
-    walker_.work().turns += 1;
-    walker_.go_to_patch(patch);
+    cost_.work().turns += 1;
+    cost_.go_to_patch(patch);
     path.ray.direction = out;
     path.flux *= weight * mean_of(material.specular) / most;
     return true;
@@ -117,7 +117,7 @@ class Follower {
   const Scene& scene_;
   const Mesh& mesh_;
   PathSample& sample_;
-  SampleWalker walker_;
+  PathCost cost_;
   std::uint32_t bounces_;
   double records_;
   double paths_ = 0;

@@ -61,7 +61,7 @@ class Chooser {
     Placements result;
     result.radiosity = place(Stage::radiosity, {}, {}, kMostMemory);
     result.ray_tracing = result.radiosity;
-    settle_memory(result);
+    choose_memory_for(result);
     return result;
   }
 
@@ -70,13 +70,13 @@ class Chooser {
     for (const double most_memory : {kMostMemory, kTightMemory}) {
       result.radiosity = place(Stage::radiosity, {}, {}, most_memory);
       result.ray_tracing = place(Stage::ray_tracing, {}, {}, most_memory);
-      settle_memory(result);
+      choose_memory_for(result);
       const std::uint32_t memory = result.memory.value_or(machine_.pe_memory.value_or(protocol::kLargestLocalMemory));
       copy(Stage::ray_tracing, memory, most_memory, result.ray_tracing, result.ray_tracing_copies);
-      if (!result.memory) settle_memory(result);
+      if (!result.memory) choose_memory_for(result);
       if (!result.memory) continue;
       copy(Stage::radiosity, memory, most_memory, result.radiosity, result.radiosity_copies);
-      settle_memory(result);
+      choose_memory_for(result);
       break;
     }
     return result;
@@ -92,7 +92,7 @@ class Chooser {
   }
 
   /// Without copies it is chosen, if not given; with them there is one.
-  void settle_memory(Placements& result) const {
+  void choose_memory_for(Placements& result) const {
     result.need = memory_need(mesh_, result.radiosity, result.ray_tracing, parameters_, map_);
     result.memory = choose_memory(result.need, result.memory ? result.memory : machine_.pe_memory);
   }

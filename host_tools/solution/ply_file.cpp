@@ -18,11 +18,11 @@ static_assert(std::endian::native == std::endian::little, "the file is little-en
 
 class PlyWriter {
  public:
-  PlyWriter(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Lattice& lattice)
-      : scene_(scene), mesh_(mesh), units_(units), lattice_(lattice) {}
+  PlyWriter(const Scene& scene, const Mesh& mesh, const LightUnits& units, const VertexIrradiance& irradiance)
+      : scene_(scene), mesh_(mesh), units_(units), irradiance_(irradiance) {}
 
   std::vector<std::byte> write() {
-    const std::size_t faces = lattice_.triangles.size();
+    const std::size_t faces = irradiance_.triangles.size();
     put_text("ply\nformat binary_little_endian 1.0\ncomment radiosity B [W/m^2] as red, green, blue\nelement vertex " +
              std::to_string(3 * faces) +
              "\nproperty float x\nproperty float y\nproperty float z\nproperty float red\nproperty float green\n"
@@ -52,7 +52,7 @@ class PlyWriter {
   void put_facet(const MeshPatch& patch, std::uint32_t f) {
     const MeshFacet& facet = mesh_.facets[f];
     const auto corners = grid_corners(mesh_.triangles[facet.triangle], facet.code);
-    const protocol::LatticeTriangle* light = &lattice_.triangles[lattice_.first[f]];
+    const protocol::CornerIrradiance* light = &irradiance_.triangles[irradiance_.first[f]];
     for (std::uint32_t side = 0; side < 2; ++side) {
       if (patch.side[side] == protocol::kNoSide) continue;
       for (const std::size_t c :
@@ -77,19 +77,20 @@ class PlyWriter {
   const Scene& scene_;
   const Mesh& mesh_;
   const LightUnits& units_;
-  const Lattice& lattice_;
+  const VertexIrradiance& irradiance_;
   std::vector<std::byte> bytes_;
 };
 
 }  // namespace
 
-std::vector<std::byte> pack_ply(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Lattice& lattice) {
-  return PlyWriter(scene, mesh, units, lattice).write();
+std::vector<std::byte> pack_ply(const Scene& scene, const Mesh& mesh, const LightUnits& units,
+                                const VertexIrradiance& irradiance) {
+  return PlyWriter(scene, mesh, units, irradiance).write();
 }
 
 void save_ply(const std::filesystem::path& file, const Scene& scene, const Mesh& mesh, const LightUnits& units,
-              const Lattice& lattice) {
-  write_file(file, pack_ply(scene, mesh, units, lattice));
+              const VertexIrradiance& irradiance) {
+  write_file(file, pack_ply(scene, mesh, units, irradiance));
 }
 
 }  // namespace torolux

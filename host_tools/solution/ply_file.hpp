@@ -16,10 +16,11 @@ namespace torolux {
 /// [W/m^2], float; element: global number. Faces: three vertices of their own each, so that neighbours may differ where
 /// the light does; the front first, then, wound the other way, the back, as each has elements. A texture counts by its
 /// mean over the patch.
-std::vector<std::byte> pack_ply(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Lattice& lattice);
+std::vector<std::byte> pack_ply(const Scene& scene, const Mesh& mesh, const LightUnits& units,
+                                const VertexIrradiance& irradiance);
 
 /// Throws InputError where the file cannot be written; leaves none behind then.
 void save_ply(const std::filesystem::path& file, const Scene& scene, const Mesh& mesh, const LightUnits& units,
-              const Lattice& lattice);
+              const VertexIrradiance& irradiance);
 
 }  // namespace torolux

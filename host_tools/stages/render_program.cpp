@@ -86,10 +86,11 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
     case Step::load_ray_tracing:
       // The plan is a matter of the mesh, and like that not charged (docs/costs.md): it is made here, as late as it can
       // be, to spare memory.
-      lattice_ = make_lattice(LatticePlan(setup.mesh), incident_flux(*job_.solution, setup.parameters.emitters > 0),
-                              setup.units.watts_per_quantum, setup.units.unit_radiance);
-      port.work(HostWork::lattice_triangle, lattice_.triangles.size());
-      port.work(HostWork::irradiance_fit, lattice_.fits);
+      irradiance_ = make_vertex_irradiance(IrradiancePlan(setup.mesh),
+                                           incident_flux(*job_.solution, setup.parameters.emitters > 0),
+                                           setup.units.watts_per_quantum, setup.units.unit_radiance);
+      port.work(HostWork::irradiance_triangle, irradiance_.triangles.size());
+      port.work(HostWork::irradiance_fit, irradiance_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
       if (setup.parameters.pixel_samples > 0)
@@ -115,7 +116,7 @@ std::unique_ptr<Phase> RenderProgram::loading(Stage stage) {
     const PeLayout layout = layout_at(placement, pe);
     return stage == Stage::radiosity
                ? radiosity_image(job_.scene, setup.mesh, placement, pe, setup.units, layout, common)
-               : ray_tracing_image(job_.scene, setup.mesh, placement, pe, setup.units, lattice_, layout,
+               : ray_tracing_image(job_.scene, setup.mesh, placement, pe, setup.units, irradiance_, layout,
                                    {job_.rays.samples().places(), job_.rays.samples().distances()}, common);
   };
   const Placement& placement = setup.placement_of(stage);

@@ -71,7 +71,7 @@ class RenderProgram : public HostProgram {
   bool given_;  ///< the solution
   Step step_;
   std::unique_ptr<Phase> phase_;
-  Lattice lattice_;
+  VertexIrradiance irradiance_;
   StageTimes times_;
   std::vector<RoundFigures> rounds_;
   VisitSums radiosity_visits_{}, ray_visits_{};

@@ -124,24 +124,24 @@ void sort_candidates(benchmark::State& state) {
 BENCHMARK(sort_candidates)->Arg(64)->Arg(1024);
 
 /// What is left to do once the elements' flux is known.
-void lattice(benchmark::State& state, const char* scene) {
+void irradiance(benchmark::State& state, const char* scene) {
   const Prepared prepared = prepare(scene);
-  const LatticePlan plan(prepared.setup.mesh);
+  const IrradiancePlan plan(prepared.setup.mesh);
   const std::vector<protocol::Flux> flux(prepared.setup.mesh.elements, protocol::Flux{1000, 2000, 3000});
   std::size_t triangles = 0;
   for (auto _ : state) {
-    const Lattice made = make_lattice(plan, flux, 1e-12, 1);
+    const VertexIrradiance made = make_vertex_irradiance(plan, flux, 1e-12, 1);
     triangles = made.triangles.size();
   }
   per_item(state, static_cast<double>(triangles));
 }
-BENCHMARK_CAPTURE(lattice, cornell_box, "cornell_box");
-BENCHMARK_CAPTURE(lattice, interior, "interior");
+BENCHMARK_CAPTURE(irradiance, cornell_box, "cornell_box");
+BENCHMARK_CAPTURE(irradiance, interior, "interior");
 
 /// All that a vertex of a cluster takes, on a scene that has some.
 void cluster_light(benchmark::State& state) {
   const Prepared prepared = prepare("interior");
-  const LatticePlan plan(prepared.setup.mesh);
+  const IrradiancePlan plan(prepared.setup.mesh);
   const std::vector<protocol::Flux> flux(prepared.setup.mesh.elements, protocol::Flux{1000, 2000, 3000});
   for (auto _ : state) {
     for (const SidePlan& side : plan.side) benchmark::DoNotOptimize(ClusterLight(side.clusters, flux));

@@ -120,7 +120,7 @@ void AccessFlow::note_coming(AtBlock& block, ByBase coming) const {
   }
 }
 
-bool AccessFlow::update_known(AtBlock& block, const std::vector<std::uint32_t>& successors, bool settle) {
+bool AccessFlow::update_known(AtBlock& block, const std::vector<std::uint32_t>& successors, bool widen) {
   if (!block.reached) return false;
   const ByBase known = follow(block, nullptr);
   bool changed = false;
@@ -134,7 +134,7 @@ bool AccessFlow::update_known(AtBlock& block, const std::vector<std::uint32_t>& 
     for (unsigned n = 1; n < known.size(); ++n) {
       const Ranges both{common(there.known[n].loads, known[n].loads), common(there.known[n].stores, known[n].stores)};
       if (both == there.known[n]) continue;
-      there.known[n] = settle ? Ranges{} : both;
+      there.known[n] = widen ? Ranges{} : both;
       changed = true;
     }
   }

@@ -62,7 +62,7 @@ class AccessFlow {
   ByBase coming_behind(const std::vector<std::uint32_t>& successors) const;
   bool update_coming(AtBlock& block, const std::vector<std::uint32_t>& successors);
   void note_coming(AtBlock& block, ByBase coming) const;
-  bool update_known(AtBlock& block, const std::vector<std::uint32_t>& successors, bool settle);
+  bool update_known(AtBlock& block, const std::vector<std::uint32_t>& successors, bool widen);
   /// Goes through the block; what is known behind it leaves.
   static ByBase follow(const AtBlock& block, AccessChecks* checks);
   static AccessCheck check_for(const Step& step);

@@ -118,19 +118,19 @@ std::string BlockWriter::f(unsigned n) {
 }
 
 std::string BlockWriter::exact_f(unsigned n) {
-  if ((unsettled_ & f_register(n)) != 0) line(f(n) + " = canonical(" + f(n) + ");");
-  unsettled_ &= ~f_register(n);
+  if ((raw_ & f_register(n)) != 0) line(f(n) + " = canonical(" + f(n) + ");");
+  raw_ &= ~f_register(n);
   return f(n);
 }
 
-void BlockWriter::settle(RegisterSet registers) {
+void BlockWriter::canonicalize(RegisterSet registers) {
   for (unsigned n = 0; n < 32; ++n) {
     if ((registers & f_register(n)) != 0) static_cast<void>(exact_f(n));
   }
 }
 
-std::string BlockWriter::assign_f(unsigned n, bool settled) {
-  unsettled_ = settled ? unsettled_ & ~f_register(n) : unsettled_ | f_register(n);
+std::string BlockWriter::assign_f(unsigned n, bool canonical) {
+  raw_ = canonical ? raw_ & ~f_register(n) : raw_ | f_register(n);
   return f(n) + " = ";
 }
 
@@ -141,7 +141,7 @@ std::string BlockWriter::save(RegisterSet registers) const {
   }
   for (unsigned n = 0; n < 32; ++n) {
     if ((registers & f_register(n)) == 0) continue;
-    const std::string value = (unsettled_ & f_register(n)) != 0 ? "canonical(" + f(n) + ")" : f(n);
+    const std::string value = (raw_ & f_register(n)) != 0 ? "canonical(" + f(n) + ")" : f(n);
     text += "pe->f[" + decimal(n) + "] = to_bits(" + value + "); ";
   }
   return text;
@@ -167,8 +167,8 @@ std::string BlockWriter::look(std::uint32_t pc, RegisterSet registers) const {
   return leave(registers, "left_for(Exit::look, " + hexadecimal(pc) + ")");
 }
 
-void BlockWriter::begin(RegisterSet unsettled, const AccessChecks& checks) {
-  unsettled_ = unsettled;
+void BlockWriter::begin(RegisterSet raw, const AccessChecks& checks) {
+  raw_ = raw;
   checks_ = checks;
 }
 

@@ -18,7 +18,7 @@ class BlockWriter {
   BlockWriter(const CodeMap& code, bool observed, std::string& out) : code_(code), observed_(observed), out_(out) {}
 
   /// Begins a block in which these f registers may hold a NaN that is not RISC-V's. checks: of its accesses.
-  void begin(RegisterSet unsettled, const AccessChecks& checks);
+  void begin(RegisterSet raw, const AccessChecks& checks);
   /// cost_behind: of the rest of the block, for phase markers. look: registers to be saved where it cannot go on.
   void write(const Instruction& i, std::uint32_t pc, Cost cost_behind, RegisterSet look);
   /// Whether the instruction may send the PE to the interpreter.
@@ -26,8 +26,8 @@ class BlockWriter {
   /// Condition of a branch.
   std::string condition(const Instruction& i);
   /// Those that may hold a NaN that is not RISC-V's, as after `begin`.
-  RegisterSet unsettled() const { return unsettled_; }
-  void settle(RegisterSet registers);
+  RegisterSet raw() const { return raw_; }
+  void canonicalize(RegisterSet registers);
 
   /// Statements that leave with these registers saved. at: an expression, the address and why.
   std::string leave(RegisterSet save, const std::string& at) const;
@@ -50,14 +50,14 @@ class BlockWriter {
   void write_check(const Instruction& i, std::uint32_t pc, RegisterSet look);
 
   static std::string f(unsigned n);
-  std::string exact_f(unsigned n);  // settles it first
-  std::string assign_f(unsigned n, bool settled);
+  std::string exact_f(unsigned n);  // canonicalizes it first
+  std::string assign_f(unsigned n, bool canonical);
   std::string look(std::uint32_t pc, RegisterSet save) const;
 
   const CodeMap& code_;
   bool observed_;
   std::string& out_;
-  RegisterSet unsettled_ = 0;
+  RegisterSet raw_ = 0;
   AccessChecks checks_;
 };
 

@@ -29,9 +29,9 @@ FunctionFlow::FunctionFlow(const CodeMap& code, const Blocks& blocks, const Live
     for (auto at = at_.rbegin(); at != at_.rend(); ++at) changed |= update_needed(blocks_.all().at(at->first));
   }
   if (blocks.observed()) return;
-  for (auto& [address, sets] : at_) sets.unsettled = kFloatRegisters;
-  for (const std::uint32_t address : entered()) at_[address].unsettled = 0;
-  repeat(&FunctionFlow::update_unsettled);
+  for (auto& [address, sets] : at_) sets.raw = kFloatRegisters;
+  for (const std::uint32_t address : entered()) at_[address].raw = 0;
+  repeat(&FunctionFlow::update_raw);
 }
 
 std::vector<std::uint32_t> FunctionFlow::successors(const Block& block) const {
@@ -112,25 +112,25 @@ bool FunctionFlow::update_needed(const Block& block) {
   return changed;
 }
 
-bool FunctionFlow::update_unsettled(const Block& block) {
+bool FunctionFlow::update_raw(const Block& block) {
   const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
   std::string text;
   BlockWriter writer(code_, false, text);
-  writer.begin(at_[block.begin].unsettled, {});
+  writer.begin(at_[block.begin].raw, {});
   for (const std::uint32_t pc : addresses) writer.write(code_.at(pc)->instruction, pc, {0, 0}, 0);
   bool changed = false;
   for (const std::uint32_t next : successors(block)) {
-    RegisterSet& set = at_[next].unsettled;
-    changed |= (set & ~writer.unsettled()) != 0;
-    set &= writer.unsettled();
+    RegisterSet& set = at_[next].raw;
+    changed |= (set & ~writer.raw()) != 0;
+    set &= writer.raw();
   }
   return changed;
 }
 
-RegisterSet FunctionFlow::to_settle(const Block& block, RegisterSet unsettled) const {
+RegisterSet FunctionFlow::to_canonicalize(const Block& block, RegisterSet raw) const {
   RegisterSet expected = 0;
-  for (const std::uint32_t next : successors(block)) expected |= needed(next) & ~this->unsettled(next);
-  return unsettled & expected;
+  for (const std::uint32_t next : successors(block)) expected |= needed(next) & ~this->raw(next);
+  return raw & expected;
 }
 
 }  // namespace torolux::translated

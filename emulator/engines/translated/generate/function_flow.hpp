@@ -32,9 +32,9 @@ class FunctionFlow {
   RegisterSet needed(std::uint32_t block) const { return at_.at(block).needed; }
   /// f registers that were computed, on every way to the block, and so may hold another NaN than RISC-V's. What came
   /// from memory on some way is none of these: its bits stay as they are, whatever they mean.
-  RegisterSet unsettled(std::uint32_t block) const { return at_.at(block).unsettled; }
-  /// Of these at its end, those that must be settled there, as some way on takes them for settled.
-  RegisterSet to_settle(const Block& block, RegisterSet unsettled) const;
+  RegisterSet raw(std::uint32_t block) const { return at_.at(block).raw; }
+  /// Of these at its end, those that must be canonical there, as some way on takes them for canonical.
+  RegisterSet to_canonicalize(const Block& block, RegisterSet raw) const;
   /// To be saved if the interpreter goes on before each instruction of the block, then behind its last.
   std::vector<RegisterSet> saved(const Block& block) const;
 
@@ -42,14 +42,14 @@ class FunctionFlow {
 
  private:
   struct AtBlock {
-    RegisterSet dirty = 0, needed = 0, unsettled = 0;
+    RegisterSet dirty = 0, needed = 0, raw = 0;
   };
   /// Blocks of this function that control reaches from this one with its variables kept.
   std::vector<std::uint32_t> successors(const Block& block) const;
   AccessFlow access_flow() const;
   bool update_dirty(const Block& block);
   bool update_needed(const Block& block);
-  bool update_unsettled(const Block& block);
+  bool update_raw(const Block& block);
   /// Where variables come from memory: blocks reached from outside, and those behind calls.
   std::vector<std::uint32_t> entered() const;
 

@@ -149,7 +149,7 @@ void FunctionWriter::write_block(const Block& block) {
   body_ += flow_label(block.begin) + ": {\n";
   const std::vector<std::uint32_t> addresses = addresses_in(code_, block);
   const std::vector<RegisterSet> saves = flow_.saved(block);
-  writer_.begin(flow_.unsettled(block.begin), flow_.checks(block));
+  writer_.begin(flow_.raw(block.begin), flow_.checks(block));
   if (block.cost.cycles != 0) writer_.line("count += " + std::to_string(pack(block.cost)) + "ull;");
   const bool has_jump = block.ending != Ending::next && block.ending != Ending::interpreted;
   Cost behind = block.cost;
@@ -160,7 +160,7 @@ void FunctionWriter::write_block(const Block& block) {
     if (addresses[n] == block.last && has_jump) break;
     writer_.write(placed.instruction, addresses[n], behind, saves[n]);
   }
-  writer_.settle(flow_.to_settle(block, writer_.unsettled()));
+  writer_.canonicalize(flow_.to_canonicalize(block, writer_.raw()));
   write_ending(block, saves.back());
   body_ += "}\n";
 }

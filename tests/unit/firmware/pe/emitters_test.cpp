@@ -232,7 +232,8 @@ double seen(const TestScene& scene, const glm::vec3& origin, const glm::vec3& ta
   return static_cast<double>(machine.pixels[0][1]) * 0x1p-20 / samples;
 }
 
-/// A room with reflectance 0.5 and that lamp. Lattice values (0.25) stand for light that came by way of other surfaces.
+/// A room with reflectance 0.5 and that lamp. VertexIrradiance values (0.25) stand for light that came by way of other
+/// surfaces.
 TestScene lit_room(std::uint32_t pes = 1, std::array<std::uint32_t, 3> cells = {1, 1, 1}) {
   TestScene s;
   s.pes = pes;
@@ -246,7 +247,7 @@ TestScene lit_room(std::uint32_t pes = 1, std::array<std::uint32_t, 3> cells = {
 
 constexpr glm::vec3 kEye{0.1F, 0.1F, 0.3F};
 constexpr glm::vec3 kUnderLamp{0.5F, 0.5F, 0.0F};
-/// What the floor under the lamp shows: emitter light and lattice light, times the reflectance.
+/// What the floor under the lamp shows: emitter light and interpolated light, times the reflectance.
 const double kDirect = 0.5 * 3 * 4 * corner_factor(0.2 / 0.6, 0.2 / 0.6);
 constexpr double kIndirect = 0.5 * 0.25;
 

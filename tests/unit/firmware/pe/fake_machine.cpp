@@ -255,7 +255,7 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.elements, s.elements);
   place(l.facets, s.facets);
   place(l.hemicube, s.hemicube);
-  place(l.lattice, s.lattice);
+  place(l.irradiance, s.irradiance);
   place(l.kept, s.kept);
   place(l.textures, s.textures);
   place(l.texels, s.texels);
@@ -268,8 +268,9 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   for (const auto& [address, bytes] : blocks) load_bytes(pe, address, bytes);
 }
 
-void FakeMachine::begin(const TestScene& scene, protocol::Stage stage, std::uint32_t niu_slots, float lattice_value) {
-  load(scene, stage, niu_slots, lattice_value, [](PeStores&) {});
+void FakeMachine::begin(const TestScene& scene, protocol::Stage stage, std::uint32_t niu_slots,
+                        float irradiance_value) {
+  load(scene, stage, niu_slots, irradiance_value, [](PeStores&) {});
   for (std::uint16_t p = 0; p < pes.size(); ++p) message(p, MessageKind::begin);
   run();
   require(take(MessageKind::ready).size() == pes.size(), "not all PEs are ready");

@@ -95,12 +95,12 @@ class FakeMachine {
   explicit FakeMachine(std::uint32_t pes, std::uint32_t local_memory_bytes = 2U << 20U);
 
   /// Lays out, loads and begins a stage; returns when all PEs are ready.
-  void begin(const TestScene& scene, protocol::Stage stage, std::uint32_t niu_slots = 64, float lattice_value = 1);
+  void begin(const TestScene& scene, protocol::Stage stage, std::uint32_t niu_slots = 64, float irradiance_value = 1);
   /// Lays out and loads, without begin. change: applied to each PE's stores before they are loaded.
   template <class Change>
-  void load(const TestScene& scene, protocol::Stage stage, std::uint32_t niu_slots, float lattice_value,
+  void load(const TestScene& scene, protocol::Stage stage, std::uint32_t niu_slots, float irradiance_value,
             const Change& change) {
-    stores = build_stores(scene, stage, lattice_value);
+    stores = build_stores(scene, stage, irradiance_value);
     for (std::uint16_t p = 0; p < pes.size(); ++p) {
       change(stores[p]);
       load_stores(p, niu_slots);

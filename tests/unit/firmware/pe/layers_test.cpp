@@ -158,7 +158,7 @@ TEST(Layers, IrradianceHoldsWhatShadowRaysBring) {
   FakeMachine grey = traced(lit_room(0.5F), eye, floor, 512);
   const double colour = static_cast<double>(grey.pixels[0][0]);
   const double irradiance = static_cast<double>(grey.layers[Plane::irradiance][0][0]);
-  EXPECT_GT(irradiance, 1.2 * 256 * 1.5 * 0x1p20) << "more than the lattice's";
+  EXPECT_GT(irradiance, 1.2 * 256 * 1.5 * 0x1p20) << "more than the vertices'";
   EXPECT_NEAR(colour / irradiance, 0.5, 1e-5);
   FakeMachine black = traced(lit_room(0.0F), eye, floor, 512);
   EXPECT_EQ(black.layers[Plane::irradiance], grey.layers[Plane::irradiance]);

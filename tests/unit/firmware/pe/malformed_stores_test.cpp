@@ -140,7 +140,7 @@ TEST(Malformed, KeptSurfacesThatDoNotHoldAreRefused) {
   const std::vector<std::function<void(PeStores&)>> changes = {
       [](PeStores& s) { s.polygons[0].surface = protocol::kept_leaf(0, static_cast<std::uint32_t>(s.kept.size())); },
       [](PeStores& s) { s.polygons[0].surface = protocol::kept_leaf(1, 0); },
-      [](PeStores& s) { s.kept[0].node = protocol::kLeaf | static_cast<std::uint32_t>(s.lattice.size()); },
+      [](PeStores& s) { s.kept[0].node = protocol::kLeaf | static_cast<std::uint32_t>(s.irradiance.size()); },
       [](PeStores& s) { s.kept[0].node = protocol::kept_leaf(0, 0); },  // once more the same
       [](PeStores& s) { s.kept[0].node = static_cast<std::uint32_t>(s.nodes.size()); },
       [](PeStores& s) { s.kept[0].polygon = static_cast<std::uint32_t>(s.polygons.size()); },

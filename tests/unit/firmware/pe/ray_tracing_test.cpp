@@ -125,7 +125,7 @@ TEST(RayTracing, KeptSurfacesShadeAlike) {
   scene.keep_surfaces = true;
   FakeMachine apart(3);
   apart.begin(scene, Stage::ray_tracing, 64, 1.5F);
-  EXPECT_LT(apart.stores[0].lattice.size(), all.stores[0].lattice.size() / 2);
+  EXPECT_LT(apart.stores[0].irradiance.size(), all.stores[0].irradiance.size() / 2);
   EXPECT_EQ(trace(apart, scene, rays_at_random(scene, 500)), 500U);
   EXPECT_EQ(all.pixels, apart.pixels);
   EXPECT_EQ(all.layers, apart.layers);
@@ -156,7 +156,7 @@ TEST(RayTracing, ClearGlassInUniformLightIsInvisible) {
 }
 
 /// What a ray straight down sees of a glossy floor in the furnace, on the average. waiting: branches that it already
-/// has, of no weight. With shadow rays the lattice has none of the emitters' light.
+/// has, of no weight. With shadow rays vertex irradiance has none of the emitters' light.
 double seen_of_glossy_floor(bool shadow_rays, std::uint8_t waiting) {
   TestScene scene = furnace(2, {2, 3, 4});
   scene.materials.push_back(glossy_material(0.3F, 0.5F, 2000));

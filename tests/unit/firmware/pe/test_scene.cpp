@@ -63,8 +63,8 @@ std::vector<std::vector<PatchPlace>> place_patches(const TestScene& scene) {
 
 class Builder {
  public:
-  Builder(const TestScene& scene, protocol::Stage stage, float lattice_value)
-      : scene_(scene), stage_(stage), lattice_value_(lattice_value), places_(place_patches(scene)) {}
+  Builder(const TestScene& scene, protocol::Stage stage, float irradiance_value)
+      : scene_(scene), stage_(stage), irradiance_value_(irradiance_value), places_(place_patches(scene)) {}
 
   PeStores build(std::uint16_t pe) {
     PeStores out;
@@ -107,15 +107,15 @@ class Builder {
     polygon.sides = from.sides;
     polygon.patch_level = from.patch_level;
     if (stage_ == protocol::Stage::ray_tracing) {
-      const std::uint32_t lattices = from.sides == 3 ? 2 : from.sides == 0 ? 0 : 1;
+      const std::uint32_t entries = from.sides == 3 ? 2 : from.sides == 0 ? 0 : 1;
       const auto keeper = static_cast<std::uint16_t>(number % scene_.pes);
-      const bool kept = scene_.keep_surfaces && lattices > 0;
+      const bool kept = scene_.keep_surfaces && entries > 0;
       if (kept) polygon.surface = protocol::kept_leaf(keeper, number / scene_.pes);
       if (!kept || keeper == pe) {
-        auto leaf = static_cast<std::uint32_t>(out.lattice.size());
-        const std::uint32_t tree = add_tree(out, from.element_level, lattices, leaf);
-        const protocol::Vec3f value{lattice_value_, lattice_value_, lattice_value_};
-        out.lattice.resize(leaf, {{value, value, value}});
+        auto leaf = static_cast<std::uint32_t>(out.irradiance.size());
+        const std::uint32_t tree = add_tree(out, from.element_level, entries, leaf);
+        const protocol::Vec3f value{irradiance_value_, irradiance_value_, irradiance_value_};
+        out.irradiance.resize(leaf, {{value, value, value}});
         if (!kept) polygon.surface = tree;
         out.kept.resize(number / scene_.pes + 1, {0, protocol::kLeaf});
         out.kept.back() = {static_cast<std::uint32_t>(out.polygons.size()), tree};
@@ -221,7 +221,7 @@ class Builder {
 
   const TestScene& scene_;
   protocol::Stage stage_;
-  float lattice_value_;
+  float irradiance_value_;
   std::vector<std::vector<PatchPlace>> places_;
 };
 
@@ -305,7 +305,7 @@ pe::Scene PeStores::scene() {
   s.elements = elements;
   s.facets = facets;
   s.hemicube = hemicube;
-  s.lattice = lattice;
+  s.irradiance = irradiance;
   s.kept = kept;
   s.textures = textures;
   s.texels = texels;
@@ -317,8 +317,8 @@ pe::Scene PeStores::scene() {
   return s;
 }
 
-std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float lattice_value) {
-  Builder builder(scene, stage, lattice_value);
+std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float irradiance_value) {
+  Builder builder(scene, stage, irradiance_value);
   std::vector<PeStores> all;
   for (std::uint32_t pe = 0; pe < scene.pes; ++pe) all.push_back(builder.build(static_cast<std::uint16_t>(pe)));
   return all;

@@ -80,7 +80,7 @@ struct PeStores {
   std::vector<protocol::Element> elements;
   std::vector<protocol::Facet> facets;
   std::vector<protocol::HemicubeEntry> hemicube;
-  std::vector<protocol::LatticeTriangle> lattice;  ///< all `lattice_value`
+  std::vector<protocol::CornerIrradiance> irradiance;  ///< all `irradiance_value`
   std::vector<protocol::KeptSurface> kept;
   std::vector<protocol::Texture> textures;  ///< none, as those that follow
   std::vector<protocol::Texel> texels;
@@ -93,8 +93,8 @@ struct PeStores {
   pe::Scene scene();
 };
 
-/// By PE. lattice_value: irradiance / pi at every lattice vertex.
-std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float lattice_value = 1);
+/// By PE. irradiance_value: irradiance / pi at every vertex.
+std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float irradiance_value = 1);
 
 /// Exact delta form factors, normalised (see stores.hpp).
 std::vector<protocol::HemicubeEntry> hemicube_table(std::uint32_t n);

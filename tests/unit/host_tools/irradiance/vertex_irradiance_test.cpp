@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lattice: averages around vertices, continuity over smooth edges, and nothing across sharp ones.
+// Vertex irradiance: averages around vertices, continuity over smooth edges, and nothing across sharp ones.
 #include "host_tools/irradiance/vertex_irradiance.hpp"
 
 #include <gtest/gtest.h>
@@ -17,20 +17,22 @@ namespace torolux {
 namespace {
 
 /// Value at a point of a triangle, by linear interpolation over the facet that holds it.
-double value_at(const Mesh& mesh, const Lattice& lattice, std::uint32_t t, float b1, float b2, std::uint32_t side = 0) {
+double value_at(const Mesh& mesh, const VertexIrradiance& irradiance, std::uint32_t t, float b1, float b2,
+                std::uint32_t side = 0) {
   const std::uint32_t f = mesh.facet_at(t, b1, b2);
   protocol::Weights at{(1.0F - b1) - b2, b1, b2};
   protocol::enter_level(at, protocol::level_of_code(mesh.facets[f].code));
-  const auto& corner = lattice.triangles[lattice.first[f] + side].irradiance_over_pi;
+  const auto& corner = irradiance.triangles[irradiance.first[f] + side].irradiance_over_pi;
   return static_cast<double>(at.b0 * corner[0][0] + at.b1 * corner[1][0] + at.b2 * corner[2][0]);
 }
 
 /// along: 0..1 from corner `edge` to corner edge + 1.
-double on_edge(const Mesh& mesh, const Lattice& lattice, std::uint32_t t, std::uint32_t edge, double along) {
+double on_edge(const Mesh& mesh, const VertexIrradiance& irradiance, std::uint32_t t, std::uint32_t edge,
+               double along) {
   std::array<float, 3> weight{};
   weight[edge] = static_cast<float>(1 - along);
   weight[(edge + 1) % 3] = static_cast<float>(along);
-  return value_at(mesh, lattice, t, weight[1], weight[2]);
+  return value_at(mesh, irradiance, t, weight[1], weight[2]);
 }
 
 /// Flux that rises over the scene: a hash would do as well, but this shows in failures where it comes from.
@@ -64,13 +66,13 @@ Scene strip() {
   return builder.scene;
 }
 
-TEST(Lattice, EqualIrradianceStaysEqual) {
+TEST(VertexIrradiance, EqualIrradianceStaysEqual) {
   const Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.6, .element_length = 0.2});
   const std::vector<protocol::Flux> flux = equal_irradiance(mesh);
-  const Lattice lattice = make_lattice(mesh, flux, 1e-12, 2.0);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, 1e-12, 2.0);
   // 3 W/m^2 over pi, in units of 2; the flux is rounded to 1e-12 of it, floats to 6e-8.
   const double expected = 3 / std::numbers::pi / 2;
-  for (const auto& triangle : lattice.triangles) {
+  for (const auto& triangle : irradiance.triangles) {
     for (const protocol::Vec3f& value : triangle.irradiance_over_pi) {
       EXPECT_NEAR(static_cast<double>(value[0]), expected, 1e-6 * expected);
       EXPECT_EQ(value[1], 0.0F);
@@ -78,13 +80,13 @@ TEST(Lattice, EqualIrradianceStaysEqual) {
   }
 }
 
-TEST(Lattice, ContinuousOverSharedEdgesWithHangingVertices) {
+TEST(VertexIrradiance, ContinuousOverSharedEdgesWithHangingVertices) {
   const Mesh mesh = make_mesh(strip(), {.patch_length = 10, .element_length = 0.8});
   const auto level = [&](std::uint32_t t) {
     return protocol::level_of_code(mesh.facets[mesh.parts[mesh.triangles[t].first_part].facet].code);
   };
   ASSERT_NE(level(0), level(2)) << "no hanging vertices to test";
-  const Lattice lattice = make_lattice(mesh, uneven_flux(mesh), 1.0, 1.0);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, uneven_flux(mesh), 1.0, 1.0);
   int edges = 0;
   for (std::uint32_t a = 0; a < 3; ++a) {
     for (std::uint32_t b = a + 1; b < 3; ++b) {
@@ -96,8 +98,9 @@ TEST(Lattice, ContinuousOverSharedEdgesWithHangingVertices) {
           ++edges;
           for (int k = 0; k <= 64; ++k) {
             const double along = k / 64.0;
-            const double value = on_edge(mesh, lattice, a, e, along);
-            EXPECT_NEAR(value, on_edge(mesh, lattice, b, f, 1 - along), 1e-5 * value) << "edge of " << a << ", " << b;
+            const double value = on_edge(mesh, irradiance, a, e, along);
+            EXPECT_NEAR(value, on_edge(mesh, irradiance, b, f, 1 - along), 1e-5 * value)
+                << "edge of " << a << ", " << b;
           }
         }
       }
@@ -106,7 +109,7 @@ TEST(Lattice, ContinuousOverSharedEdgesWithHangingVertices) {
   EXPECT_EQ(edges, 2);
 }
 
-TEST(Lattice, SharpEdgesKeepTheirOwnValues) {
+TEST(VertexIrradiance, SharpEdgesKeepTheirOwnValues) {
   test::SceneBuilder builder;
   const std::uint32_t white = builder.material({0.5, 0.5, 0.5});
   builder.triangle(white, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -115,10 +118,11 @@ TEST(Lattice, SharpEdgesKeepTheirOwnValues) {
   const Mesh mesh = make_mesh(builder.scene, {.patch_length = 10, .element_length = 10});
   std::vector<protocol::Flux> flux(mesh.elements);
   flux[mesh.patches[0].first_element[0]] = {100, 0, 0};
-  const Lattice lattice = make_lattice(mesh, flux, std::numbers::pi, 1.0);
-  EXPECT_FLOAT_EQ(lattice.triangles[lattice.first[0]].irradiance_over_pi[0][0], 200.0F);
-  EXPECT_EQ(lattice.triangles[lattice.first[1]].irradiance_over_pi[0][0], 0.0F);
-  EXPECT_EQ(lattice.triangles[lattice.first[0] + 1].irradiance_over_pi[0][0], 0.0F) << "the back has sums of its own";
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, std::numbers::pi, 1.0);
+  EXPECT_FLOAT_EQ(irradiance.triangles[irradiance.first[0]].irradiance_over_pi[0][0], 200.0F);
+  EXPECT_EQ(irradiance.triangles[irradiance.first[1]].irradiance_over_pi[0][0], 0.0F);
+  EXPECT_EQ(irradiance.triangles[irradiance.first[0] + 1].irradiance_over_pi[0][0], 0.0F)
+      << "the back has sums of its own";
 }
 
 /// A square floor of edge 2, cut in eight right triangles around its middle: (0, 0) .. (2, 2), y up.
@@ -132,20 +136,21 @@ test::SceneBuilder floor_around_a_vertex(std::uint32_t& white) {
   return builder;
 }
 
-TEST(Lattice, VertexTakesAllElementsAroundIt) {
+TEST(VertexIrradiance, VertexTakesAllElementsAroundIt) {
   std::uint32_t white = 0;
   const Mesh mesh = make_mesh(floor_around_a_vertex(white).scene, {.patch_length = 10, .element_length = 1.5});
   std::vector<protocol::Flux> flux(mesh.elements);
   for (std::size_t p = 0; p < 8; ++p) flux[mesh.patches[p].first_element[0]] = {100 * static_cast<int>(p + 1), 0, 0};
-  const Lattice lattice = make_lattice(mesh, flux, std::numbers::pi, 1.0);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, std::numbers::pi, 1.0);
   for (std::uint32_t f = 0; f < 8; ++f) {
-    EXPECT_FLOAT_EQ(lattice.triangles[lattice.first[f]].irradiance_over_pi[0][0], 900.0F) << "3600 over an area of 4";
+    EXPECT_FLOAT_EQ(irradiance.triangles[irradiance.first[f]].irradiance_over_pi[0][0], 900.0F)
+        << "3600 over an area of 4";
   }
 }
 
 // What interpolation gives each element on the average is the light that came to it: also at borders, where the mean
 // of the elements around a vertex lies inside.
-TEST(Lattice, FollowsAGradientToTheBorder) {
+TEST(VertexIrradiance, FollowsAGradientToTheBorder) {
   test::SceneBuilder builder;
   const std::uint32_t white = builder.material({0.5, 0.5, 0.5});
   builder.quad(white, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
@@ -160,15 +165,15 @@ TEST(Lattice, FollowsAGradientToTheBorder) {
       flux[patch.first_element[0] + e] = {std::llround(mesh.element_area(patch, e) * (1 + x) * 1e9), 0, 0};
     }
   }
-  const Lattice lattice = make_lattice(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
   // One step of half an element, 0.06, would be missing without; after three steps an eighth of it is left.
-  const double low = value_at(mesh, lattice, 0, 0.0F, 0.0F);
-  const double high = value_at(mesh, lattice, 0, 1.0F, 0.0F);
+  const double low = value_at(mesh, irradiance, 0, 0.0F, 0.0F);
+  const double high = value_at(mesh, irradiance, 0, 1.0F, 0.0F);
   EXPECT_NEAR(high - low, 1.0, 0.05);
 }
 
 // A wall on the floor: light on one side of it must not show on the other, nor the dark of what it covers.
-TEST(Lattice, NothingPassesUnderAWall) {
+TEST(VertexIrradiance, NothingPassesUnderAWall) {
   for (const double height : {0.0, 0.0005}) {  // standing on it, or hanging close over it
     test::SceneBuilder builder;
     const std::uint32_t white = builder.material({0.5, 0.5, 0.5});
@@ -195,10 +200,10 @@ TEST(Lattice, NothingPassesUnderAWall) {
       }
     }
     EXPECT_LT(widest, 0.008) << "elements that a wall crosses are cut";
-    const Lattice lattice = make_lattice(mesh, flux, 1e-12 * std::numbers::pi, 1.0);
+    const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, 1e-12 * std::numbers::pi, 1.0);
     for (const float y : {0.2F, 0.5F, 0.9F}) {
       const auto at = [&](float x) {  // triangle 0: below the diagonal, corners (0,0) (1,0) (1,1)
-        return x > y ? value_at(mesh, lattice, 0, x - y, y) : value_at(mesh, lattice, 1, x, y - x);
+        return x > y ? value_at(mesh, irradiance, 0, x - y, y) : value_at(mesh, irradiance, 1, x, y - x);
       };
       // Weights in float, doubled at each of 7 levels.
       EXPECT_NEAR(at(0.30F - 0.008F), 0.0, 1e-5) << "height " << height << " y " << y;
@@ -208,27 +213,27 @@ TEST(Lattice, NothingPassesUnderAWall) {
 }
 
 // Small triangles of a round surface receive together, and their light is smooth over all of them.
-TEST(Lattice, ClustersAreSmooth) {
+TEST(VertexIrradiance, ClustersAreSmooth) {
   const Mesh mesh = make_mesh(test::finely_tessellated_floor(), {.patch_length = 2, .element_length = 0.3});
   std::size_t clustered = 0;
   for (const MeshPatch& patch : mesh.patches) clustered += patch.is_clustered() ? 1 : 0;
   ASSERT_GT(clustered, 0U);
   EXPECT_LT(mesh.elements, mesh.facets.size() / 4);
-  const Lattice even = make_lattice(mesh, equal_irradiance(mesh), 1e-12, 1);
+  const VertexIrradiance even = make_vertex_irradiance(mesh, equal_irradiance(mesh), 1e-12, 1);
   for (const auto& triangle : even.triangles) {
     for (const protocol::Vec3f& value : triangle.irradiance_over_pi) {
       EXPECT_NEAR(static_cast<double>(value[0]), 3 / std::numbers::pi, 1e-5);
     }
   }
   // One vertex and normal, one value: continuous over all triangles of the same slope.
-  const Lattice lattice = make_lattice(mesh, uneven_flux(mesh), 1.0, 1.0);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, uneven_flux(mesh), 1.0, 1.0);
   std::map<std::pair<std::uint32_t, long>, float> value_of;
   for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
     const MeshTriangle& triangle = mesh.triangles[mesh.facets[f].triangle];
     if (triangle.material != 0) continue;
     const long slope = std::lround(1e4 * mesh.facet_normal(mesh.facets[f])[0]);
     for (std::size_t c = 0; c < 3; ++c) {
-      const float value = lattice.triangles[lattice.first[f]].irradiance_over_pi[c][0];
+      const float value = irradiance.triangles[irradiance.first[f]].irradiance_over_pi[c][0];
       const auto [found, fresh] = value_of.emplace(std::pair{triangle.position[c], slope}, value);
       EXPECT_NEAR(found->second, value, 1e-4F * value) << (fresh ? "" : "a second value");
     }
@@ -259,7 +264,7 @@ Scene ball_with_relief() {
 }
 
 // Each triangle is shown as bright as it faces the light, though its cluster's flux is all that is known.
-TEST(Lattice, TrianglesOfClustersShowTheirOwnNormals) {
+TEST(VertexIrradiance, TrianglesOfClustersShowTheirOwnNormals) {
   const Mesh mesh = make_mesh(ball_with_relief(), {.patch_length = 0.5, .element_length = 0.15});
   const Vec3d towards_light = vec::unit({1, 0.5, 1});
   const auto truth = [&](const MeshFacet& facet) { return 1 + vec::dot(mesh.facet_normal(facet), towards_light); };
@@ -273,7 +278,7 @@ TEST(Lattice, TrianglesOfClustersShowTheirOwnNormals) {
   }
   std::vector<protocol::Flux> flux(mesh.elements);
   for (std::uint32_t e = 0; e < mesh.elements; ++e) flux[e] = {std::llround(exact[e]), 0, 0};
-  const Lattice lattice = make_lattice(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
   double spread = 0;  // of the truth around its cluster's mean
   double error = 0;
   double sum_shown = 0;
@@ -284,7 +289,7 @@ TEST(Lattice, TrianglesOfClustersShowTheirOwnNormals) {
       const MeshFacet& facet = mesh.facets[f];
       const double area = mesh.facet_area(facet);
       const double own = exact[patch.first_element[0] + facet.element] * 1e-9 / mesh.element_area(patch, facet.element);
-      const auto& corner = lattice.triangles[lattice.first[f]].irradiance_over_pi;
+      const auto& corner = irradiance.triangles[irradiance.first[f]].irradiance_over_pi;
       const double shown = static_cast<double>(corner[0][0] + corner[1][0] + corner[2][0]) / 3;
       sum_shown += area * shown;
       sum += area * truth(facet);
@@ -298,7 +303,7 @@ TEST(Lattice, TrianglesOfClustersShowTheirOwnNormals) {
 }
 
 // A dome of light over the floor: smoothing flattens it, but not by much.
-TEST(Lattice, ClustersKeepTheirOwnLight) {
+TEST(VertexIrradiance, ClustersKeepTheirOwnLight) {
   const Mesh mesh = make_mesh(test::finely_tessellated_floor(), {.patch_length = 2, .element_length = 0.2});
   std::vector<double> exact(mesh.elements, 0);
   const auto for_each_floor_facet = [&](const auto& visit) {
@@ -316,10 +321,10 @@ TEST(Lattice, ClustersKeepTheirOwnLight) {
   });
   std::vector<protocol::Flux> flux(mesh.elements);
   for (std::uint32_t e = 0; e < mesh.elements; ++e) flux[e] = {std::llround(exact[e]), 0, 0};
-  const Lattice lattice = make_lattice(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, 1e-9 * std::numbers::pi, 1.0);
   std::vector<double> shown(mesh.elements, 0);
   for_each_floor_facet([&](std::uint32_t f, std::uint32_t element, double area) {
-    const auto& corner = lattice.triangles[lattice.first[f]].irradiance_over_pi;
+    const auto& corner = irradiance.triangles[irradiance.first[f]].irradiance_over_pi;
     shown[element] += 1e9 * area * static_cast<double>(corner[0][0] + corner[1][0] + corner[2][0]) / 3;
   });
   double missing = 0;
@@ -333,7 +338,7 @@ TEST(Lattice, ClustersKeepTheirOwnLight) {
 }
 
 // Two finely tessellated floors, one close over the other: light on one must not show on the other.
-TEST(Lattice, NothingPassesBetweenClustersThatDoNotTouch) {
+TEST(VertexIrradiance, NothingPassesBetweenClustersThatDoNotTouch) {
   test::SceneBuilder builder;
   const std::uint32_t lit = builder.material({0.5, 0.5, 0.5});
   const std::uint32_t dark = builder.material({0.4, 0.4, 0.4});
@@ -352,10 +357,10 @@ TEST(Lattice, NothingPassesBetweenClustersThatDoNotTouch) {
     ASSERT_TRUE(patch.is_clustered());
     for (std::uint32_t e = 0; e < patch.elements; ++e) flux[patch.first_element[0] + e] = {1'000'000, 0, 0};
   }
-  const Lattice lattice = make_lattice(mesh, flux, 1, 1);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, 1, 1);
   for (const MeshPatch& patch : mesh.patches) {
     for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
-      for (const auto& value : lattice.triangles[lattice.first[f]].irradiance_over_pi) {
+      for (const auto& value : irradiance.triangles[irradiance.first[f]].irradiance_over_pi) {
         if (patch.material == lit) {
           EXPECT_GT(value[0], 0.0F);
         } else {
@@ -367,10 +372,10 @@ TEST(Lattice, NothingPassesBetweenClustersThatDoNotTouch) {
 }
 
 /// Flux over no area is no irradiance, and not the flux either.
-TEST(Lattice, WhatIsNotSeenAtAllIsDark) {
+TEST(VertexIrradiance, WhatIsNotSeenAtAllIsDark) {
   Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.6, .element_length = 0.2});
   for (MeshFacet& facet : mesh.facets) facet.seen = 0;
-  for (const auto& triangle : make_lattice(mesh, uneven_flux(mesh), 1, 1).triangles) {
+  for (const auto& triangle : make_vertex_irradiance(mesh, uneven_flux(mesh), 1, 1).triangles) {
     for (const protocol::Vec3f& value : triangle.irradiance_over_pi) EXPECT_EQ(value, (protocol::Vec3f{0, 0, 0}));
   }
 }

@@ -65,8 +65,8 @@ std::uint64_t bytes_of(const PeLayout& layout, const std::set<std::string>& stor
 
 // Held to the stores' layout: nothing that a copy brings is forgotten.
 TEST_F(Copies, BytesAreThoseOfTheStores) {
-  const std::set<std::string> stores{"subspaces", "polygon list",     "polygons", "normals",
-                                     "nodes",     "patch references", "lattice",  "texture points"};
+  const std::set<std::string> stores{"subspaces", "polygon list",     "polygons",   "normals",
+                                     "nodes",     "patch references", "irradiance", "texture points"};
   for (const Stage stage : {Stage::radiosity, Stage::ray_tracing}) {
     const CopyOrder all = order(stage);
     ASSERT_EQ(all.cells.size(), all.bytes.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What shadow rays aim at: all emitters, chosen by the light that they emit, in every PE's image or in none; and that
-// the lattice then lacks exactly the light straight from emitters.
+// vertex irradiance then lacks exactly the light straight from emitters.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -81,7 +81,8 @@ TEST(Emitters, EmitFromBothSidesWhereAsked) {
 TEST(Emitters, StandInEveryImageOrInNone) {
   const Chosen of = chosen(2, false);
   const Placement placement = make_placement(of.mesh, {{2, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
-  const Lattice lattice = make_lattice(of.mesh, std::vector<protocol::Flux>(of.mesh.elements), 1, 1);
+  const VertexIrradiance irradiance =
+      make_vertex_irradiance(of.mesh, std::vector<protocol::Flux>(of.mesh.elements), 1, 1);
   StageParameters parameters;
   const MemoryMap map{protocol::kLocalMemoryBase + 100'000, 64};
   for (const std::uint32_t count : {0U, 4U}) {
@@ -93,7 +94,7 @@ TEST(Emitters, StandInEveryImageOrInNone) {
       EXPECT_EQ(layout(protocol::Stage::radiosity).layout.emitters.count, 0U);
       const PeLayout rays = layout(protocol::Stage::ray_tracing);
       ASSERT_EQ(rays.layout.emitters.count, count);
-      const auto image = ray_tracing_image(of.scene, of.mesh, placement, pe, of.units, lattice, rays);
+      const auto image = ray_tracing_image(of.scene, of.mesh, placement, pe, of.units, irradiance, rays);
       const std::size_t at = rays.layout.emitters.address - rays.layout.cell_words.address;
       ASSERT_LE(at + count * sizeof(Emitter), image.size());
       EXPECT_EQ(std::memcmp(image.data() + at, of.list.data(), count * sizeof(Emitter)), 0);

@@ -36,7 +36,7 @@ class Keepers : public testing::Test {
   }
   PeLoad load(const Placement& placement, PeNumber pe, const PeLoad* common) const {
     const PeLayout layout = lay_out(mesh_, placement, pe, Stage::ray_tracing, {}, kMap);
-    return {layout.layout, ray_tracing_image(scene_, mesh_, placement, pe, units_, lattice_, layout, {}, common)};
+    return {layout.layout, ray_tracing_image(scene_, mesh_, placement, pe, units_, irradiance_, layout, {}, common)};
   }
   static std::vector<protocol::Flux> fluxes(std::uint32_t elements) {
     std::vector<protocol::Flux> flux(elements);
@@ -47,7 +47,7 @@ class Keepers : public testing::Test {
   const Scene scene_ = room_with_box();
   const Mesh mesh_ = make_mesh(scene_, {.patch_length = 0.3, .element_length = 0.1});
   const LightUnits units_ = light_units(scene_, mesh_, false);
-  const Lattice lattice_ = make_lattice(mesh_, fluxes(mesh_.elements), 1e-3, 1);
+  const VertexIrradiance irradiance_ = make_vertex_irradiance(mesh_, fluxes(mesh_.elements), 1e-3, 1);
   const CellLists lists_ =
       list_cells(mesh_, make_grid(mesh_.space, std::array<std::uint32_t, 3>{4, 4, 4}, mesh_.triangles.size(), kPes));
 };
@@ -91,7 +91,7 @@ TEST_F(Keepers, EveryPeFindsTheLightOrItsKeeper) {
       EXPECT_EQ(load(placement, pe, &common).image, made.image) << "begun with what all have";
       const auto nodes = store_of<std::uint32_t>(made, made.layout.nodes);
       const auto kept = store_of<protocol::KeptSurface>(made, made.layout.kept);
-      const auto light = store_of<protocol::LatticeTriangle>(made, made.layout.lattice);
+      const auto light = store_of<protocol::CornerIrradiance>(made, made.layout.irradiance);
       const auto polygons = store_of<protocol::Polygon>(made, made.layout.polygons);
       for (std::size_t p = 0; p < polygons.size(); ++p) {
         if (polygons[p].sides == 0) continue;
@@ -107,9 +107,9 @@ TEST_F(Keepers, EveryPeFindsTheLightOrItsKeeper) {
             EXPECT_EQ(surface.polygon, p);
             leaf = protocol::find_leaf(nodes.data(), surface.node, at);
           }
-          const std::uint32_t first = lattice_.first[mesh_.facet_at(polygons[p].number, b1, b2)];
+          const std::uint32_t first = irradiance_.first[mesh_.facet_at(polygons[p].number, b1, b2)];
           for (std::uint32_t side = 0; side < (polygons[p].sides == 3 ? 2U : 1U); ++side) {
-            EXPECT_EQ(light.at(leaf + side).irradiance_over_pi, lattice_.triangles[first + side].irradiance_over_pi);
+            EXPECT_EQ(light.at(leaf + side).irradiance_over_pi, irradiance_.triangles[first + side].irradiance_over_pi);
           }
         }
       }

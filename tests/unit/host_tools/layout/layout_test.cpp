@@ -200,14 +200,14 @@ TEST_F(LayoutTest, PatchesShareOutElementsAndEmission) {
   EXPECT_NEAR(static_cast<double>(red), 0x1p48, static_cast<double>(mesh_.patches.size()));
 }
 
-TEST_F(LayoutTest, RayTracingImageHoldsTheLatticeOfEachPolygon) {
+TEST_F(LayoutTest, RayTracingImageHoldsTheIrradianceOfEachPolygon) {
   std::vector<protocol::Flux> flux(mesh_.elements);
   for (std::uint32_t e = 0; e < mesh_.elements; ++e) flux[e] = {1 + e * 1000003LL % 65537, 0, 0};
-  const Lattice lattice = make_lattice(mesh_, flux, 1e-3, 1);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh_, flux, 1e-3, 1);
   for (protocol::PeNumber pe = 0; pe < placement_.torus.pes(); ++pe) {
     Loaded loaded;
     loaded.layout = lay_out(mesh_, placement_, pe, Stage::ray_tracing, {}, kMap);
-    loaded.image = ray_tracing_image(scene_, mesh_, placement_, pe, units_, lattice, loaded.layout);
+    loaded.image = ray_tracing_image(scene_, mesh_, placement_, pe, units_, irradiance, loaded.layout);
     const protocol::StageLayout& l = loaded.layout.layout;
     for (std::uint32_t p = 0; p < l.polygons.count; ++p) {
       const auto polygon = loaded.at<protocol::Polygon>(l.polygons, p);
@@ -217,10 +217,10 @@ TEST_F(LayoutTest, RayTracingImageHoldsTheLatticeOfEachPolygon) {
       for (const auto& [b1, b2] : {std::pair{0.1F, 0.2F}, {0.7F, 0.1F}, {0.3F, 0.3F}, {0.05F, 0.9F}}) {
         protocol::Weights at{1 - b1 - b2, b1, b2};
         const std::uint32_t leaf = protocol::find_leaf(nodes.data(), polygon.surface, at);
-        const std::uint32_t first = lattice.first[mesh_.facet_at(polygon.number, b1, b2)];
+        const std::uint32_t first = irradiance.first[mesh_.facet_at(polygon.number, b1, b2)];
         for (std::uint32_t side = 0; side < (polygon.sides == 3 ? 2U : 1U); ++side) {
-          EXPECT_EQ(loaded.at<protocol::LatticeTriangle>(l.lattice, leaf + side).irradiance_over_pi,
-                    lattice.triangles[first + side].irradiance_over_pi);
+          EXPECT_EQ(loaded.at<protocol::CornerIrradiance>(l.irradiance, leaf + side).irradiance_over_pi,
+                    irradiance.triangles[first + side].irradiance_over_pi);
         }
       }
     }
@@ -238,7 +238,7 @@ TEST_F(LayoutTest, MemoryIsChosenOrRefusedWithTheNumbers) {
       << refusal;
   EXPECT_NE(refusal.find("has 100,000"), std::string::npos) << refusal;
   EXPECT_NE(refusal.find("(fixed: image 100,004, record slots "), std::string::npos) << "largest first: " << refusal;
-  EXPECT_NE(refusal.find("; less by greater --elements: lattice "), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("; less by greater --elements: irradiance "), std::string::npos) << refusal;
   std::uint64_t all = 0;
   for (const StoreBytes& store : need.fullest_stores) all += store.bytes;
   EXPECT_LE(all, need.most());

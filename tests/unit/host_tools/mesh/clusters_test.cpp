@@ -60,7 +60,7 @@ TEST(Clusters, APatchHasRoomWithItsOwner) {
 // that does not grow with the clusters; and what is left in it still carries the light.
 TEST(Clusters, FewCountAtAVertexHoweverManyAreNear) {
   const Mesh mesh = make_mesh(sheet(150, bumps), {.patch_length = 100, .element_length = 100});
-  const LatticePlan plan(mesh);
+  const IrradiancePlan plan(mesh);
   const ClusterVertices& front = plan.side[0].clusters;
   ASSERT_GT(front.clusters().size(), 4 * ClusterVertices::kMostNear);
   std::vector<bool> counts(front.clusters().size(), false);

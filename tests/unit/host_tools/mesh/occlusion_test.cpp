@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What things hide: the floor under them, if they are opaque, let no light in and hold no lamp; elements that reach
+// What occluders hide: the floor under them, if they are opaque, let no light in and hold no lamp; elements that reach
 // under them send from beside.
 #include "host_tools/mesh/occlusion.hpp"
 
@@ -47,7 +47,7 @@ Mesh mesh_of(Block block) {
 
 /// Of the floor, whose first triangle has corners at (0, 0), (0, 1) and (1, 1), the second (0, 0), (1, 1) and (1, 0).
 bool hides(const Mesh& mesh, double x, double z) {
-  return z >= x ? mesh.hiding.hides(mesh, 0, 0, {z - x, x}) : mesh.hiding.hides(mesh, 1, 0, {z, x - z});
+  return z >= x ? mesh.occlusion.occludes(mesh, 0, 0, {z - x, x}) : mesh.occlusion.occludes(mesh, 1, 0, {z, x - z});
 }
 
 /// Inside the block's foot, grown by `more`.
@@ -62,7 +62,7 @@ bool in_foot(double x, double z, double more) {
   return true;
 }
 
-TEST(Hiding, FloorUnderABlockAndNoMore) {
+TEST(Occlusion, FloorUnderABlockAndNoMore) {
   for (const Block block : {Block::whole, Block::with_bottom}) {
     const Mesh mesh = mesh_of(block);
     int hidden = 0;
@@ -77,14 +77,14 @@ TEST(Hiding, FloorUnderABlockAndNoMore) {
   }
 }
 
-TEST(Hiding, NothingUnderWhatLightGetsInto) {
+TEST(Occlusion, NothingUnderWhatLightGetsInto) {
   for (const Block block : {Block::without_a_side, Block::with_lamp, Block::of_glass}) {
     const Mesh mesh = mesh_of(block);
     for (double x = 0.305; x < 0.7; x += 0.05) EXPECT_FALSE(hides(mesh, x, 0.53)) << static_cast<int>(block);
   }
 }
 
-TEST(Hiding, ElementsAtTheFootSendFromBesideIt) {
+TEST(Occlusion, ElementsAtTheFootSendFromBesideIt) {
   const Mesh mesh = mesh_of(Block::whole);
   int moved = 0;
   for (const MeshFacet& facet : mesh.facets) {

@@ -132,7 +132,7 @@ TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.4, .element_length = 0.2, .texels = 1000});
   const LightUnits units = light_units(scene, mesh, false);
   const Placement placement = make_placement(mesh, {{8, 4}, std::array<std::uint32_t, 3>{8, 8, 8}, "skewed"});
-  const Lattice lattice = make_lattice(mesh, std::vector<protocol::Flux>(mesh.elements), 1e-3, 1);
+  const VertexIrradiance irradiance = make_vertex_irradiance(mesh, std::vector<protocol::Flux>(mesh.elements), 1e-3, 1);
   std::uint32_t with = 0;
   for (unsigned number = 0; number < placement.torus.pes(); ++number) {
     const auto pe = static_cast<protocol::PeNumber>(number);
@@ -141,7 +141,7 @@ TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {
               0U);
     const PeLayout layout = lay_out(mesh, placement, pe, protocol::Stage::ray_tracing, {}, {0x8001'0000, 64});
     const protocol::StageLayout& l = layout.layout;
-    const std::vector<std::byte> bytes = ray_tracing_image(scene, mesh, placement, pe, units, lattice, layout);
+    const std::vector<std::byte> bytes = ray_tracing_image(scene, mesh, placement, pe, units, irradiance, layout);
     const auto at = [&]<class T>(const protocol::Store& store, std::size_t index, T value) {
       std::memcpy(&value, bytes.data() + store.address - l.cell_words.address + index * sizeof(T), sizeof(T));
       return value;

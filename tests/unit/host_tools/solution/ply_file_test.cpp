@@ -23,11 +23,11 @@ TEST(PlyFile, HoldsAllFacetsWithTheirLight) {
   const Scene scene = test::room_with_box();
   const Mesh mesh = make_mesh(scene, {.patch_length = 0.5, .element_length = 0.25});
   const LightUnits units = light_units(scene, mesh, false);
-  Lattice lattice = make_lattice(mesh, std::vector<protocol::Flux>(mesh.elements), 1, 1);
-  for (auto& triangle : lattice.triangles) triangle.irradiance_over_pi.fill({0.25F, 0.25F, 0.25F});
-  const std::vector<std::byte> bytes = pack_ply(scene, mesh, units, lattice);
+  VertexIrradiance irradiance = make_vertex_irradiance(mesh, std::vector<protocol::Flux>(mesh.elements), 1, 1);
+  for (auto& triangle : irradiance.triangles) triangle.irradiance_over_pi.fill({0.25F, 0.25F, 0.25F});
+  const std::vector<std::byte> bytes = pack_ply(scene, mesh, units, irradiance);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::size_t faces = lattice.triangles.size();
+  const std::size_t faces = irradiance.triangles.size();
   EXPECT_NE(text.find("element vertex " + std::to_string(3 * faces) + "\n"), std::string::npos);
   EXPECT_NE(text.find("element face " + std::to_string(faces) + "\n"), std::string::npos);
   const std::size_t begin = text.find("end_header\n") + 11;

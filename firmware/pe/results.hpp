@@ -15,7 +15,7 @@ namespace torolux::pe {
 /// too.
 std::int64_t to_quanta(float value);
 
-class Homecoming {
+class Results {
  public:
   /// Worth a message of their own.
   static constexpr std::uint32_t kManyCredits = 64;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Results and credits on their way home. Enters: a pixel's light, a record's end; leaves: bus messages.
-#include "firmware/pe/homecoming.hpp"
+#include "firmware/pe/results.hpp"
 
 namespace torolux::pe {
 
@@ -19,7 +19,7 @@ std::int64_t to_quanta(float value) {
   return b < 0 ? -size : size;
 }
 
-void Homecoming::add(Niu& niu, protocol::Plane plane, std::uint32_t pixel, const std::array<std::int64_t, 3>& value) {
+void Results::add(Niu& niu, protocol::Plane plane, std::uint32_t pixel, const std::array<std::int64_t, 3>& value) {
   auto* adds = reinterpret_cast<protocol::PixelAdd*>(niu.batch().bytes.data());
   const bool same = pixels_ > 0 && adds[pixels_ - 1].pixel == pixel && adds[pixels_ - 1].plane == plane;
   if (!same) {
@@ -32,19 +32,19 @@ void Homecoming::add(Niu& niu, protocol::Plane plane, std::uint32_t pixel, const
   }
 }
 
-void Homecoming::add_credits(Niu& niu, std::uint32_t count) {
+void Results::add_credits(Niu& niu, std::uint32_t count) {
   credits_ += count;
   if (credits_ >= kManyCredits) flush(niu);
 }
 
-void Homecoming::flush(Niu& niu) {
+void Results::flush(Niu& niu) {
   flush_pixels(niu);
   if (credits_ == 0) return;
   niu.send(protocol::MessageKind::credits, protocol::Credits{credits_});
   credits_ = 0;
 }
 
-void Homecoming::flush_pixels(Niu& niu) {
+void Results::flush_pixels(Niu& niu) {
   if (pixels_ == 0) return;
   MessageBuffer& message = niu.batch();
   message.header.kind = static_cast<std::uint16_t>(protocol::MachineMessage::pixels);
