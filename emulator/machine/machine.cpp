@@ -11,6 +11,7 @@
 #include <optional>
 #include <thread>
 
+#include "emulator/cache_line.hpp"
 #include "emulator/engines/mixed_engine.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/machine/emulation.hpp"
@@ -25,7 +26,6 @@ namespace {
 constexpr double kProgressSeconds = 0.1;
 /// Of a computer's caches. Which set of a cache a line goes to hangs on where in its page it lies: were it the same
 /// place for all PEs, a thousand of them would share a few lines of the cache.
-constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kCacheColours = protocol::kPageBytes / kCacheLine;
 
 double clock_seconds(clockid_t clock) {

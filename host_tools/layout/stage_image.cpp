@@ -248,16 +248,9 @@ class ImageWriter {
         const MeshPart& part = mesh_.parts[triangle.first_part + path];
         put(layout_.patch_references, next++,
             protocol::PatchReference{placement_.local_of_part[triangle.first_part + path],
-                                     placement_.patch_home[part.patch].pe, depth_of(part.tree)});
+                                     placement_.patch_home[part.patch].pe, part.depth});
       }
     }
-  }
-
-  std::uint16_t depth_of(std::uint32_t node) const {
-    if ((node & protocol::kLeaf) != 0) return 0;
-    std::uint16_t most = 0;
-    for (std::uint32_t child = 0; child < 4; ++child) most = std::max(most, depth_of(mesh_.nodes[node + child]));
-    return static_cast<std::uint16_t>(most + 1);
   }
 
   void write_patch_parts() {

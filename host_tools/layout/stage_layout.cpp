@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "firmware/protocol/triangle_grid.hpp"
@@ -224,6 +225,11 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
     layout.layers = parameters.layers;
   }
   return result;
+}
+
+double MemoryNeed::mean() const {
+  const double sum = std::accumulate(pe_bytes.begin(), pe_bytes.end(), 0.0);
+  return sum / static_cast<double>(pe_bytes.size());
 }
 
 void MemoryNeed::add(const Mesh& mesh, const Placement& placement, Stage stage, const StageParameters& parameters,

@@ -13,16 +13,16 @@
 
 namespace torolux {
 
-/// What all PEs are told alike.
+/// What all PEs are told alike. The settings' defaults are those of Quality: nothing here has one.
 struct StageParameters {
   std::uint32_t seed = 0;
-  std::uint32_t bounces = 32;
-  std::uint32_t hemicube = 16;
-  std::uint32_t shot_points = 2;
-  std::uint32_t emission_points = 2;
-  float points_per_quantum = 1;
-  float pixel_scale = 0x1p40F;
-  float least_weight = 1e-4F;
+  std::uint32_t bounces = 0;
+  std::uint32_t hemicube = 0;
+  std::uint32_t shot_points = 0;
+  std::uint32_t emission_points = 0;
+  float points_per_quantum = 0;
+  float pixel_scale = 0;
+  float least_weight = 0;
   std::uint32_t emitters = 0;                           ///< that shadow rays aim at; 0: no shadow rays
   std::uint32_t layers = 0;                             ///< as protocol::StageLayout
   std::uint32_t pixel_samples = 0, filter_entries = 0;  ///< of the camera rays that PEs make; 0: the host makes them
@@ -68,6 +68,7 @@ struct MemoryNeed {
   void add(const Mesh& mesh, const Placement& placement, protocol::Stage stage, const StageParameters& parameters,
            const MemoryMap& map);
   std::uint64_t most() const { return pe_bytes[fullest]; }
+  double mean() const;
   /// Of the fullest PE's stores, those that `by` makes smaller.
   std::uint64_t lessened_by(Lessened by) const;
   /// What to say where a PE has only `available` bytes: which PE and stage, needed, available; its stores by the option

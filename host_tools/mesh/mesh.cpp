@@ -153,6 +153,14 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64
   return cutting;
 }
 
+/// As MeshPart::depth.
+std::uint16_t depth_of(const std::vector<std::uint32_t>& nodes, std::uint32_t node) {
+  if ((node & protocol::kLeaf) != 0) return 0;
+  std::uint16_t most = 0;
+  for (std::uint32_t child = 0; child < 4; ++child) most = std::max(most, depth_of(nodes, nodes[node + child]));
+  return static_cast<std::uint16_t>(most + 1);
+}
+
 /// Puts patches together, one after the other.
 class PatchMaker {
  public:
@@ -167,7 +175,8 @@ class PatchMaker {
       begin();
       const auto facet = static_cast<std::uint32_t>(mesh_.facets.size());
       const std::uint32_t tree = grow(t, protocol::location_code(path, level));
-      mesh_.parts.push_back({static_cast<std::uint32_t>(mesh_.patches.size() - 1), tree, facet});
+      mesh_.parts.push_back(
+          {static_cast<std::uint32_t>(mesh_.patches.size() - 1), tree, facet, depth_of(mesh_.nodes, tree)});
       triangle.facets += static_cast<std::uint32_t>(mesh_.facets.size()) - facet;
       end();
     }
@@ -184,7 +193,7 @@ class PatchMaker {
         triangle.first_part = static_cast<std::uint32_t>(mesh_.parts.size());
         triangle.facets = 1;
         mesh_.parts.push_back({static_cast<std::uint32_t>(mesh_.patches.size() - 1), protocol::kLeaf,
-                               static_cast<std::uint32_t>(mesh_.facets.size())});
+                               static_cast<std::uint32_t>(mesh_.facets.size()), 0});
         mesh_.facets.push_back({t, 1, e, triangle.area / area});
       }
     }

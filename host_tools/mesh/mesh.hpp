@@ -65,6 +65,7 @@ struct MeshPart {
   std::uint32_t tree =
       0;  ///< node, see triangle_grid.hpp: an index into Mesh::nodes; leaves are facets from `facet` on
   std::uint32_t facet = 0;  ///< of the tree's first leaf; those of the others follow
+  std::uint16_t depth = 0;  ///< nodes on the longest way down the tree; a leaf alone: 0
 };
 
 /// The flat piece of an element that one leaf of a tree stands for: all of it, a triangle of a cluster, or where walls

@@ -51,6 +51,8 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
   figures.credits_total = setup.credits;
   figures.credits_home = program.credits_home();
   figures.local_memory_bytes = *setup.memory;
+  figures.memory_needed = setup.need.most();
+  figures.mean_memory_needed = setup.need.mean();
   figures.subspaces = setup.placement.grid.cells;
   figures.filled_subspaces = setup.placement.filled_cells;
   figures.radiosity_copies = setup.radiosity_copies;

@@ -39,6 +39,8 @@ struct RenderFigures {
   double wall_seconds = 0;
   double run_seconds = 0;  ///< of those, while the picture's machine ran: without mesh, translation and drafts
   std::uint32_t local_memory_bytes = 0;  ///< per PE, as chosen
+  std::uint64_t memory_needed = 0;       ///< of the fullest PE, copies included [bytes]
+  double mean_memory_needed = 0;         ///< of all PEs [bytes]
   std::array<std::uint32_t, 3> subspaces{};
   std::uint64_t filled_subspaces = 0;                ///< with anything in them
   StageCopies radiosity_copies, ray_tracing_copies;  ///< of those

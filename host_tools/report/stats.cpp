@@ -62,6 +62,7 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["copies"] = {{"of_subspaces", figures.filled_subspaces},
                     {"radiosity", copies_json(figures.radiosity_copies, figures)},
                     {"ray_tracing", copies_json(figures.ray_tracing_copies, figures)}};
+  json["memory"] = {{"needed", figures.memory_needed}, {"mean_needed", figures.mean_memory_needed}};
   json["shots"] = figures.shots;
   json["rays"] = figures.rays;
   json["picture"] = picture_json(run, figures);

@@ -13,7 +13,7 @@ namespace torolux {
 namespace {
 
 TEST(FuzzSmoke, MachineToml) {
-  std::ifstream stream(std::string(TOROLUX_SOURCE_DIR) + "/emulator/machine/default.toml");
+  std::ifstream stream(std::string(TOROLUX_SOURCE_DIR) + "/emulator/description/default.toml");
   const std::string whole((std::istreambuf_iterator<char>(stream)), {});
   ASSERT_TRUE(load_machine_toml(whole));
   const char* const odd[] = {"nan", "-1", "1e999", "99999999999999999999", "\"", "[", "]", "\n", "=", ".", "{", "\xff"};

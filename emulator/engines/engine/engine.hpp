@@ -43,7 +43,8 @@ class Engine {
   /// Lets every PE begin at `_start`. Returns at once.
   virtual void start() = 0;
   /// Throws MachineFailure (PE, reason, log) if a PE can no longer go on. Cheap; called at least five times a second.
-  virtual void check() = 0;
+  /// PEs of this process need none: one that can never go on tells the network itself.
+  virtual void check() {}
   /// Ends all PEs that still run. Called once, after the channels have been told to stop.
   virtual void stop() = 0;
   /// Host CPU time that the PEs have used so far [s]; 0 where the engine cannot tell it from the emulator's own.

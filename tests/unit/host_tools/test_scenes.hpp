@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "host_tools/layout/stage_layout.hpp"
 #include "host_tools/scene/scene.hpp"
 
 namespace torolux::test {
@@ -30,5 +31,17 @@ Scene room_with_box();
 
 /// A floor of edge 1 with 20 x 20 x 2 triangles, a little bent, of material 0, and a lamp above.
 Scene finely_tessellated_floor();
+
+/// Of a small radiosity stage, without shadow rays or layers.
+inline StageParameters stage_parameters() {
+  StageParameters parameters;
+  parameters.bounces = 32;
+  parameters.hemicube = 16;
+  parameters.shot_points = parameters.emission_points = 2;
+  parameters.points_per_quantum = 1;
+  parameters.pixel_scale = 0x1p40F;
+  parameters.least_weight = 1e-4F;
+  return parameters;
+}
 
 }  // namespace torolux::test

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "emulator/cache_line.hpp"
 #include "emulator/engines/engine/engine.hpp"
 #include "emulator/engines/translated/run/translated_image.hpp"
 #include "emulator/niu/channel.hpp"
@@ -46,7 +47,6 @@ class Processor {
   const NiuChannel& channel() const { return channel_; }
 
  private:
-  static constexpr std::size_t kCacheLine = 64;
   static constexpr std::size_t kBeginsWith = 512;  // all but control and status registers
 
   /// Where a HINT stands at which the code has stopped.

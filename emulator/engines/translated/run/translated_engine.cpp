@@ -64,9 +64,6 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
     for (unsigned i = 1; i < setup_.threads; ++i) threads_.emplace_back([this] { work(); });
   }
 
-  /// A PE that can never go on tells the network itself.
-  void check() override {}
-
   void stop() override { end(); }
 
   ProcessorWaker* waker(unsigned /*pe*/) override { return this; }

@@ -27,7 +27,7 @@ std::string refusal(const std::string& text) {
 }
 
 const std::filesystem::path kDefaultFile =
-    std::filesystem::path(TOROLUX_SOURCE_DIR) / "emulator" / "machine" / "default.toml";
+    std::filesystem::path(TOROLUX_SOURCE_DIR) / "emulator" / "description" / "default.toml";
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file);

@@ -73,7 +73,8 @@ TEST_F(Copies, BytesAreThoseOfTheStores) {
     for (const std::size_t count : {std::size_t{1}, std::size_t{9}, all.cells.size()}) {
       const Placement placement = placed({1, 2}, stage, all.first(count, grid_.count()), nullptr, "block");
       const Placement more = placement.with_nobody();
-      EXPECT_EQ(all.bytes[count - 1], bytes_of(lay_out(mesh_, more, 2, stage, {}, kMap), stores)) << count;
+      EXPECT_EQ(all.bytes[count - 1], bytes_of(lay_out(mesh_, more, 2, stage, stage_parameters(), kMap), stores))
+          << count;
     }
   }
 }

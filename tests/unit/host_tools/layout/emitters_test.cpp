@@ -83,7 +83,7 @@ TEST(Emitters, StandInEveryImageOrInNone) {
   const Placement placement = make_placement(of.mesh, {{2, 2}, std::array<std::uint32_t, 3>{4, 4, 4}, "skewed"});
   const VertexIrradiance irradiance =
       make_vertex_irradiance(of.mesh, std::vector<protocol::Flux>(of.mesh.elements), 1, 1);
-  StageParameters parameters;
+  StageParameters parameters = stage_parameters();
   const MemoryMap map{protocol::kLocalMemoryBase + 100'000, 64};
   for (const std::uint32_t count : {0U, 4U}) {
     parameters.emitters = count;

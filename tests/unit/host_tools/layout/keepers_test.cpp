@@ -35,7 +35,7 @@ class Keepers : public testing::Test {
                           {Stage::ray_tracing, nullptr, cells, surfaces});
   }
   PeLoad load(const Placement& placement, PeNumber pe, const PeLoad* common) const {
-    const PeLayout layout = lay_out(mesh_, placement, pe, Stage::ray_tracing, {}, kMap);
+    const PeLayout layout = lay_out(mesh_, placement, pe, Stage::ray_tracing, stage_parameters(), kMap);
     return {layout.layout, ray_tracing_image(scene_, mesh_, placement, pe, units_, irradiance_, layout, {}, common)};
   }
   static std::vector<protocol::Flux> fluxes(std::uint32_t elements) {

@@ -27,7 +27,7 @@ class LoadReadTest : public testing::Test {
  protected:
   LoadReadTest() {
     for (PeNumber pe = 0; pe < placement_.torus.pes(); ++pe) {
-      const PeLayout layout = lay_out(mesh_, placement_, pe, Stage::radiosity, {}, kMap);
+      const PeLayout layout = lay_out(mesh_, placement_, pe, Stage::radiosity, stage_parameters(), kMap);
       loads_.push_back({layout.layout, radiosity_image(scene_, mesh_, placement_, pe, units_, layout)});
     }
   }
@@ -200,7 +200,7 @@ TEST_F(LoadReadTest, WhatAllHaveIsSentOnce) {
                        {.torus = {3, 2}, .subspaces = {}, .allocation = "balanced", .scheme = Scheme::spread},
                        {.common_cell = common_cell});
     const auto load = [&](const Placement& of, PeNumber pe, const PeLoad* common) {
-      const PeLayout layout = lay_out(mesh_, of, pe, Stage::radiosity, {}, kMap);
+      const PeLayout layout = lay_out(mesh_, of, pe, Stage::radiosity, stage_parameters(), kMap);
       return PeLoad{layout.layout, radiosity_image(scene_, mesh_, of, pe, units_, layout, common)};
     };
     const auto common = std::make_shared<const PeLoad>(load(placement.with_nobody(), 6, nullptr));
