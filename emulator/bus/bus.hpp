@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The system bus: one transfer at a time, in turn among those whose request the arbiter sees.
+// The system bus: requests enter; transfers leave one at a time, in turn among those whose request the arbiter sees.
 #pragma once
 
 #include <cstdint>

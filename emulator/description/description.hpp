@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The machine's parameters. Defaults are built in; a TOML file (`--machine`) overrides them key by key.
+// The machine's parameters: a TOML file (`--machine`) enters and overrides built-in defaults key by key; a whole
+// description leaves.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See network_memory.hpp.
+// Each number of places in the description, times the largest packet or message that a place may have to hold, with its
+// header.
 #include "emulator/machine/network_memory.hpp"
 
 #include "emulator/torus/block.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See time_line.hpp.
+// Gauges are integrated from change to change. At the end all sums are brought to slices of one width; gauges and load
+// become means over each slice.
 #include "emulator/machine/time_line.hpp"
 
 #include <algorithm>

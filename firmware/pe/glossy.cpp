@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See glossy.hpp. Logarithm and exponential are series, so that every machine computes the same bits.
+// Two random numbers, height and turn about the lobe's axis, enter; a direction and its cosine leave. Logarithm and
+// exponential are series, so that every machine computes the same bits.
 #include "firmware/pe/glossy.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See layers.hpp.
+// What a camera ray's first surface is, and how many subspaces its ways went through. Irradiance from an emitter waits
+// in the record until the shadow ray has got there.
 #include "firmware/pe/layers.hpp"
 
 #include "firmware/pe/surface.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See work.hpp.
+// Makes a few records at a time, from tiles before points. Then messages leave for the host: points that are done, a
+// request for credits, or those that are too many.
 #include "firmware/pe/work.hpp"
 
 #include "firmware/pe/pe.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See camera_rays.hpp.
+// Checks the camera and makes the view's axes of it. A ray steps from cell to cell, from where it enters the grid to
+// the first subspace that it may begin in.
 #include "host_tools/camera/camera_rays.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See pixel_samples.hpp.
+// Correlated multi-jittered places in the unit square (Kensler 2013), and a table of the filter's inverse distribution,
+// by which each coordinate becomes a distance from the middle [pixels].
 #include "host_tools/camera/pixel_samples.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See ideal_option.hpp.
+// A list of names with commas enters; a flag for each part leaves. Names that are no part are refused.
 #include "host_tools/cli/ideal_option.hpp"
 
 #include <CLI/CLI.hpp>

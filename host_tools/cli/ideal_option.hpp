@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --ideal: parts of a machine that cost nothing, on top of its description.
+// --ideal: names enter; which parts of a machine cost nothing, on top of its description, leaves.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A command line that stands in a file, read as if it had been typed.
+// Words of a command line that stands in a file enter; a command's options leave, as if the words had been typed.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See same_run.hpp.
+// Both are flattened to values by their path, without what may differ between equal runs, and compared one by one;
+// inputs by their SHA-256.
 #include "host_tools/cli/same_run.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SHA-256 of bytes and files, as 64 hexadecimal digits.
+// Bytes or files in; their SHA-256, as 64 hexadecimal digits, out.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See cluster_light.hpp.
+// A fit at each vertex, over the clusters near it. What the fits on a cluster's facets miss of its own irradiance, the
+// residual, is then shared out to the vertices around.
 #include "host_tools/irradiance/cluster_light.hpp"
 
 #include <algorithm>

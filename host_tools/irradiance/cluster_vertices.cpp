@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See cluster_vertices.hpp.
+// From each vertex a search goes from cluster to touching cluster, as far as they count: by distance, by how alike
+// their normals are, and by area.
 #include "host_tools/irradiance/cluster_vertices.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See irradiance_fit.hpp.
+// Least squares, linear in normal and place, with a ridge for each; solved by Cholesky's factors. What is read off a
+// fit stays between the least and the greatest sample.
 #include "host_tools/irradiance/irradiance_fit.hpp"
 
 #include <algorithm>

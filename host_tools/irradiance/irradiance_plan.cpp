@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See irradiance_plan.hpp.
+// For each side: whose flux counts at a vertex, how light spreads to what is narrow, which borders are corrected, and
+// where hidden corners show the lit side of a wall.
 #include "host_tools/irradiance/irradiance_plan.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See refine.hpp.
+// An error estimate for each element: what interpolation misses of its light, less the noise by which two drafts
+// differ. The split candidate with the greatest is cut first; its children then become candidates.
 #include "host_tools/irradiance/refine.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Refinement: where a draft solution says that elements are too large for the light on them.
+// Refinement: two draft solutions enter; which elements are to be cut, as too large for the light on them, leaves.
 #pragma once
 
 #include <array>

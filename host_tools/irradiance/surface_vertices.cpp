@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See surface_vertices.hpp.
+// Corners at a common edge are joined, from large elements to small, unless a wall lies on the way from one element to
+// the other. Corners amid a longer edge hang between its ends.
 #include "host_tools/irradiance/surface_vertices.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which corners of elements share their light, on one side of all surfaces: those that meet on a smooth surface with no
-// wall between them.
+// The mesh and a side enter; leaves: which corners of elements share their light there, those that meet on a smooth
+// surface with no wall between them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See vertex_irradiance.hpp.
+// The plan and the elements' flux enter; sums alone are left to do: means at vertices, spread to what is narrow,
+// corrected at borders, then brought to the machine's unit of radiance.
 #include "host_tools/irradiance/vertex_irradiance.hpp"
 
 #include <algorithm>

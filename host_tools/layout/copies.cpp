@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See copies.hpp.
+// A queue by heat per byte. When a subspace is taken, those that share its polygons or textures take fewer bytes, and
+// are offered anew. Also: the bytes of polygons and surfaces.
 #include "host_tools/layout/copies.hpp"
 
 #include <algorithm>

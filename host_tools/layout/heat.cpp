@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See heat.hpp.
+// Goes through the sampled steps and adds up cycles: by subspace, by surface, or by owner where some subspaces are
+// common. What no sample has met counts for half a visit.
 #include "host_tools/layout/heat.hpp"
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much work each subspace and each patch causes in a stage, as found by following some light on the host
-// (host_tools/render/sample_heat). For copies and allocation; no picture depends on it.
+// Ways of some light that was followed on the host (host_tools/setup/sample_heat) enter; leaves: how much work each
+// subspace, surface and patch causes in a stage. For copies and allocation; no picture depends on it.
 #pragma once
 
 #include <cstdint>

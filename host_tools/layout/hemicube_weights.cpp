@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See hemicube_weights.hpp.
+// Closed integrals over each pixel (Cohen & Greenberg 1985), as multiples of 2^-32. The few units that rounding leaves
+// over go to the top's pixels.
 #include "host_tools/layout/hemicube_weights.hpp"
 
 #include <cmath>

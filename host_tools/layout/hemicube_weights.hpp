@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of the hemi-cube: exact delta form factors, rounded so that they add up to one exactly.
+// The pixels along a hemi-cube's edge enter; its table leaves: exact delta form factors, rounded so that they add up to
+// one exactly.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See keepers.hpp.
+// Greedy: the surfaces with the greatest load first, each to the PE that has least, of those that may keep it. Surfaces
+// that only some PEs may keep go before those that all may.
 #include "host_tools/layout/keepers.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See light_units.hpp.
+// The brightest channel of all emitted flux decides the quantum, the greatest radiance the unit. Emitters get chances
+// by their flux, in whole 2^-32; radiances out of range are refused.
 #include "host_tools/layout/light_units.hpp"
 
 #include <algorithm>

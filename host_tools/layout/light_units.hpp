@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The units in which the machine counts light, and the scene's materials and emitters in them.
+// Scene and mesh enter; the units in which the machine counts light leave, and materials and emitters in them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See owners.hpp.
+// Subspaces go by the allocation. With `balanced`, patches that do not stay with their subspace fill up the PEs that
+// have least to do, row by row, there and back.
 #include "host_tools/layout/owners.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See placement.hpp.
+// Lists by PE are put together from the owners (owners.hpp): first what all PEs have alike, then what each has of its
+// own; at last the keepers (keepers.hpp).
 #include "host_tools/layout/placement.hpp"
 
 #include <algorithm>

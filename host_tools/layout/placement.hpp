@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where everything of a scene lives in the machine: subspaces, polygons and patches by PE.
+// Mesh, machine and a stage's load enter; where everything of a scene lives leaves: subspaces, polygons and patches by
+// PE.
 #pragma once
 
 #include <cstdint>

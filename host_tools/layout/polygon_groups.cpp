@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See polygon_groups.hpp. Halves along the longest edge of what the middles of the polygons' boxes span, until few are
-// left.
+// Halves along the longest edge of what the middles of the polygons' boxes span, until few are left; an entry with the
+// box around them all stands before each group.
 #include "host_tools/layout/polygon_groups.hpp"
 
 #include <algorithm>

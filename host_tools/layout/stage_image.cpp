@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See stage_image.hpp.
+// Goes through the stores one by one and writes a PE's own numbers in place of the mesh's. Given the image of what all
+// PEs have, it copies that and goes on from there.
 #include "host_tools/layout/stage_image.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The contents of a PE's stores in a stage, byte for byte as they are loaded over the bus.
+// Scene, placement and layout enter; the contents of a PE's stores in a stage leave, byte for byte as they are loaded
+// over the bus.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See stage_layout.hpp.
+// Counts the entries of each store, then gives out addresses from the end of the firmware's image on. A refusal names
+// the stores that take most, and the options that lessen them.
 #include "host_tools/layout/stage_layout.hpp"
 
 #include <algorithm>

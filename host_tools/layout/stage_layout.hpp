@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How large each store of a PE is in a stage, where it lies, and how much memory the PEs need.
+// Mesh and placement enter; leaves: how large each store of a PE is in a stage, where it lies, and how much memory the
+// PEs need.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See clusters.hpp.
+// Grows each cluster over smooth edges, around the first triangle that has none, as far as length and normals allow;
+// scraps join a neighbour. Once for elements, then with these for patches.
 #include "host_tools/mesh/clusters.hpp"
 
 #include <algorithm>

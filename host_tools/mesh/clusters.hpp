@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Clusters: neighbouring small triangles of a smooth surface that receive and shoot as one, so that the cost of a scene
-// follows from quality and not from how finely a surface happens to be tessellated.
+// Small triangles of smooth surfaces enter; clusters leave: neighbours that receive and shoot as one, so that the cost
+// of a scene follows from quality and not from how finely a surface happens to be tessellated.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See edges.hpp.
+// A sort by the two positions brings the uses of an edge together. Disjoint sets: a union-find with halved paths.
 #include "host_tools/mesh/edges.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edges of triangles by position, so that triangles which share one can be found.
+// Triangles by position enter; their edges leave, in an order in which triangles that share one are found.
 #pragma once
 
 #include <array>

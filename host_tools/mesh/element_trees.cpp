@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See element_trees.hpp.
+// Each triangle's tree grows to its level, deeper at walls and splits. Then elements beside much smaller ones are cut,
+// until there are none.
 #include "host_tools/mesh/element_trees.hpp"
 
 #include <algorithm>

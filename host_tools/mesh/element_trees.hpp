@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which triangles of each triangle's grid are elements: by length, at walls, by splits, and balanced.
+// Levels, walls and splits enter; leaves: which triangles of each triangle's grid are elements, balanced.
 #pragma once
 
 #include <cstdint>

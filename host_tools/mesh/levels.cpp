@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See levels.hpp.
+// A wanted number of elements enters; a search over the longest edge times powers of 2^(1/4) finds the length that
+// comes nearest. A level halves edges until none is longer.
 #include "host_tools/mesh/levels.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long patches and elements are, and how finely each triangle is cut for it.
+// Triangles enter; leaves: how long patches and elements are, and how finely each triangle is cut for it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See lit_sides.hpp.
+// For each closed component that does not touch itself: emitters outside and inside of it, by winding numbers, say
+// which sides are lit. All other triangles keep both.
 #include "host_tools/mesh/lit_sides.hpp"
 
 #include <algorithm>

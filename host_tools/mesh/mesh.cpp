@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See mesh.hpp.
+// In this order: triangles, lit sides, lengths and levels, smooth surfaces, clusters, walls, occlusion; of these the
+// patches with their trees of elements; then textures and reflectances.
 #include "host_tools/mesh/mesh.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The mesh: the scene's triangles with their sides, patches and elements. A function of scene and quality alone.
+// The mesh: the scene's triangles enter; they leave with their lit sides, patches and elements. A function of scene and
+// quality alone.
 #pragma once
 
 #include <array>

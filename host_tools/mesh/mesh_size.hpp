@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How many patches and elements lengths ask for, counted before any is made; what no machine holds is refused.
+// Triangles and lengths enter; how many patches and elements they ask for leaves, counted before any is made. What no
+// machine holds is refused.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See normalise.hpp.
+// The bounding box of all triangles, with a margin on every side, gives origin and scale. A scene without an extent is
+// refused.
 #include "host_tools/mesh/normalise.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the user's units to the machine's: object space with its lowest corner at the origin and its longest edge 1.
+// A scene enters; the way from the user's units to the machine's leaves: to object space with its lowest corner at the
+// origin and its longest edge 1.
 #pragma once
 
 #include "firmware/protocol/records.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See occlusion.hpp.
+// Components wound alike, with no emitter inside, may be occluders; a point just over a surface is hidden where one
+// fills half a sphere. Of an element half hidden, an open part shoots.
 #include "host_tools/mesh/occlusion.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See reflectance.hpp.
+// Facet by facet, weighted by area, with texture means from halved images (textures.hpp); what leaves are fractions of
+// 2^32, at most 0.995.
 #include "host_tools/mesh/reflectance.hpp"
 
 #include <algorithm>

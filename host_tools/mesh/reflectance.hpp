@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The diffuse reflectance of every patch: the material's, times its texture's mean over the patch.
+// Scene and mesh enter; the diffuse reflectance of every patch leaves: the material's, times its texture's mean over
+// the patch.
 #pragma once
 
 #include "host_tools/mesh/mesh.hpp"

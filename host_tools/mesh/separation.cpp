@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See separation.hpp.
+// Tried in turn: the axes of space, the shapes' normals, and products of edges with each other and with normals. The
+// first that parts the shapes decides.
 #include "host_tools/mesh/separation.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether two small convex shapes (triangles, segments) lie apart by more than a gap: separating axes, in double.
+// Two small convex shapes (triangles, segments) and a gap enter; whether they lie apart by more than the gap leaves. In
+// double.
 #pragma once
 
 #include <span>

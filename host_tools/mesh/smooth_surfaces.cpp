@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See smooth_surfaces.hpp.
+// Of each edge that may pass radiance on, ends and edge are joined in disjoint sets. Their roots are the names by which
+// grid points of different triangles are found to be one vertex.
 #include "host_tools/mesh/smooth_surfaces.hpp"
 
 #include <algorithm>

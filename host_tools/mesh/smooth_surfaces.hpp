@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Smooth surfaces: where radiance is interpolated across the edge that two triangles, and no third, share.
+// Triangles enter; smooth surfaces leave: where radiance is interpolated across the edge that two triangles, and no
+// third, share.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See textures.hpp.
+// sRGB becomes linear, means over areas leave as many texels as are allowed, and each is packed as square roots. Means
+// over a triangle are taken at the middles of small parts, in a halved image.
 #include "host_tools/mesh/textures.hpp"
 
 #include <algorithm>

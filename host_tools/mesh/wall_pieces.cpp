@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See wall_pieces.hpp.
+// Cuts the element where walls cross it, and joins pieces with no wall between their middles. Where fewer than two of
+// its parts are seen, the element stays whole.
 #include "host_tools/mesh/wall_pieces.hpp"
 
 #include <algorithm>

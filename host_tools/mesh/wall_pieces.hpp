@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of an element that walls part from each other: each receives and shoots for itself.
+// An element and its walls enter; the parts into which the walls divide it leave: each receives and shoots for itself.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See walls.hpp.
+// A sort along x finds the pairs of triangles that are near; what stands on one, or lies close over it, leaves segments
+// in its plane. Whether a wall crosses, touches or parts is asked of these.
 #include "host_tools/mesh/walls.hpp"
 
 #include <algorithm>

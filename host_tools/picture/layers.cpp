@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See layers.hpp.
+// To look at: irradiance is tone mapped, depth becomes grey, normals and numbers become colours, cost glows like a hot
+// body.
 #include "host_tools/picture/layers.hpp"
 
 #include <algorithm>

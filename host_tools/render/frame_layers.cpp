@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See frame_layers.hpp.
+// Sums times the value of a quantum; depths as means, normals made unit. Polygon and location code, as the PE named
+// them, become an element's number.
 #include "host_tools/render/frame_layers.hpp"
 
 #include <algorithm>

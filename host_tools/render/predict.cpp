@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See predict.hpp.
+// Some paths are followed, and the rounds gone through in which the host would choose shooters; all that this counts
+// becomes cycles by constants that were fitted to measured runs.
 #include "host_tools/render/predict.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See csv.hpp.
+// A function for each table, from its line of names to its rows. Numbers are written so that they read back as the same
+// bits.
 #include "host_tools/report/csv.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The statistics as tables: one row for each thing counted, one column for each figure (docs/statistics.md).
+// Figures enter; the statistics leave as tables: one row for each thing counted, one column for each figure
+// (docs/statistics.md).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See limits.hpp.
+// Busy cycles over the stage's length. The greatest share is the cause where that part is saturated; else the busiest
+// PE, the rounds' ends or waiting is, whichever explains most.
 #include "host_tools/report/limits.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See machine_json.hpp.
+// One function for each kind of figures. Keys that stand for reasons, phases and kinds come from the tables of names
+// beside their enums.
 #include "host_tools/report/machine_json.hpp"
 
 #include <algorithm>

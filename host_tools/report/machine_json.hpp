@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The figures of a machine, or of one stage of it, as keys of the statistics: the same for `run` and `render`.
+// The figures of a machine, or of one stage of it, enter; keys of the statistics leave, the same for `run` and
+// `render`.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

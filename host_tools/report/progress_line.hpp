@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line that a render shows on a terminal while it works.
+// A render's progress enters; the line that shows it on a terminal leaves.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums over all PEs.
+// Figures by PE in, their sums out.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers as a person reads them.
+// Numbers in, text as a person reads them out.
 #pragma once
 
 #include <array>

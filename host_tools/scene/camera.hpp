@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What makes a camera usable, and one for scenes that bring none.
+// A camera enters; what is wrong with it leaves. Or a scene's box enters, and a camera leaves, for scenes that bring
+// none.
 #pragma once
 
 #include <optional>

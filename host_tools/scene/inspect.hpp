@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For `torolux info` and `render`: what in a scene looks as if it was not meant so. Nothing is changed.
+// For `torolux info` and `render`: a scene enters; what in it looks as if it was not meant so leaves. Nothing is
+// changed.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See recorded_files.hpp.
+// Reads as asked, and notes each path when it is first read, with the SHA-256 of its bytes.
 #include "host_tools/scene/recorded_files.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See presets.hpp.
+// A name enters and its preset leaves; or settings enter and leave changed: set to a preset, or, where they were chosen
+// at one preset, in the same measure at another.
 #include "host_tools/settings/presets.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See camera_sample.hpp.
+// Each ray branches as it would on the PEs: Fresnel's shares at glass, a lobe by chance, a shadow ray, until the weight
+// is too little. Sums become means over the rays that are sent.
 #include "host_tools/setup/camera_sample.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What camera rays cost in a machine, found by following some on the host: through mirrors and glass, by lobes, and
-// towards emitters. For predictions; no picture depends on it.
+// Camera rays enter; what they cost in a machine leaves, found by following some on the host: through mirrors and
+// glass, by lobes, and towards emitters. For predictions and the heat; no picture depends on it.
 #pragma once
 
 #include <vector>

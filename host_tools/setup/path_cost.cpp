@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See path_cost.hpp.
+// A ray steps from cell to cell as on the PEs. Boxes and polygons that are tested, hand-overs and deposits count for
+// the PE that does them; the steps go to the heat, where one is given.
 #include "host_tools/setup/path_cost.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See path_sample.hpp.
+// A path goes from an emitter over a few diffuse surfaces, through mirrors, glass and lobes on its way. Emitted and
+// reflected light are counted apart; sums become means over the paths.
 #include "host_tools/setup/path_sample.hpp"
 
 #include <algorithm>

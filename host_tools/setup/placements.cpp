@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See placements.hpp.
+// First without copies; then a bisection for the most copies that fit, what is worth most heat per byte first. Where
+// even none fit, again with memory more evenly shared.
 #include "host_tools/setup/placements.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See sample_heat.hpp.
+// A placement on one PE enters, so that the heat is that of grid and scene alone. The paths are those of
+// path_sample.hpp and camera_sample.hpp, which note each step.
 #include "host_tools/setup/sample_heat.hpp"
 
 #include "host_tools/setup/path_sample.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See setup.hpp.
+// Checks the settings' ranges, makes the mesh, chooses units and the points of shots, then placements and memory. What
+// the user should know of it leaves as notes.
 #include "host_tools/setup/setup.hpp"
 
 #include <algorithm>

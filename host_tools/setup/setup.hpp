@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that is settled before a machine is started: mesh, placement, units, parameters, memory.
+// Scene, settings and machine enter; all that must be there before a machine is started leaves: mesh, placements,
+// units, parameters, memory.
 #pragma once
 
 #include <optional>

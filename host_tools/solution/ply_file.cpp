@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See ply_file.hpp.
+// Facet by facet and side by side: three vertices of their own, in the user's units, with reflected and emitted light
+// together.
 #include "host_tools/solution/ply_file.hpp"
 
 #include <bit>

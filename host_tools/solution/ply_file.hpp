@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The solution as a mesh for other programs: a PLY file (G. Turk, "The PLY polygon file format", 1994) of all elements'
-// facets with the light at their corners.
+// The solution enters; a mesh for other programs leaves: a PLY file (G. Turk, "The PLY polygon file format", 1994) of
+// all elements' facets with the light at their corners.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See radiosity_file.hpp.
+// Bytes are written behind a head with version and CRC-32. On the way back all is checked against the head, this run's
+// scene and settings, and what flux there can be.
 #include "host_tools/solution/radiosity_file.hpp"
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Saved radiosities: the solution of a radiosity stage in a file, for other views of the same scene.
+// Saved radiosities: the solution of a radiosity stage goes into a file, and comes back for other views of the same
+// scene.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See credit_pool.hpp.
+// Messages with credits enter; grants leave: the same to all PEs, a share to one, or to those that have asked, first
+// come, first served. Counts how many are at home.
 #include "host_tools/stages/credit_pool.hpp"
 
 #include <algorithm>

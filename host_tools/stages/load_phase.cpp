@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See load_phase.hpp.
+// Layouts first; then stores in blocks of at most one message, where a PE's image differs from what it has been sent;
+// then `begin`, which each PE answers with `ready`.
 #include "host_tools/stages/load_phase.hpp"
 
 #include <algorithm>

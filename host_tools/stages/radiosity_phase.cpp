@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See radiosity_phase.hpp.
+// PEs' messages drive it: candidates are sorted and the first of them shoot, points are dealt to PEs that want work,
+// credits granted and recalled. A round is over when all are home.
 #include "host_tools/stages/radiosity_phase.hpp"
 
 #include <algorithm>

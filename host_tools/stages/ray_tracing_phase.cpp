@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See ray_tracing_phase.hpp.
+// One credit for each ray, pixels far apart one after the other. Each ray goes in a packet to the PE that holds its
+// first subspace, or, where all can begin it, to each in turn.
 #include "host_tools/stages/ray_tracing_phase.hpp"
 
 #include <utility>

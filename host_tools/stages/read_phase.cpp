@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See read_phase.hpp.
+// Asks each PE for one block after the other, then for its tally; the bytes become fluxes under the mesh's numbers.
 #include "host_tools/stages/read_phase.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See render_program.hpp.
+// Makes one phase after the other, hands it the PEs' messages, and takes what it leaves into the next. Also what a
+// caller asks meanwhile: progress, credits at home, kinds of records.
 #include "host_tools/stages/render_program.hpp"
 
 #include <algorithm>

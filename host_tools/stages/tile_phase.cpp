@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See tile_phase.hpp.
+// Picture, samples and PEs decide the tiles' size. Each PE gets two, and one more for each that is done, in an order in
+// which neighbours lie far apart.
 #include "host_tools/stages/tile_phase.hpp"
 
 #include <algorithm>

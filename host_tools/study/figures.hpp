@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One figure of a run: a value in its statistics, or one that follows from them and from a run to compare with.
+// A run's statistics and a name enter; one figure leaves: a value in them, or one that follows from them and from a run
+// to compare with.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A run's key: what would give the same result has the same key, whatever it is called and wherever it lies.
+// A run enters, its key leaves: what would give the same result has the same key, whatever it is called and wherever it
+// lies.
 #pragma once
 
 #include <string>

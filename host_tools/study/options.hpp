@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which options a plan may give to a command, and the command line that they make.
+// A command enters; the options that a plan may give to it leave. A plan's options enter; the command line that they
+// make leaves.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A study's plan as it stands in its file: what every run has, what varies, what is reported.
+// A study's plan enters as it stands in its file; leaves: what every run has, what varies, what is reported.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curves of a study's table, one picture for each figure.
+// A study's table enters; curves leave, one picture for each figure.
 #pragma once
 
 #include <string>

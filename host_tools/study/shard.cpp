@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See shard.hpp.
+// "2/5" becomes a part; a run belongs to it by the place of its key among all keys, sorted, so that every process finds
+// the same.
 #include "host_tools/study/shard.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A study's runs in parts, for job arrays.
+// A study's runs and the name of a part enter; the part's runs leave, for job arrays.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All results of a study as one table: a row for each point, in the plan's order.
+// All results of a study enter; one table leaves: a row for each point, in the plan's order.
 #pragma once
 
 #include <map>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See allocation.hpp.
+// Formulas in the cell's coordinates; or `balanced`, greedy: the costliest cell first, to a PE with room and about the
+// least load, of these the one nearest to the cell's neighbours.
 #include "host_tools/subspace/allocation.hpp"
 
 #include <algorithm>

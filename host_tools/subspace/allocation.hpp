@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which PE holds which subspace.
+// An allocation's name, the grid and the torus enter; which PE holds which subspace leaves.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See grid.hpp.
+// The number of cells, if not given, follows from the number of triangles, and of PEs or their memory. Polygons are
+// listed by a test of triangle against box, with a margin.
 #include "host_tools/subspace/grid.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The grid of equal subspaces: which cell holds a point, and which cells a polygon touches.
+// Object space and polygons enter; the grid of equal subspaces leaves: which cell holds a point, and which cells a
+// polygon touches.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See overlap.hpp.
+// Separating axes: the box's three, the triangle's normal, and the products of their edges; in double, with slack for
+// rounding.
 #include "host_tools/subspace/overlap.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a triangle touches a box.
+// A triangle and a box enter; whether they touch leaves.
 #pragma once
 
 #include <span>

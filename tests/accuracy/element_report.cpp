@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See element_report.hpp.
+// Pairs of shapes are rendered at each setting, rooms solved with more and more points of a shot; the tables
+// form_factors and dense leave.
 #include "tests/accuracy/element_report.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See picture_report.hpp.
+// For each scene at each setting a row of the table pictures leaves, with errors and costs; beside it the picture, and
+// its difference, red where it is too bright, blue where too dark.
 #include "tests/accuracy/picture_report.hpp"
 
 #include <algorithm>

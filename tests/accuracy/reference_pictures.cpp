@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See reference_pictures.hpp.
+// Files are named by a hash of all that the picture depends on. A new one gets twice the paths, again and again, until
+// its noise is low enough.
 #include "tests/accuracy/reference_pictures.hpp"
 
 #include <bit>

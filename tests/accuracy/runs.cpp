@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See runs.hpp.
+// A scene without light is put into the studio. All are rendered on one PE, as a picture is the same on any machine.
 #include "tests/accuracy/runs.hpp"
 
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See settings.hpp.
+// The setting takes the place of --quality, and a scene's own numbers change with it in the same measure.
 #include "tests/accuracy/settings.hpp"
 
 #include "host_tools/cli/settle.hpp"

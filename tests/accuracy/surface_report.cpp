@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See surface_report.hpp.
+// Each scene is solved at each setting; a row of the table surfaces leaves for each material, and one for all: incident
+// flux in the solution and by the path tracer [W], and the noise of that.
 #include "tests/accuracy/surface_report.hpp"
 
 #include "tests/accuracy/table.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See table.hpp.
+// A row is printed as soon as it is added, so that a long run shows how far it is; files are written whole, and may be
+// written again with more rows.
 #include "tests/accuracy/table.hpp"
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See dense_radiosity.hpp.
+// Closed factors from the points of a rule of degree 5 (Radon 1948) to whole elements, times the share that rays find
+// visible; then LU factors for each channel.
 #include "tests/references/dense_radiosity.hpp"
 
 #include <Eigen/Geometry>

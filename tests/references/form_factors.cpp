@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See form_factors.hpp.
+// Closed integrals, summed over the corners of two rectangles; for a point and a polygon the angles of its edges, once
+// it is clipped at the point's horizon.
 #include "tests/references/form_factors.hpp"
 
 #include <Eigen/Geometry>

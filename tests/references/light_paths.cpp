@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See light_paths.hpp.
+// What counts is light that a diffuse surface shows after a turn at mirror, glass or lobe. Paths come in fixed streams,
+// added up in their order, so that threads never show.
 #include "tests/references/light_paths.hpp"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See path_tracer.hpp.
+// One path at a time, from the eye or from a point on a surface. Each pixel has two independent streams of random
+// numbers: their difference is the noise.
 #include "tests/references/path_tracer.hpp"
 
 #include <Eigen/Geometry>

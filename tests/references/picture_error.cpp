@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See picture_error.hpp.
+// Means without and with a cut at the reference's 97th percentile; with it, the relative RMSE of blocks of 4 x 4
+// pixels. The noise is that of the reference's two halves.
 #include "tests/references/picture_error.hpp"
 
 #include <algorithm>

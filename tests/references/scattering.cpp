@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See scattering.hpp.
+// Lobe or diffuse part is chosen by their greatest channels. Mirror and glass take the geometric normal where the
+// shading normal would send light to the wrong side.
 #include "tests/references/scattering.hpp"
 
 #include <Eigen/Geometry>

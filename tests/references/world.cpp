@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See world.hpp.
+// Hits are Embree's, in floats about the scene's middle, without the triangles that a path leaves or aims at. Texels,
+// emission and chances of emitters are computed apart from the product's code.
 #include "tests/references/world.hpp"
 
 #include <embree3/rtcore.h>

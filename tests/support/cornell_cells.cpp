@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See cornell_cells.hpp.
+// Two CSV files become quadrilaterals with radiances by cell; the error is the relative RMSE over cells and channels,
+// weighted by area, without the lamp.
 #include "tests/support/cornell_cells.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See cornell_means.hpp.
+// Flux of an element times its reflectance, over pi and its area; means over each quadrilateral are weighted by area.
 #include "tests/support/cornell_means.hpp"
 
 #include <numbers>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See dense_errors.hpp.
+// Irradiances of both, element by element and channel by channel; leaves: their relative RMSE, weighted by area, and
+// the worst element.
 #include "tests/support/dense_errors.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See form_factor_cases.hpp.
+// Shapes are written as OBJ text and loaded like any scene, discs as polygons of the same area. A render of 4 x 4
+// pixels tells absorbed and emitted energy.
 #include "tests/support/form_factor_cases.hpp"
 
 #include <array>

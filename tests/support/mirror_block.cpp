@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See mirror_block.hpp.
+// Each wall has its own number of paths, more where few of them find light. Leaves for each wall: the error of its
+// worst channel, and the reference's noise there.
 #include "tests/support/mirror_block.hpp"
 
 #include <cmath>

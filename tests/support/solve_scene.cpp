@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See solve_scene.hpp.
+// A whole render saves its radiosities to a temporary file; they are read back, and the mesh is made again from the
+// file's splits.
 #include "tests/support/solve_scene.hpp"
 
 #include "host_tools/setup/setup.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See surface_light.hpp.
+// By the path tracer: paths shared out by area to triangles and their lit sides, flux and variance added up. In a
+// solution: the flux of the elements of each group.
 #include "tests/support/surface_light.hpp"
 
 #include <algorithm>

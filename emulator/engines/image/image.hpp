@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A firmware image: an ELF file for rv32imafc, checked against what the machine asks of it.
+// An ELF file for rv32imafc enters; a firmware image leaves, checked against what the machine asks of it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An instruction as a person reads it: "lw a0, 4(sp)". Compressed ones as what they stand for.
+// An instruction enters; a line for people leaves: "lw a0, 4(sp)". Compressed ones as what they stand for.
 #pragma once
 
 #include <cstdint>

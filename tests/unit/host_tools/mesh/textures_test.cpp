@@ -137,11 +137,11 @@ TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {
   for (unsigned number = 0; number < placement.torus.pes(); ++number) {
     const auto pe = static_cast<protocol::PeNumber>(number);
     const PeLayout radiosity =
-        lay_out(mesh, placement, pe, protocol::Stage::radiosity, stage_parameters(), {0x8001'0000, 64});
+        lay_out(mesh, placement, pe, protocol::Stage::radiosity, test::stage_parameters(), {0x8001'0000, 64});
     EXPECT_EQ(radiosity.layout.textures.count + radiosity.layout.texels.count + radiosity.layout.texture_points.count,
               0U);
     const PeLayout layout =
-        lay_out(mesh, placement, pe, protocol::Stage::ray_tracing, stage_parameters(), {0x8001'0000, 64});
+        lay_out(mesh, placement, pe, protocol::Stage::ray_tracing, test::stage_parameters(), {0x8001'0000, 64});
     const protocol::StageLayout& l = layout.layout;
     const std::vector<std::byte> bytes = ray_tracing_image(scene, mesh, placement, pe, units, irradiance, layout);
     const auto at = [&]<class T>(const protocol::Store& store, std::size_t index, T value) {
