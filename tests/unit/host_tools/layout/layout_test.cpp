@@ -36,8 +36,8 @@ class LayoutTest : public testing::Test {
   LayoutTest() {
     for (unsigned pe = 0; pe < placement_.torus.pes(); ++pe) {
       Loaded loaded;
-      loaded.layout =
-          lay_out(mesh_, placement_, static_cast<protocol::PeNumber>(pe), Stage::radiosity, stage_parameters(), kMap);
+      loaded.layout = lay_out(mesh_, placement_, static_cast<protocol::PeNumber>(pe), Stage::radiosity,
+                              test::stage_parameters(), kMap);
       loaded.image =
           radiosity_image(scene_, mesh_, placement_, static_cast<protocol::PeNumber>(pe), units_, loaded.layout);
       pes_.push_back(std::move(loaded));
@@ -119,7 +119,7 @@ TEST_F(LayoutTest, MapsNameWhoHoldsWhatStandsInEachCell) {
     std::map<CellIndex, std::set<protocol::CellEntry>> numbers;  ///< of common cells
     for (protocol::PeNumber pe = 0; pe < 6; ++pe) {
       Loaded loaded;
-      loaded.layout = lay_out(mesh_, placement, pe, Stage::radiosity, stage_parameters(), kMap);
+      loaded.layout = lay_out(mesh_, placement, pe, Stage::radiosity, test::stage_parameters(), kMap);
       loaded.image = radiosity_image(scene_, mesh_, placement, pe, units_, loaded.layout);
       const protocol::StageLayout& l = loaded.layout.layout;
       const auto map = map_of(loaded, grid.count());
@@ -207,7 +207,7 @@ TEST_F(LayoutTest, RayTracingImageHoldsTheIrradianceOfEachPolygon) {
   const VertexIrradiance irradiance = make_vertex_irradiance(mesh_, flux, 1e-3, 1);
   for (protocol::PeNumber pe = 0; pe < placement_.torus.pes(); ++pe) {
     Loaded loaded;
-    loaded.layout = lay_out(mesh_, placement_, pe, Stage::ray_tracing, stage_parameters(), kMap);
+    loaded.layout = lay_out(mesh_, placement_, pe, Stage::ray_tracing, test::stage_parameters(), kMap);
     loaded.image = ray_tracing_image(scene_, mesh_, placement_, pe, units_, irradiance, loaded.layout);
     const protocol::StageLayout& l = loaded.layout.layout;
     for (std::uint32_t p = 0; p < l.polygons.count; ++p) {
@@ -229,7 +229,7 @@ TEST_F(LayoutTest, RayTracingImageHoldsTheIrradianceOfEachPolygon) {
 }
 
 TEST_F(LayoutTest, MemoryIsChosenOrRefusedWithTheNumbers) {
-  const MemoryNeed need = memory_need(mesh_, placement_, placement_, stage_parameters(), kMap);
+  const MemoryNeed need = memory_need(mesh_, placement_, placement_, test::stage_parameters(), kMap);
   EXPECT_EQ(choose_memory(need, {}), protocol::kDefaultLocalMemory);
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most())), need.most());
   EXPECT_EQ(choose_memory(need, static_cast<std::uint32_t>(need.most() - 1)), std::nullopt);
