@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `torolux study PLAN.toml`: a plan enters; results, a table and curves leave.
+// `torolux study PLAN.toml...`: plans enter; of each, results, a table and curves leave.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -24,7 +24,7 @@ namespace torolux::study {
 namespace {
 
 struct StudyOptions {
-  std::string plan;
+  std::vector<std::string> plans;
   std::optional<std::string> folder;
   unsigned jobs = 0;  ///< 0: all cores
   bool dry_run = false, print_commands = false, quiet = false;
@@ -55,14 +55,14 @@ struct Study {
   }
 };
 
-std::filesystem::path folder_of(const StudyOptions& options) {
+std::filesystem::path folder_of(const std::string& plan, const StudyOptions& options) {
   if (options.folder) return *options.folder;
-  return std::filesystem::path(options.plan).replace_extension(".study");
+  return std::filesystem::path(plan).replace_extension(".study");
 }
 
-Study read_study(const StudyOptions& options) {
-  Plan plan = read_plan(options.plan);
-  ResultFolder folder(folder_of(options), plan.command);
+Study read_study(const std::string& file, const StudyOptions& options) {
+  Plan plan = read_plan(file);
+  ResultFolder folder(folder_of(file, options), plan.command);
   Study study{std::move(plan), std::move(folder), {}, {}, {}, {}};
   study.points = points_of(study.plan);
   check_baseline(study.plan, study.points);
@@ -139,7 +139,10 @@ void write_outputs(const Study& study, const StudyOptions& options) {
       axes.y.empty()
           ? std::vector(table.columns.begin() + static_cast<std::ptrdiff_t>(table.varied), table.columns.end())
           : axes.y;
-  if (options.format == "markdown") std::cout << markdown_of(table, shown);
+  if (options.format == "markdown") {
+    if (options.plans.size() > 1) std::cout << "## " << study.plan.file.string() << "\n\n";
+    std::cout << markdown_of(table, shown) << (options.plans.size() > 1 ? "\n" : "");
+  }
   if (options.format == "csv") std::cout << csv_of(table);
   std::cout << std::flush;
   std::vector<std::string> names = axes.y;
@@ -185,8 +188,8 @@ int finish(Study& study, const StudyOptions& options, const RunnerEnd& end, std:
   return static_cast<int>(end.failures.empty() ? ExitCode::done : ExitCode::machine_failure);
 }
 
-int run_study(const StudyOptions& options) {
-  Study study = read_study(options);
+int run_study(const std::string& plan, const StudyOptions& options) {
+  Study study = read_study(plan, options);
   study.read_results();
   std::vector<Work> work = study.missing();
   if (options.shard) keep_shard(work, study.work, *options.shard);
@@ -204,8 +207,24 @@ int run_study(const StudyOptions& options) {
   return finish(study, options, end, there);
 }
 
+/// Each is done, whatever became of those before it; the exit code is that of the first that failed.
+int run_studies(const StudyOptions& options) {
+  if (options.plans.size() > 1 && options.folder) throw UsageError("--folder: a folder is for one plan");
+  if (options.plans.size() > 1 && options.format == "csv") throw UsageError("--format csv: a table is of one plan");
+  int code = 0;
+  for (const std::string& plan : options.plans) {
+    if (options.plans.size() > 1) tell(options, plan);
+    const int of_plan = run_study(plan, options);
+    if (of_plan == kInterrupted) return of_plan;
+    if (code == 0) code = of_plan;
+  }
+  return code;
+}
+
 void add_options(CLI::App& command, StudyOptions& options) {
-  command.add_option("PLAN", options.plan, "A plan of runs (TOML); see docs/studies.md")->required()->type_name("");
+  command.add_option("PLAN", options.plans, "Plans of runs (TOML), done one after the other; see docs/studies.md")
+      ->required()
+      ->type_name("...");
   command.add_option("--folder", options.folder, "Where results lie [beside the plan, .study in place of .toml]")
       ->type_name("FOLDER");
   command.add_option("--jobs", options.jobs, "Runs at once [all cores over the threads of a run]")
@@ -234,9 +253,9 @@ namespace torolux {
 void add_study_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<study::StudyOptions>();
   CLI::App* command =
-      app.add_subcommand("study", "Do the runs of a plan that are not done yet; write a table and curves");
+      app.add_subcommand("study", "Do the runs of plans that are not done yet; write a table and curves of each");
   study::add_options(*command, *options);
-  command->callback([options, &action] { action = [options] { return study::run_study(*options); }; });
+  command->callback([options, &action] { action = [options] { return study::run_studies(*options); }; });
 }
 
 }  // namespace torolux

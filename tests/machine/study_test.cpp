@@ -244,5 +244,26 @@ TEST(Study, AFailedRunIsToldAndTheOthersGoOn) {
   EXPECT_THAT(contents(folder.path() / "results" / "cycles.svg"), HasSubstr("runs missing)"));
 }
 
+// Each plan has its folder and its table under its name; the second is done though the first has a run that fails.
+TEST(Study, SeveralPlansAreDoneOneAfterTheOther) {
+  const TemporaryFolder folder;
+  const auto plan = [&folder](const std::string& name, const std::string& limit) {
+    const std::string file = folder.path() / (name + ".toml");
+    std::ofstream(file) << "[base]\ncommand = 'run'\nimage = '" << image("token")
+                        << "'\n[vary]\nmachine.processor.most_cycles_between_hints = [" << limit
+                        << ", 2000000000]\n[report]\ny = 'cycles'\n";
+    return file;
+  };
+  const std::vector<std::string> plans = {plan("first", "1000"), plan("second", "1900000000")};
+  const Finished run = run_torolux({"study", plans[0], plans[1], "--format", "markdown"});
+  EXPECT_EQ(run.exit_code, 3);
+  for (const char* name : {"first", "second"}) {
+    EXPECT_THAT(run.output, HasSubstr(std::string("/") + name + ".toml\n\n| "));
+    EXPECT_TRUE(fs::exists(folder.path() / (std::string(name) + ".study") / "results.csv")) << name;
+  }
+  EXPECT_EQ(run_torolux({"study", plans[0], plans[1], "--folder", folder.path() / "both"}).exit_code, 1);
+  EXPECT_EQ(run_torolux({"study", plans[0], plans[1], "--format", "csv"}).exit_code, 1);
+}
+
 }  // namespace
 }  // namespace torolux::test
