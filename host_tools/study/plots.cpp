@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <system_error>
 
 #include "emulator/errors.hpp"
@@ -190,20 +191,22 @@ std::string plot_script(const Plan& plan, const Table& table, const std::string&
   const auto add = [&](const std::string& data, const std::string& how) {
     curves += (curves.empty() ? "plot " : ", \\\n     ") + data + how;
   };
-  std::string ideal;
+  std::map<double, std::string> ideal;  // by x: a series alone may have few points
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string data = "$series" + std::to_string(i);
     script += data + " << END\n";
     for (const Dot& dot : all[i].dots) {
       script += cell_text(dot.x) + " " + cell_text(dot.y) + "\n";
-      if (i == 0 && !dot.ideal.is_null()) ideal += cell_text(dot.x) + " " + cell_text(dot.ideal) + "\n";
+      if (!dot.ideal.is_null()) ideal.emplace(dot.x, cell_text(dot.ideal));
     }
     script += "END\n";
     add(data, " using 1:2 with linespoints " + line_text(i) +
                   (all[i].name.empty() ? "notitle" : "title " + text(all[i].name) + " noenhanced"));
   }
   if (!ideal.empty()) {
-    script += "$ideal << END\n" + ideal + "END\n";
+    script += "$ideal << END\n";
+    for (const auto& [at, value] : ideal) script += cell_text(at) + " " + value + "\n";
+    script += "END\n";
     add("$ideal", " using 1:2 with lines dashtype 2 linecolor rgb 'gray50' title 'ideal'");
   }
   return script + curves + "\n";

@@ -105,6 +105,15 @@ TEST(Plots, DrawACurveForEachSeriesAndTheSameBytesAlways) {
   EXPECT_EQ(plot_file("torus.hops/mean"), "torus_hops_mean.svg");
 }
 
+// The first series may have fewer points than others: one PE alone, with memory of its own, say.
+TEST(Plots, TheIdealGoesThroughThePointsOfAllSeries) {
+  SmallStudy study;
+  study.results.erase("c");
+  const std::string script = plot_script(study.plan, study.table(), "pe_count", "speed_up");
+  EXPECT_THAT(script, testing::HasSubstr("$series0 << END\n2 1\nEND\n"));
+  EXPECT_THAT(script, testing::HasSubstr("$ideal << END\n2 1\n4 2\nEND\n"));
+}
+
 /// A study of `network` with the results' latencies all 7.
 std::string script_of(const std::string& vary, const std::string& report) {
   const Plan plan = parse_plan("[base]\ncommand = 'network'\n[vary]\n" + vary + "[report]\n" + report, "plan.toml");
