@@ -17,6 +17,7 @@
 #include "host_tools/render/presets.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/stages/pixel_samples.hpp"
+#include "host_tools/trace/trace_options.hpp"
 
 namespace CLI {
 class App;
@@ -53,6 +54,7 @@ struct RenderOptions {
   ToneOptions tone;
   LayerSet layers = 0;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv;
+  TraceOptions trace;
   bool quiet = false, verbose = false;
 
   // The view.

@@ -67,6 +67,7 @@ struct MachineChoice {
   std::string engine = kDefaultEngine;
   Debugging debugging;
   unsigned threads = 0;
+  MachineWatcher* watcher = nullptr;  ///< of the machine that makes the picture, not of drafts'; outlives the render
 };
 
 /// The scheme, and all that it has where nothing else is said.
