@@ -124,7 +124,8 @@ Cycles Bus::count(BusRequester requester, const Block& block) {
   ++figures_.transfers;
   const auto add = [&](BusTraffic& traffic) { traffic.add(bytes, arbitration + data); };
   add(figures_.users[static_cast<std::size_t>(user_of(requester))]);
-  add(figures_.kinds[static_cast<std::size_t>(kind_of(requester, block))]);
+  kind_ = kind_of(requester, block);
+  add(figures_.kinds[static_cast<std::size_t>(kind_)]);
   if (!requester.is_host()) {
     add(figures_.from_pe[requester.pe()]);
   } else if (!block.is_broadcast()) {

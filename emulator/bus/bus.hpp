@@ -67,6 +67,8 @@ class Bus {
   void transfer_done(Cycles now);
 
   bool busy() const { return busy_; }
+  /// Of the transfer that has ended last, or is under way.
+  BusKind kind() const { return kind_; }
   const BusFigures& figures() const { return figures_; }
 
  private:
@@ -92,6 +94,7 @@ class Bus {
   bool busy_ = false;
   bool scheduled_ = false;  // a bus_arbitrate of this cycle
   BusFigures figures_;
+  BusKind kind_ = BusKind::load;
 };
 
 }  // namespace torolux

@@ -44,6 +44,11 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
   events_.watch(this);
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
   stages_.push_back({"run", network_figures(0)});
+  if (setup.watcher == nullptr) return;
+  watch_.emplace(*setup.watcher, WatchedMachine{setup.description, setup.columns, setup.rows}, nius_, torus_,
+                 WatchedActors{[this](unsigned pe) { return parts_[pe].outgoing.size(); },
+                               [this] { return controller_.waiting(); },
+                               [this] { return static_cast<std::uint32_t>(host_.inbox()); }});
 }
 
 void Emulation::handle(const Event& event) {
@@ -120,6 +125,7 @@ void Emulation::command(unsigned pe, const PendingCommand& command) {
       Block& block = pool_[command.block];
       block.flits = torus_.flits(block.bytes);
       count_kinds(block);
+      if (watch_) watch_->sent(now_, block);
       torus_.inject(pe, command.block, now_);
       break;
     }
@@ -268,6 +274,7 @@ void Emulation::copy_in(unsigned pe, BlockIndex block, bool from_bus) {
 }
 
 void Emulation::copied(unsigned pe, BlockIndex block, bool from_bus) {
+  if (watch_) watch_->received(now_, pool_[block]);
   nius_[pe].deliver(block, now_, pool_, times_);
   if (from_bus) {
     nius_[pe].release_bus_buffer();
@@ -327,6 +334,7 @@ BusSend Emulation::take(BusRequester requester) {
 void Emulation::bus_done(BlockIndex index) {
   const Cycles bus_busy = bus_.figures().busy_cycles();  // one transfer at a time: the rest is this one's
   time_line_.bus_was_busy(now_ - (bus_busy - bus_busy_), now_);
+  if (watch_) watch_->bus_was_busy(now_ - (bus_busy - bus_busy_), now_, bus_.kind());
   bus_busy_ = bus_busy;
   const Block& block = pool_[index];
   const unsigned from = block.source;
@@ -362,6 +370,7 @@ void Emulation::host_message(BlockIndex index) {
 void Emulation::pixels_done(BlockIndex block) {
   const Cycles pixels = pool_[block].bytes / sizeof(protocol::PixelAdd);
   time_line_.frame_buffer_was_busy(now_ - pixels * cycles_per_pixel_, now_);
+  if (watch_) watch_->frame_buffer_was_busy(now_ - pixels * cycles_per_pixel_, now_);
   controller_.add_pixels(block);
   bus_.free_place(now_);
 }

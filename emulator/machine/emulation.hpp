@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/torus.hpp"
+#include "emulator/trace/machine_watch.hpp"
 
 namespace torolux {
 
@@ -31,6 +33,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   /// may throw to end the run. Throws MachineFailure.
   void run(const std::function<void(Cycles)>& attend);
   void tell_to_stop();
+  /// The run has ended: whoever watches is told the rest.
+  void end_watch(Cycles end);
 
   /// Waits until no PE can do more before something else happens, so that the figures are exact.
   void fill_in(MachineFigures& figures);
@@ -50,7 +54,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   bool at_rest(unsigned pe);
   // Figures (stages.cpp)
   void begin_stage(std::string_view name) override;
-  void note(HostGauge gauge, double value) override { time_line_.note(gauge, value, host_.now()); }
+  void note(HostGauge gauge, double value) override;
   void note_host_busy();
   void count_kinds(const Block& block);
   MachineFigures network_figures(Cycles now) const;
@@ -136,6 +140,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   Cycles bus_busy_ = 0, host_busy_ = 0;  // as far as they are in the time line
   Cycles cycles_per_pixel_;
   std::vector<KindFigures> kinds_;
+  std::optional<MachineWatch> watch_;
 };
 
 }  // namespace torolux

@@ -17,6 +17,8 @@
 #include "emulator/machine/emulation.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
+#include "emulator/niu/state_log.hpp"
+#include "emulator/trace/watcher.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
 namespace torolux {
@@ -70,9 +72,13 @@ void check(const MachineSetup& setup) {
 
 /// From one channel of a PE in this process to the next: dense, so that all of them are in a few large pages and need
 /// no place in each page's tables; and each a line further on in its page.
-std::size_t channel_stride() {
-  return (small_niu_channel_bytes() + protocol::kPageBytes - 1) / protocol::kPageBytes * protocol::kPageBytes +
-         kCacheLine;
+std::size_t channel_stride(std::size_t bytes) {
+  return (bytes + protocol::kPageBytes - 1) / protocol::kPageBytes * protocol::kPageBytes + kCacheLine;
+}
+
+/// Of a PE that this process runs, or another: with its log of states, where somebody watches.
+std::size_t channel_bytes_of(const MachineSetup& setup, bool here) {
+  return (here ? small_niu_channel_bytes() : niu_channel_bytes()) + (setup.watcher != nullptr ? sizeof(StateLog) : 0);
 }
 
 /// channels: of the PEs that this process runs. on_qemu: other processes must be able to map it.
@@ -80,14 +86,18 @@ PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, con
                  bool on_qemu) {
   const std::string name = "torolux-pe" + std::to_string(pe);
   const bool here = engine_runs_here(setup.engine) && !on_qemu;
-  const std::size_t bytes = small_niu_channel_bytes();
+  const std::size_t bytes = channel_bytes_of(setup, here);
   PeMemory memory{
-      here ? SharedMemory::part_of(channels, pe * channel_stride(), bytes)
-           : SharedMemory(name + "-niu", niu_channel_bytes()),
+      here ? SharedMemory::part_of(channels, pe * channel_stride(bytes), bytes) : SharedMemory(name + "-niu", bytes),
       SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes),
                    here ? SharedMemory::Use::here : SharedMemory::Use::shared, pe % kCacheColours * kCacheLine),
       setup.local_memory_bytes};
-  if (here) niu_channel_at(memory.channel.bytes().data())->ring_bytes = kLeastRingBytes;
+  NiuChannel& channel = *niu_channel_at(memory.channel.bytes().data());
+  if (here) channel.ring_bytes = kLeastRingBytes;
+  if (setup.watcher != nullptr) {
+    channel.state_log = static_cast<std::uint32_t>(bytes - sizeof(StateLog));
+    state_log_of(channel)->set_grain_shift(setup.watcher->grain_shift());
+  }
   const auto local = memory.local.bytes().first(setup.local_memory_bytes);
   image.load_into(local);
   const std::uint32_t offset = image.niu_window - protocol::kLocalMemoryBase;
@@ -144,7 +154,8 @@ Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::ma
   const unsigned pes = setup.columns * setup.rows;
   const std::vector<bool> on_qemu = setup.debugging.on_qemu(pes);
   if (engine_runs_here(setup.engine)) {
-    p.channel_memory = SharedMemory("torolux-niu", pes * channel_stride(), SharedMemory::Use::densely);
+    p.channel_memory =
+        SharedMemory("torolux-niu", pes * channel_stride(channel_bytes_of(setup, true)), SharedMemory::Use::densely);
   }
   p.pes.reserve(pes);
   for (unsigned pe = 0; pe < pes; ++pe) {
@@ -197,6 +208,7 @@ void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progr
     throw;
   }
   p.fill_in_figures();
+  p.emulation->end_watch(p.figures.now);
   p.stop_engine();
   p.running = false;
   p.measure(p.figures);

@@ -22,6 +22,8 @@
 
 namespace torolux {
 
+class MachineWatcher;  // emulator/trace/watcher.hpp
+
 struct MachineSetup {
   MachineDescription description;
   unsigned columns = 4;
@@ -32,7 +34,8 @@ struct MachineSetup {
   unsigned threads = 0;  ///< 0: all cores
   std::uint32_t frame_width = 0;
   std::uint32_t frame_height = 0;
-  std::uint32_t frame_layers = 0;  ///< planes of the frame buffer besides the colours, as bits (protocol::plane_bit)
+  std::uint32_t frame_layers = 0;     ///< planes of the frame buffer besides the colours, as bits (protocol::plane_bit)
+  MachineWatcher* watcher = nullptr;  ///< told what happens; outlives the machine. Changes nothing of the run
 };
 
 struct PeFigures {

@@ -106,6 +106,7 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
                            " became known at cycle " + std::to_string(now_));
     }
     now_ = event.time;
+    if (watch_) watch_->before(now_);
     trace_hash_ = mix(mix(trace_hash_, event.time), event.order);
     handle(event);
     end_if_failed();

@@ -113,6 +113,7 @@ void subtract(MachineFigures& from, const MachineFigures& before) {
 }  // namespace
 
 void Emulation::begin_stage(std::string_view name) {
+  if (watch_) watch_->stage(begun_ ? host_.now() : 0, name);
   if (!begun_) {
     begun_ = true;
     stages_.front().name = name;
@@ -123,6 +124,15 @@ void Emulation::begin_stage(std::string_view name) {
   }
   for (NiuNetworkSide& niu : nius_) niu.set_stage(static_cast<std::uint32_t>(stages_.size()));
   stages_.push_back({std::string(name), network_figures(host_.now())});
+}
+
+void Emulation::note(HostGauge gauge, double value) {
+  time_line_.note(gauge, value, host_.now());
+  if (watch_) watch_->gauge(host_.now(), gauge, value);
+}
+
+void Emulation::end_watch(Cycles end) {
+  if (watch_) watch_->end(end);
 }
 
 /// Of a packet that a PE sends.
@@ -145,6 +155,7 @@ void Emulation::note_host_busy() {
   const Cycles now = host_.now();
   const Cycles busy = host_.clock().busy(now);
   time_line_.host_was_busy(now - (busy - host_busy_), now);
+  if (watch_) watch_->host_was_busy(now - (busy - host_busy_), now);
   host_busy_ = busy;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "emulator/niu/processor_side.hpp"
+#include "emulator/niu/state_log.hpp"
 
 namespace torolux {
 
@@ -16,9 +17,13 @@ std::size_t small_niu_channel_bytes() {
   return channel_bytes(kLeastRingBytes);
 }
 std::uint64_t niu_channel_layout() {
-  const std::array<std::size_t, 7> facts{sizeof(NiuChannel),           offsetof(NiuChannel, wanted),
-                                         offsetof(NiuChannel, asleep), offsetof(NiuChannel, processor),
-                                         sizeof(ProcessorState),       offsetof(ProcessorState, first_free),
+  const std::array<std::size_t, 8> facts{sizeof(NiuChannel),
+                                         offsetof(NiuChannel, wanted),
+                                         offsetof(NiuChannel, asleep),
+                                         offsetof(NiuChannel, processor),
+                                         sizeof(ProcessorState),
+                                         offsetof(ProcessorState, first_free),
+                                         sizeof(StateLog),
                                          protocol::kProtocolVersion};
   std::uint64_t layout = 0;
   for (const std::size_t fact : facts) layout = layout * 0x1'0000'01B3U + fact;

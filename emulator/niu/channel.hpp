@@ -213,6 +213,7 @@ struct NiuChannel {
   std::uint32_t copy_bytes;  ///< in a cycle of a copy engine; 0: copies take no time
   std::uint64_t most_cycles_between_hints;
   std::uint32_t ring_bytes;  ///< there is memory for so many in each ring; 0: kMostRingBytes
+  std::uint32_t state_log;   ///< bytes from here to its StateLog; 0: nobody watches
 
   // Written by the processor's side.
   alignas(64) std::atomic<std::uint64_t> bound;  ///< no command with an earlier time will come

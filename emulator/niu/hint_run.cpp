@@ -7,6 +7,7 @@
 
 #include "emulator/niu/ending.hpp"
 #include "emulator/niu/slot_list.hpp"
+#include "emulator/niu/state_log.hpp"
 
 namespace torolux {
 
@@ -45,12 +46,19 @@ void HintRun::wait_until(std::uint64_t time, WaitReason reason) {
   clock_ = time;
 }
 
+bool HintRun::has_room() const {
+  const StateLog* const log = state_log_of(channel_);
+  return channel_.commands.has_room(kLargestCommands) && (log == nullptr || log->has_room());
+}
+
 bool HintRun::wait_for_room() {
-  return sleep_until(WaitKind::running, 0, [this] { return channel_.commands.has_room(kLargestCommands); });
+  return sleep_until(WaitKind::running, 0, [this] { return has_room(); });
 }
 
 bool HintRun::execute(Hint hint) {
-  if (!channel_.commands.has_room(kLargestCommands) && !wait_for_room()) return false;
+  // Before it sleeps: nobody waits for it then.
+  if (StateLog* const log = state_log_of(channel_)) log->busy_until(channel_, begin_);
+  if (!has_room() && !wait_for_room()) return false;
   if (clock_ - state_.last_hint > channel_.most_cycles_between_hints) {
     end_endless_loop(channel_, 0);
     end();

@@ -58,6 +58,7 @@ class HintRun {
   bool wait_for_place(const Departures& departures, std::uint64_t sent, std::uint32_t places, WaitKind kind,
                       WaitReason reason);
   std::uint64_t copy_out(std::uint64_t bytes);
+  bool has_room() const;
   bool wait_for_room();
   void wait_until(std::uint64_t time, WaitReason reason);
   bool wakes_now(const Arrival& head) const;

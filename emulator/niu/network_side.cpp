@@ -182,7 +182,7 @@ void NiuNetworkSide::signal_processor() {
 
 void NiuNetworkSide::drain(EventQueue& events, BlockPool& pool) {
   auto& ring = channel_->commands;
-  bool any = false;
+  bool any = states_ != nullptr && drain_states();
   while (const Command* command = ring.front()) {
     any = true;
     BlockIndex index = kNoBlock;
@@ -206,6 +206,17 @@ void NiuNetworkSide::drain(EventQueue& events, BlockPool& pool) {
   }
   // A processor that waits for room in the ring says that it runs.
   if (any && wait_kind(wait_) == WaitKind::running) wake_processor();
+}
+
+bool NiuNetworkSide::drain_states() {
+  return state_log_of(*channel_)->drain([this](const StateChange& change) { states_->push_back(change); });
+}
+
+void NiuNetworkSide::finish_states(Cycles end) {
+  StateLog& log = *state_log_of(*channel_);
+  drain_states();
+  log.finish(*channel_, end, waits_for() == WaitKind::halted ? kHalted : kIdleAtEnd);
+  drain_states();
 }
 
 // ---- Slots ----

@@ -10,6 +10,7 @@
 #include "emulator/description/description.hpp"
 #include "emulator/host/host_queue.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/niu/state_log.hpp"
 #include "emulator/niu/waker.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
@@ -79,6 +80,7 @@ class alignas(64) NiuNetworkSide {
   bool has_receive_buffer() const { return receiving_ < receive_buffers_; }
   void reserve_receive_buffer();
   void release_receive_buffer() { --receiving_; }
+  std::uint32_t receive_buffers_used() const { return receiving_; }
   std::uint32_t receive_buffers_high_water() const { return receiving_high_water_; }
   /// A packet with so many bytes of records lies in a buffer at `now`: when it has been copied.
   Cycles copy_in(std::uint32_t bytes, Cycles now);
@@ -130,12 +132,19 @@ class alignas(64) NiuNetworkSide {
   /// What comes from now on belongs to this stage of the host's program.
   void set_stage(std::uint32_t stage) { stage_ = stage; }
 
+  /// What the processor tells of its states goes there, as far as its log has come at each refresh. states: outlives
+  /// this.
+  void watch(Fifo<StateChange>* states) { states_ = states; }
+  /// The same after the run, which ended at `end`; only while the processor waits.
+  void finish_states(Cycles end);
+
   const NiuChannel& channel() const { return *channel_; }
   /// Whether all that was delivered has been taken, as of the last refresh.
   bool nothing_gathered() const { return gathered_.empty(); }
 
  private:
   void drain(EventQueue& events, BlockPool& pool);
+  bool drain_states();
   void refill(BlockPool& pool);
   bool goes_into_ring(const Block& block) const {
     return overflow_.empty() && channel_->arrivals.has_room(block.bytes);
@@ -188,6 +197,7 @@ class alignas(64) NiuNetworkSide {
   std::uint32_t torus_places_;
   std::uint32_t sends_ = 0;
   std::uint32_t control_buffers_, control_used_ = 0;
+  Fifo<StateChange>* states_ = nullptr;  // nobody watches
 };
 
 }  // namespace torolux

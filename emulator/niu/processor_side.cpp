@@ -8,6 +8,7 @@
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/hint_run.hpp"
 #include "emulator/niu/profile.hpp"
+#include "emulator/niu/state_log.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
 namespace torolux {
@@ -42,6 +43,7 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
   }
   if (run.clock() != clock) {
     ProcessorState& state = channel_.processor;
+    if (StateLog* const log = state_log_of(channel_)) log->waited(channel_, run.waited());
     state.busy.add_interval(state.busy_since, clock, 1);
     state.busy_since = run.clock();
     state.waited += run.clock() - clock;
@@ -54,6 +56,7 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
   channel_.processor.last_hint = run.clock();
   if (run.stage() != channel_.processor.stage) begin_stage(channel_, run.stage());
   window.retry = 0;
+  if (StateLog* const log = state_log_of(channel_)) log->hint_ended();
   // The next HINT ends at least one cycle later.
   publish_bound(channel_, std::max(run.clock() + kCommandCycles + 1, channel_.processor.last_command),
                 pack_wait(happened ? WaitKind::running : WaitKind::halted, 0));

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "emulator/niu/state_log.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux {
@@ -16,6 +17,7 @@ constexpr auto kLeave = static_cast<std::int32_t>(Hint::leave_phase);
 
 void charge(NiuChannel& channel, std::uint64_t clock) {
   ProcessorState& state = channel.processor;
+  if (StateLog* const log = state_log_of(channel)) log->busy_until(channel, clock);
   const std::uint64_t busy = clock - state.waited;
   if (state.phase_depth != 0) {
     auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];

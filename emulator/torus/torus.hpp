@@ -69,6 +69,12 @@ class Torus {
   std::uint64_t link_retries() const { return faults_.retries(); }
   std::size_t packets_inside() const { return inside_; }  ///< injected, ejection not begun
   std::uint32_t queued(unsigned pe) const { return routers_[pe].inputs[index_of(Port::local)].queue.size(); }
+  /// Of an outgoing link, as in LinkFigures, up to `now`.
+  Cycles link_busy(unsigned router, std::size_t port, Cycles now) const {
+    const Output& out = routers_[router].outputs[port];
+    const Cycles ahead = out.free_at > now ? out.free_at - now : 0;
+    return out.flits + routers_[router].seldom[port].busy_beyond - ahead;
+  }
   /// Of each router; what lasts still counts up to `now`.
   std::vector<RouterFigures> router_figures(Cycles now) const;
   const PacketFigures& packet_figures() const { return packet_figures_; }

@@ -150,6 +150,34 @@ std::vector<unsigned> parse_pe_list(const std::string& text) {
   return pes;
 }
 
+std::array<std::uint64_t, 2> parse_window(const std::string& text) {
+  constexpr const char* kForm = "a window of cycles like 1000000:2000000, 1000000: or :2000000";
+  const auto ends = split(text, ':');
+  if (ends.size() != 2 || text == ":") wrong_form(text, kForm);
+  std::array<std::uint64_t, 2> window = {0, std::numeric_limits<std::uint64_t>::max()};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (ends[i].empty()) continue;
+    const auto cycle = whole(ends[i]);
+    if (!cycle) wrong_form(text, kForm);
+    window[i] = *cycle;
+  }
+  if (window[0] >= window[1]) throw InputError(in_quotes(text) + " ends before it begins");
+  return window;
+}
+
+std::uint64_t parse_file_size(const std::string& text, std::uint64_t least, std::uint64_t most) {
+  std::string_view digits = text;
+  const std::size_t unit = text.empty() ? std::string_view::npos : std::string_view("KMGkmg").find(text.back());
+  const unsigned shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<unsigned>(unit % 3) + 1);
+  if (shift != 0) digits.remove_suffix(1);
+  const auto number = whole(digits);
+  if (!number) wrong_form(text, "a size like 512K, 64M, 1G or a number of bytes");
+  if (*number > most >> shift || *number << shift < least)
+    throw InputError(in_quotes(text) + " is out of range: " + bytes_text(least) + " to " + bytes_text(most) +
+                     " are allowed");
+  return *number << shift;
+}
+
 GdbEndpoint parse_gdb_endpoint(const std::string& text) {
   constexpr const char* kForm = "a PE and a TCP port like 3:1234, or a path with a / like 3:/tmp/pe3";
   const std::size_t colon = text.find(':');

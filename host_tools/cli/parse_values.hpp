@@ -48,6 +48,12 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
 /// checked.
 std::vector<unsigned> parse_pe_list(const std::string& text);
 
+/// "FROM:TO", cycles, or one of the two alone with its colon: from the beginning, to the end. FROM < TO.
+std::array<std::uint64_t, 2> parse_window(const std::string& text);
+
+/// A file's size: bytes, with K (2^10), M or G: "64M". least..most.
+std::uint64_t parse_file_size(const std::string& text, std::uint64_t least, std::uint64_t most);
+
 /// "PE:PORT", each within its range of all machines, or "PE:PATH": what has a slash is a path.
 GdbEndpoint parse_gdb_endpoint(const std::string& text);
 

@@ -22,6 +22,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_machine_options(command, options);
   add_engine_option(command, options);
   add_debugging_options(command, options.debugging, kMachineGroup);
+  add_trace_options(command, options.trace, TracedRun::render, "Trace");
 }
 
 RenderOptions parse_render_options(const std::vector<std::string>& words) {

@@ -37,6 +37,7 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
   add("--stats", options.stats);
   add("--save-radiosity", options.save_radiosity);
   add("--save-mesh", options.save_mesh);
+  add("--trace", options.trace.file);
   std::vector<NamedFile> read;
   for (const InputFile& input : prepared.run.inputs.files) read.push_back({"a file that is read", input.path});
   if (options.machine) read.push_back({"--machine", *options.machine});
@@ -57,7 +58,8 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
 }
 
-RenderResult run_machine(const Scene& scene, const Settled& settled, const RenderOptions& options) {
+RenderResult run_machine(const Scene& scene, Settled& settled, const RenderOptions& options, TraceFile* trace) try {
+  if (trace != nullptr) settled.machine.watcher = &trace->watcher();
   ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
                     settled.machine.description.processor.clock_hertz, options.verbose);
   return render(scene, settled.camera, settled.quality, settled.machine, settled.files, firmware_image(),
@@ -66,6 +68,14 @@ RenderResult run_machine(const Scene& scene, const Settled& settled, const Rende
                   line.show(progress);
                   return true;
                 });
+} catch (const MachineFailure&) {
+  if (trace != nullptr) trace->finish();
+  throw;
+}
+
+void finish_trace(TraceFile& trace, bool quiet) {
+  trace.finish();
+  if (!trace.note().empty()) print_notes({trace.note()}, quiet);
 }
 
 }  // namespace
@@ -78,8 +88,10 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   print_notes(prepared.scene.warnings, options.quiet);
   print_notes(prepared.findings, options.quiet);
   if (interrupted()) return {kInterrupted, ""};
-  const RenderResult result = run_machine(prepared.scene, settled, options);
+  const auto trace = trace_file(options.trace, TracedRun::render, settled.machine.columns * settled.machine.rows);
+  const RenderResult result = run_machine(prepared.scene, settled, options, trace.get());
   if (interrupted()) return {kInterrupted, ""};
+  if (trace) finish_trace(*trace, options.quiet);
   remember_speed(settled.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);

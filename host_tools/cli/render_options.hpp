@@ -13,6 +13,7 @@
 #include "host_tools/camera/pixel_samples.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
+#include "host_tools/cli/trace_options.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/presets.hpp"
@@ -53,6 +54,7 @@ struct RenderOptions {
   ToneOptions tone;
   LayerSet layers = 0;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv;
+  TraceOptions trace;
   bool quiet = false, verbose = false;
 
   // The view.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // `torolux run IMAGE.elf`: options enter; the PEs' text, statistics and a summary leave.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <memory>
 
+#include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/run_options.hpp"
+#include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/csv.hpp"
 #include "host_tools/report/text.hpp"
@@ -24,11 +27,30 @@ void print_summary(const MachineSetup& setup, const MachineFigures& figures, dou
             << " packets; " << duration(wall_seconds) << "\n";
 }
 
+/// What was told until then is in the trace of a run that has failed.
+MachineFigures run_traced(const MachineSetup& setup, const Image& image,
+                          const std::function<void(const PeText&)>& print, TraceFile* trace) try {
+  return run_image(setup, image, print, [](Cycles) { return !interrupted(); });
+} catch (const MachineFailure&) {
+  if (trace != nullptr) trace->finish();
+  throw;
+}
+
+/// Throws InputError where one result would be written over another, or over the image.
+void check_results_distinct(const RunOptions& options) {
+  std::vector<NamedFile> written;
+  if (options.stats) written.push_back({"--stats", *options.stats});
+  if (options.trace.file) written.push_back({"--trace", *options.trace.file});
+  const std::array<NamedFile, 1> read = {{{"the image", options.image}}};
+  check_distinct(written, read);
+}
+
 }  // namespace
 
 RunEnd run_prepared(const RunOptions& options) {
-  const MachineSetup setup = setup_from(options);
+  MachineSetup setup = setup_from(options);
   const Image image = load_image(options.image);
+  check_results_distinct(options);
   if (options.stats) {
     check_file_writable(*options.stats);
   }
@@ -40,9 +62,15 @@ RunEnd run_prepared(const RunOptions& options) {
   const auto print = [](const PeText& text) {
     std::cout << "PE " << text.pe << " @ " << text.time << ": " << text.text << std::endl;
   };
-  const MachineFigures figures = run_image(setup, image, print, [](Cycles) { return !interrupted(); });
+  const auto trace = trace_file(options.trace, TracedRun::image, setup.columns * setup.rows);
+  if (trace) setup.watcher = &trace->watcher();
+  const MachineFigures figures = run_traced(setup, image, print, trace.get());
   if (interrupted()) {
     return {kInterrupted, ""};
+  }
+  if (trace) {
+    trace->finish();
+    if (!trace->note().empty() && !options.quiet) std::cerr << "torolux: note: " << trace->note() << "\n";
   }
   const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::string statistics = run_stats_json(setup, image_file, figures, wall_seconds);

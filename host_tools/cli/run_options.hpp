@@ -9,6 +9,7 @@
 #include "emulator/machine/machine.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/cli/trace_options.hpp"
 
 namespace CLI {
 class App;
@@ -27,6 +28,7 @@ struct RunOptions {
   FaultOptions faults;
   MachineDescription::Ideal ideal;
   unsigned threads = 0;
+  TraceOptions trace;
   bool quiet = false;
 };
 

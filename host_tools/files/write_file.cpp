@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -108,18 +109,40 @@ void refuse_folder(const fs::path& file) {
 
 }  // namespace
 
-void write_file(const fs::path& file, std::span<const std::byte> contents) {
+struct FileWriter::Parts {
+  std::optional<Descriptor> device;  // or
+  fs::path target;
+  std::optional<TemporaryFile> temporary;
+};
+
+FileWriter::FileWriter(const fs::path& file) : file_(file), parts_(std::make_unique<Parts>()) {
   refuse_folder(file);
   if (is_device(file)) {
-    Descriptor device(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
-    if (!device.open() || !write_all(device.get(), contents)) refuse(file, "cannot be written", errno);
+    parts_->device.emplace(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+    if (!parts_->device->open()) refuse(file, "cannot be written", errno);
     return;
   }
-  const fs::path target = followed(file);
-  TemporaryFile temporary(target);
-  if (!write_all(temporary.descriptor().get(), contents) || !temporary.descriptor().close() ||
-      !temporary.rename_to(target))
-    refuse(file, "cannot be written", errno);
+  parts_->target = followed(file);
+  parts_->temporary.emplace(parts_->target);
+}
+
+FileWriter::~FileWriter() = default;
+
+void FileWriter::append(std::span<const std::byte> contents) {
+  const Descriptor& open = parts_->device ? *parts_->device : parts_->temporary->descriptor();
+  if (!write_all(open.get(), contents)) refuse(file_, "cannot be written", errno);
+}
+
+void FileWriter::finish() {
+  if (parts_->device) return;
+  if (!parts_->temporary->descriptor().close() || !parts_->temporary->rename_to(parts_->target))
+    refuse(file_, "cannot be written", errno);
+}
+
+void write_file(const fs::path& file, std::span<const std::byte> contents) {
+  FileWriter writer(file);
+  writer.append(contents);
+  writer.finish();
 }
 
 void write_file(const fs::path& file, std::string_view text) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,23 @@ namespace torolux {
 /// A link is followed; devices and pipes (/dev/stdout) are written to directly. Throws InputError; leaves nothing then.
 void write_file(const std::filesystem::path& file, std::span<const std::byte> contents);
 void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// The same for contents that come piece by piece: nothing is kept in memory, and `file` is there once `finish` has
+/// been called, not before. Without that, nothing is left. Throws InputError.
+class FileWriter {
+ public:
+  explicit FileWriter(const std::filesystem::path& file);
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+  ~FileWriter();
+  void append(std::span<const std::byte> contents);
+  void finish();
+
+ private:
+  struct Parts;
+  std::filesystem::path file_;
+  std::unique_ptr<Parts> parts_;
+};
 
 /// Throws InputError where write_file would fail: no such folder, no right, `file` is a folder. For calling before
 /// hours of work. Leaves nothing behind.

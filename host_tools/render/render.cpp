@@ -165,7 +165,9 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   }
 
   RenderProgram program(std::move(job));
-  Machine torolux(machine_setup(setup, quality, machine), image);
+  MachineSetup of_picture = machine_setup(setup, quality, machine);
+  of_picture.watcher = machine.watcher;
+  Machine torolux(of_picture, image);
   const auto run_begin = std::chrono::steady_clock::now();
   watch.run(torolux, program);
   result.figures.run_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - run_begin).count();

@@ -15,6 +15,8 @@
 
 namespace torolux {
 
+class MachineWatcher;  // emulator/trace/watcher.hpp
+
 /// The machine that makes it.
 struct MachineChoice {
   MachineDescription description;
@@ -31,6 +33,7 @@ struct MachineChoice {
   std::string engine = kDefaultEngine;
   Debugging debugging;
   unsigned threads = 0;
+  MachineWatcher* watcher = nullptr;  ///< of the machine that makes the picture, not of drafts'; outlives the render
 };
 
 /// The scheme, and all that it has where nothing else is said.
