@@ -22,7 +22,7 @@ function OtherParts({ stage }) {
   const shares = stage.limits.shares;
   return (
     <table class="bars-table">
-      <thead><tr><th>part of the machine</th><th>busy</th><th class="words">of the stage; from the mark on ({percent(kSaturated)}) it limits</th></tr></thead>
+      <thead><tr><th>part of the machine</th><th>busy</th><th class="words">of the stage; beyond the mark it limits</th></tr></thead>
       <tbody>
         {kParts.map(([key, name]) => (
           <tr><td>{name}</td><td>{percent(shares[key])}</td><td><Bar share={shares[key]} mark={kSaturated} /></td></tr>

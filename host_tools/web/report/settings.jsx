@@ -25,7 +25,8 @@ async function copy(text, element) {
 }
 
 export function Settings({ statistics }) {
-  const command = ["torolux", ...statistics.command_line].map(quoted).join(" ");
+  const words = ["torolux", ...statistics.command_line].map(quoted);
+  const command = words.join(" ");
   const [done, setDone] = useState(false);
   const click = async () => {
     await copy(command, document.getElementById("command"));
@@ -36,7 +37,7 @@ export function Settings({ statistics }) {
     <section id="settings">
       <h2>The same again</h2>
       <p>This command repeats the run: the same picture, cycles and statistics.</p>
-      <pre id="command" tabIndex={0}>{command}</pre>
+      <pre id="command" tabIndex={0}>{words.map((word, i) => <>{i > 0 && " "}<span>{word}</span></>)}</pre>
       <button id="copy" onClick={click}>{done ? "Copied" : "Copy"}</button>
       <span class="soft" role="status">{done ? " The command has been copied." : ""}</span>
       <details>

@@ -88,7 +88,7 @@ export function TimeLine({ statistics, shown, onShown }) {
         </span>
         <button onClick={() => onShown([0, total])}>Show all</button>
       </div>
-      <p class="soft">Drag over a chart, or move the handles, to look closer. A step is a slice of {significant(statistics.time_line.slice_cycles / unit.size)} {unit.unit}.</p>
+      <p class="soft">Drag over a chart, or move the handles, to look closer. A step is a slice of {short(statistics.time_line.slice_cycles)} cycles.</p>
       <Brush total={total} window={shown} onWindow={onShown} />
       {charts.map((chart) => (
         <LineChart {...chart} x={x} xLabel={`virtual time [${unit.unit}]`} window={[shown[0] / unit.size, shown[1] / unit.size]}

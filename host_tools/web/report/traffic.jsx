@@ -18,7 +18,7 @@ function Table({ title, heads, rows }) {
             {rows.map((row) => (
               <tr>
                 {row.slice(0, -1).map((cell) => <td>{cell}</td>)}
-                <td class="share"><span>{percent(row[row.length - 1])}</span><Bar share={row[row.length - 1]} /></td>
+                <td><div class="share"><span>{percent(row[row.length - 1])}</span><Bar share={row[row.length - 1]} /></div></td>
               </tr>
             ))}
           </tbody>

@@ -39,6 +39,7 @@ function drawBands(plot, bands, named) {
   ctx.clip();
   ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   ctx.textBaseline = "top";
+  ctx.textAlign = "left";
   bands.forEach((band, i) => {
     const from = Math.max(bbox.left, plot.valToPos(band.begin, "x", true));
     const to = Math.min(bbox.left + bbox.width, plot.valToPos(band.end, "x", true));
