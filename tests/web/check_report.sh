@@ -4,7 +4,7 @@
 # Exit code 77 (skipped): packages cannot be had.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-torolux=$1 folder=$2
+torolux=$1 folder=$(realpath -m "$2")
 modules=$("$root/host_tools/web/modules.sh")
 mkdir -p "$folder"
 "$torolux" render "$root/scenes/cornell_box" --quality draft --size 96x96 --max-shots 40 --pes 4x3 --replicate 0 --quiet \

@@ -67,7 +67,7 @@ async function checkMap(page) {
   assert.ok(colours > 20, `the map has ${colours} colours`);
   const canvas = page.locator("#map canvas");
   const box = await canvas.boundingBox();
-  await page.mouse.click(box.x + box.width - 30, box.y + box.height - 30);
+  await canvas.click({ position: { x: box.width - 50, y: box.height - 50 } });
   assert.match(await page.textContent(".pe-details h3"), /^PE 11 \(column 3, row 2\)$/);
   await canvas.focus();
   await page.keyboard.press("ArrowRight"); // around the torus

@@ -86,7 +86,6 @@ export function runText(statistics, stageTitle) {
   const { key, share } = largest(Object.fromEntries(statistics.stages.map((stage) => [stage.name, stage])), (stage) => stage.cycles);
   const stage = statistics.stages.find((one) => one.name === key);
   const columns = statistics.settings.pes[0];
-  if (statistics.stages.length === 1) return limitText(stage, columns);
   const text = limitText(stage, columns);
   return {
     what: `Most of the time, ${percent(share)}, is ${stageTitle(key)}. What limits that stage: ${text.what[0].toLowerCase()}${text.what.slice(1)}`,

@@ -69,7 +69,7 @@ function StageRow({ stage, total, columns, onStage }) {
       <td>{short(stage.cycles)}</td>
       <td>{percent(stage.cycles / total)}</td>
       <td class="wide"><Stack parts={parts} label={stageName(stage.name)} /></td>
-      <td class="words">{limitText(stage, columns).what}</td>
+      <td class="words sentence">{limitText(stage, columns).what}</td>
     </tr>
   );
 }
@@ -95,7 +95,7 @@ export function Limits({ view, statistics, onStage }) {
       <Sentences text={runText(statistics, stageName)} />
       <div class="scroll">
         <table>
-          <thead><tr><th>stage</th><th>cycles</th><th>of the run</th><th class="words">its time</th><th class="words">what limits it</th></tr></thead>
+          <thead><tr><th>stage</th><th>cycles</th><th>of the run</th><th class="words wide">its time</th><th class="words">what limits it</th></tr></thead>
           <tbody>
             {statistics.stages.map((stage) => (
               <StageRow stage={stage} total={view.cycles} columns={columns} onStage={onStage} />
@@ -103,7 +103,9 @@ export function Limits({ view, statistics, onStage }) {
           </tbody>
         </table>
       </div>
-      <Legend parts={sharesOf(statistics.stages[0]).map((part) => ({ ...part, text: "" }))} />
+      <div class="wide">
+        <Legend parts={sharesOf(statistics.stages[0]).map((part) => ({ ...part, text: "" }))} />
+      </div>
       <PeTime view={view} />
     </section>
   );

@@ -41,7 +41,8 @@ function Tabs({ names, chosen, onChoose }) {
 
 function Report({ data }) {
   const { statistics } = data;
-  const [name, setName] = useState("");
+  const only = statistics.stages.length === 1;
+  const [name, setName] = useState(only ? statistics.stages[0].name : "");
   const view = useMemo(() => viewOf(statistics, name), [name]);
   const [shown, setShown] = useState([0, statistics.virtual_cycles.total]);
   const choose = (next) => {
@@ -49,7 +50,7 @@ function Report({ data }) {
     setName(next);
     setShown([stage.begin, stage.begin + stage.cycles]);
   };
-  const names = statistics.stages.length > 1 ? ["", ...statistics.stages.map((stage) => stage.name)] : [""];
+  const names = ["", ...statistics.stages.map((stage) => stage.name)];
   return (
     <>
       <header>
@@ -58,8 +59,8 @@ function Report({ data }) {
       </header>
       <main>
         <Overview data={data} />
-        {names.length > 1 && <Tabs names={names} chosen={name} onChoose={choose} />}
-        <div id="stage" role={names.length > 1 ? "tabpanel" : undefined} aria-labelledby={names.length > 1 ? `tab-${name}` : undefined}>
+        {!only && <Tabs names={names} chosen={name} onChoose={choose} />}
+        <div id="stage" role={only ? undefined : "tabpanel"} aria-labelledby={only ? undefined : `tab-${name}`}>
           {name !== "" && <p class="stage-words">{(kStages[name] ?? ["", ""])[1]}</p>}
           <Limits view={view} statistics={statistics} onStage={choose} />
           <Maps view={view} statistics={statistics} />

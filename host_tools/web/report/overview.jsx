@@ -32,13 +32,16 @@ function tiles(statistics) {
   return list;
 }
 
+/** Small pictures are shown larger, their pixels as squares [pixels]. */
+const kLeastWidth = 320;
+
 export function Overview({ data }) {
   const { statistics, picture } = data;
   return (
     <section id="overview" class={picture ? "with-picture" : ""}>
       {picture && (
         <figure class="picture">
-          <img src={picture.png} width={picture.shown_width} height={picture.shown_height} alt={`The picture of ${data.title}`} />
+          <img src={picture.png} style={{ width: `${Math.max(kLeastWidth, picture.shown_width)}px` }} alt={`The picture of ${data.title}`} />
           <figcaption>
             {picture.width} × {picture.height} pixels{picture.shown_width < picture.width ? `, shown at ${picture.shown_width} × ${picture.shown_height}` : ""}
           </figcaption>

@@ -40,7 +40,7 @@ export function Rounds({ rounds, energy }) {
         waiting for the last records of a round, and {percent(choosing / all)} on choosing who shoots next.
       </p>
       <div class="grid">
-        {charts.map((chart) => <LineChart {...chart} x={x} xLabel="round" syncKey="rounds" points height={190} />)}
+        {charts.map((chart) => <LineChart {...chart} x={x} xLabel="round" syncKey="rounds" whole points height={190} />)}
       </div>
     </section>
   );

@@ -56,6 +56,9 @@ function drawBands(plot, bands, named) {
   ctx.restore();
 }
 
+/** Distances of ticks where there are only whole numbers. */
+const kWholeSteps = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000];
+
 function options(props, width, onSelect) {
   const { title, xLabel, yLabel, series, log, max, bands, syncKey, height = 150, xValue, points } = props;
   return {
@@ -73,7 +76,7 @@ function options(props, width, onSelect) {
       y: log ? { distr: 3 } : { range: (_, __, most) => [0, max ?? (most > 0 ? most * 1.08 : 1)] },
     },
     axes: [
-      axis(xLabel, { size: 30, values: (_, ticks) => ticks.map((v) => (v === null ? "" : significant(v, 6))) }),
+      axis(xLabel, { size: 30, incrs: props.whole ? kWholeSteps : undefined, values: (_, ticks) => ticks.map((v) => (v === null ? "" : significant(v, 6))) }),
       axis(yLabel, { size: 58, values: (_, ticks) => ticks.map((v) => (v === null ? "" : significant(v, 4))) }),
     ],
     series: [
@@ -107,7 +110,7 @@ function options(props, width, onSelect) {
 
 /**
  * props: title, xLabel, yLabel (with units), x: numbers, series: [{name, values, colour?, area?, stepped?, dash?}],
- * window: [from, to] shown, onWindow: called with what was brushed, log, max, bands, namedBands, syncKey, height.
+ * whole: x are whole numbers, window: [from, to] shown, onWindow: called with what was brushed, log, max, bands, namedBands, syncKey, height.
  */
 export function LineChart(props) {
   const dark = useDark();

@@ -7,7 +7,7 @@ export const kStages = {
   read: ["reading back", "The host reads the light that elements have received, and computes values at vertices."],
   load_again: ["loading again", "The host writes that light, and what the ray tracing stage needs, into the PEs' memories."],
   ray_tracing: ["ray tracing", "Camera rays are followed from PE to PE to what is seen; its light is added up in the frame buffer."],
-  run: ["run", "The PEs run the image until each has halted."],
+  run: ["the run", "The PEs run the image until each has halted."],
 };
 
 export const kPhases = {
