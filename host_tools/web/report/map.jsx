@@ -80,7 +80,9 @@ export function Maps({ view, statistics }) {
     () => Object.fromEntries(kLinkDirections.map((one) => [one, view.links.map((pe) => takeLink(pe[one]) / (linkIsShare ? view.cycles : 1))])),
     [view, linkFigure],
   );
-  const [chosen, setChosen] = useState(() => greatest(view.pes.map((pe) => pe.busy_cycles)));
+  // Until one is chosen, the one with the most.
+  const [wanted, setWanted] = useState(null);
+  const chosen = wanted ?? greatest(values);
   const most = values[greatest(values)];
   const mean = values.reduce((all, value) => all + value, 0) / values.length;
   const linkMost = Math.max(...kLinkDirections.map((one) => links[one][greatest(links[one])]));
@@ -100,7 +102,7 @@ export function Maps({ view, statistics }) {
       <div class="map">
         <div class="map-left">
           <TorusMap columns={columns} rows={rows} values={values} most={most} links={links} linkMost={linkMost}
-            chosen={Math.min(chosen, values.length - 1)} onChoose={setChosen} label={`PEs: ${name}; ${linkName}`} />
+            chosen={chosen} onChoose={setWanted} label={`PEs: ${name}; ${linkName}`} />
           <ColourScale name={`PEs: ${name}`} most={text(most, isShare) + (isShare ? " of its time" : "")} />
           <ColourScale name={linkName} most={text(linkMost, linkIsShare) + (linkIsShare ? " of the time" : "")} />
           <p class="soft">
@@ -108,7 +110,7 @@ export function Maps({ view, statistics }) {
             Each neighbour is reached by a line for each direction; those at the edge lead around to the other side.
           </p>
         </div>
-        <PeDetails view={view} pe={Math.min(chosen, values.length - 1)} columns={columns} />
+        <PeDetails view={view} pe={chosen} columns={columns} />
       </div>
     </section>
   );
