@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The figures of a stage enter; what limits it, in a sentence or two for people who have not read the code, leaves.
-import { percent } from "../shared/format.js";
+import { bytes, grouped, percent } from "../shared/format.js";
 import { kBusKinds, kHostWork, kLinkDirections, kWaits, word } from "../shared/words.js";
 import { greatest, peName, sum } from "./data.js";
 
@@ -33,16 +33,23 @@ function waitsText(stage) {
   return ` Of all waiting of PEs, ${percent(share)} is ${word(kWaits, key)}.`;
 }
 
+/** Where subspaces stand on one PE alone although others have copies: what would let more be copied. */
+function copiesText(stage, { copies, settings }) {
+  const copied = copies?.[stage.name]?.subspaces;
+  if (!copied || copied === copies.of_subspaces) return "";
+  return ` ${grouped(copies.of_subspaces - copied)} of ${grouped(copies.of_subspaces)} subspaces stand on one PE alone, the rest on every one: with more memory than ${bytes(settings.pe_memory)} (--pe-memory) more of them could.`;
+}
+
 const kTexts = {
   work: (stage) => ({
     what: "The PEs' own work.",
     why: `On average the PEs are busy for ${percent(stage.limits.shares.work)} of the time; next to nothing else holds them up.`,
     help: "More PEs, or faster ones, would make this stage shorter.",
   }),
-  balance: (stage, columns) => ({
+  balance: (stage, columns, statistics) => ({
     what: "The busiest PE: work is not spread evenly.",
     why: `${busiestPe(stage, columns)} is busy for ${percent(stage.limits.shares.work + stage.limits.shares.balance)} of the time, the PEs on average for ${percent(stage.limits.shares.work)}: most wait for the few that have more to do.`,
-    help: `The same work spread evenly would take up to ${percent(stage.limits.shares.balance)} off this stage. The map shows where the load is.`,
+    help: `The same work spread evenly would take up to ${percent(stage.limits.shares.balance)} off this stage. The map shows where the load is.${copiesText(stage, statistics)}`,
   }),
   tail: (stage) => ({
     what: "The ends of rounds.",
@@ -76,17 +83,16 @@ const kTexts = {
   }),
 };
 
-/** {what, why, help}: sentences. columns: of the torus. */
-export function limitText(stage, columns) {
-  return kTexts[stage.limits.by](stage, columns);
+/** {what, why, help}: sentences. */
+export function limitText(stage, statistics) {
+  return kTexts[stage.limits.by](stage, statistics.settings.pes[0], statistics);
 }
 
 /** For the whole run: which stage takes most of it, and what limits that one. */
 export function runText(statistics, stageTitle) {
   const { key, share } = largest(Object.fromEntries(statistics.stages.map((stage) => [stage.name, stage])), (stage) => stage.cycles);
   const stage = statistics.stages.find((one) => one.name === key);
-  const columns = statistics.settings.pes[0];
-  const text = limitText(stage, columns);
+  const text = limitText(stage, statistics);
   return {
     what: `Most of the time, ${percent(share)}, is ${stageTitle(key)}. What limits that stage: ${text.what[0].toLowerCase()}${text.what.slice(1)}`,
     why: text.why,

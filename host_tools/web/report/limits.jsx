@@ -61,7 +61,7 @@ function Sentences({ text }) {
   );
 }
 
-function StageRow({ stage, total, columns, onStage }) {
+function StageRow({ stage, total, statistics, onStage }) {
   const parts = sharesOf(stage);
   return (
     <tr>
@@ -69,18 +69,17 @@ function StageRow({ stage, total, columns, onStage }) {
       <td>{short(stage.cycles)}</td>
       <td>{percent(stage.cycles / total)}</td>
       <td class="wide"><Stack parts={parts} label={stageName(stage.name)} /></td>
-      <td class="words sentence">{limitText(stage, columns).what}</td>
+      <td class="words sentence">{limitText(stage, statistics).what}</td>
     </tr>
   );
 }
 
 export function Limits({ view, statistics, onStage }) {
-  const columns = statistics.settings.pes[0];
   if (view.name !== "") {
     return (
       <section id="limits">
         <h2>What limits {view.title}</h2>
-        <Sentences text={limitText(view, columns)} />
+        <Sentences text={limitText(view, statistics)} />
         <h3>The stage's time</h3>
         <Stack parts={sharesOf(view)} label="Time of the stage" />
         <Legend parts={sharesOf(view)} />
@@ -98,7 +97,7 @@ export function Limits({ view, statistics, onStage }) {
           <thead><tr><th>stage</th><th>cycles</th><th>of the run</th><th class="words wide">its time</th><th class="words">what limits it</th></tr></thead>
           <tbody>
             {statistics.stages.map((stage) => (
-              <StageRow stage={stage} total={view.cycles} columns={columns} onStage={onStage} />
+              <StageRow stage={stage} total={view.cycles} statistics={statistics} onStage={onStage} />
             ))}
           </tbody>
         </table>
