@@ -18,6 +18,9 @@ setup_packages() {
     setup_stop 'This is not Debian. Install what these Debian packages hold, then build with the CMake presets:' "${wanted[*]}"
   local installed
   installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)
+  # Another package may provide it: a newer nodejs brings its own npm.
+  installed+=$'\n'$(dpkg-query -W -f='${db:Status-Status}, ${Provides}\n' | awk -F ', ' '$1 == "installed" {
+    for (i = 2; i <= NF; ++i) { sub(/ .*/, "", $i); print "installed " $i } }')
   for name in "${wanted[@]}"; do
     [[ $'\n'"$installed"$'\n' == *$'\n'"installed $name"$'\n'* ]] || missing+=("$name")
   done

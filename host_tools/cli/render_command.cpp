@@ -17,6 +17,7 @@
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/csv.hpp"
 #include "host_tools/report/figures.hpp"
+#include "host_tools/report/html_report.hpp"
 #include "host_tools/report/progress_line.hpp"
 
 namespace torolux {
@@ -35,6 +36,7 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
     if (file) written.push_back({option, *file});
   };
   add("--stats", options.stats);
+  add("--report", options.report);
   add("--save-radiosity", options.save_radiosity);
   add("--save-mesh", options.save_mesh);
   add("--trace", options.trace.file);
@@ -49,6 +51,7 @@ void check_results_writable(const Settled& settled, const RenderOptions& options
   for (const auto& file : settled.outputs) check_layers_writable(file, settled.quality.layers);
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
+  if (options.report) check_file_writable(*options.report);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
   if (options.save_mesh) check_file_writable(*options.save_mesh);
 }
@@ -100,6 +103,10 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::string statistics = stats_json(prepared.run, result.figures);
   if (options.stats) write_file(*options.stats, statistics);
   if (options.stats_csv) write_stats_tables(*options.stats_csv, stats_tables(result.figures));
+  if (options.report) {
+    write_file(*options.report,
+               report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, settled.tone}));
+  }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
   return {0, std::move(statistics)};
 }

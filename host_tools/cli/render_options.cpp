@@ -127,6 +127,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--stats-csv", options.stats_csv, "The same as tables (.csv), into this folder")
       ->type_name("FOLDER")
       ->group(group);
+  path("--report", "The run as one .html page: picture, maps, time line, what limits each stage", options.report);
   path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);
   path("--save-mesh", "The solved elements with the radiosity at their corners, as .ply", options.save_mesh);
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",

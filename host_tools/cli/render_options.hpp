@@ -53,7 +53,7 @@ struct RenderOptions {
   bool no_picture = false;
   ToneOptions tone;
   LayerSet layers = 0;
-  std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv;
+  std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
   TraceOptions trace;
   bool quiet = false, verbose = false;
 
@@ -97,8 +97,8 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
                        const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, ToneOptions& options, const std::string& group);
-/// --output, --no-picture, --layers, --exposure, --tone-curve, --stats, --save-radiosity, --save-mesh, --radiosity,
-/// --quiet, --verbose.
+/// --output, --no-picture, --layers, --exposure, --tone-curve, --stats, --stats-csv, --report, --save-radiosity,
+/// --save-mesh, --radiosity, --quiet, --verbose.
 void add_output_options(CLI::App& command, RenderOptions& options);
 /// --size, --samples, --filter, --eye, --look-at, --up, --fov.
 void add_view_options(CLI::App& command, RenderOptions& options);

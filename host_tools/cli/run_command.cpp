@@ -12,6 +12,7 @@
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/report/csv.hpp"
+#include "host_tools/report/html_report.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/run/run.hpp"
 
@@ -36,12 +37,14 @@ MachineFigures run_traced(const MachineSetup& setup, const Image& image,
   throw;
 }
 
-/// Throws InputError where one result would be written over another, or over the image.
+/// Throws InputError where one result would be written over another, or over what is read.
 void check_results_distinct(const RunOptions& options) {
   std::vector<NamedFile> written;
   if (options.stats) written.push_back({"--stats", *options.stats});
   if (options.trace.file) written.push_back({"--trace", *options.trace.file});
-  const std::array<NamedFile, 1> read = {{{"the image", options.image}}};
+  if (options.report) written.push_back({"--report", *options.report});
+  std::vector<NamedFile> read = {{"a file that is read", options.image}};
+  if (options.machine) read.push_back({"--machine", *options.machine});
   check_distinct(written, read);
 }
 
@@ -56,6 +59,9 @@ RunEnd run_prepared(const RunOptions& options) {
   }
   if (options.stats_csv) {
     check_stats_folder(*options.stats_csv);
+  }
+  if (options.report) {
+    check_file_writable(*options.report);
   }
   const InputFile image_file{"image", options.image, sha256_of_file(options.image)};
   const auto begin = std::chrono::steady_clock::now();
@@ -79,6 +85,9 @@ RunEnd run_prepared(const RunOptions& options) {
   }
   if (options.stats_csv) {
     write_stats_tables(*options.stats_csv, stats_tables(figures));
+  }
+  if (options.report) {
+    write_file(*options.report, report_html({options.image, statistics, figures, nullptr, {}}));
   }
   if (!options.quiet) {
     print_summary(setup, figures, wall_seconds);

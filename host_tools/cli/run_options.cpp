@@ -37,6 +37,8 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--stats-csv", options.stats_csv, "The same as tables (.csv), into this folder")
       ->type_name("FOLDER");
   add_trace_options(command, options.trace, TracedRun::image, "");
+  command.add_option("--report", options.report, "The run as one .html page: maps, time line, what limits it")
+      ->type_name("FILE");
   command.add_flag("--quiet", options.quiet, "No summary; only what the PEs say");
 }
 

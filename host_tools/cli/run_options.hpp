@@ -22,7 +22,7 @@ struct RunOptions {
   std::string pes = "4x4";
   std::string pe_memory = "1M";
   std::string engine = kDefaultEngine;
-  std::optional<std::string> machine, stats, stats_csv;
+  std::optional<std::string> machine, stats, stats_csv, report;
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
   Debugging debugging;
   FaultOptions faults;

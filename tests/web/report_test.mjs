@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Proves: a report opens from a file without a network, in light and dark, wide and narrow, without an error; all parts
+// are there; tabs, map, brush and copying work by pointer and by keys: report_test.mjs FOLDER, with render.html and
+// run.html in it. MODULES names where playwright-core is.
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+
+const { chromium } = createRequire(`${process.env.MODULES}/`)("playwright-core");
+const folder = process.argv[2];
+const kFlags = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync", "--no-first-run", "--disable-quic"];
+const kSections = ["overview", "limits", "map", "time-line", "histograms", "traffic", "rounds", "energy", "copies", "settings"];
+const kStages = ["load", "radiosity", "read", "load_again", "ray_tracing"];
+
+/** Opens a report; whatever is told on the console, thrown or asked of a network makes `faults` longer. */
+async function open(browser, file, { colorScheme = "light", width = 1280 } = {}) {
+  const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 } });
+  const page = await context.newPage();
+  const faults = [];
+  page.on("console", (message) => faults.push(`console: ${message.text()}`));
+  page.on("pageerror", (error) => faults.push(`thrown: ${error.stack}`));
+  page.on("request", (request) => /^(file|data):/.test(request.url()) || faults.push(`request: ${request.url()}`));
+  await page.goto(`file://${join(folder, file)}`);
+  await page.waitForSelector("#settings");
+  return { page, faults, close: () => context.close() };
+}
+
+/** Text can be told from its ground (WCAG AA: 4.5), and nothing is wider than the window. */
+async function checkLooks(page) {
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "the page is wider than the window");
+  const contrast = await page.evaluate(() => {
+    const light = (colour) => {
+      const parts = colour.match(/[\d.]+/g).slice(0, 3).map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2] + 0.05;
+    };
+    const ground = light(getComputedStyle(document.body).backgroundColor);
+    return [".soft", "h2", "th", ".verdict"].map((one) => {
+      const ink = light(getComputedStyle(document.querySelector(one)).color);
+      return Math.max(ink, ground) / Math.min(ink, ground);
+    });
+  });
+  assert.ok(Math.min(...contrast) >= 4.5, `contrast ${contrast}`);
+}
+
+async function checkTabs(page) {
+  for (const stage of kStages) {
+    await page.click(`#tab-${stage}`);
+    assert.equal(await page.getAttribute(`#tab-${stage}`, "aria-selected"), "true");
+    assert.ok((await page.textContent("#limits .verdict")).length > 5, stage);
+    for (const section of kSections) assert.equal(await page.locator(`#${section}`).count(), 1, `${section} in ${stage}`);
+  }
+  await page.keyboard.press("ArrowRight"); // around to the first
+  assert.equal(await page.getAttribute("#tab-", "aria-selected"), "true");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "tab-load");
+  await page.click("#tab-");
+}
+
+/** The canvas is painted, and a PE can be chosen by pointer and keys. */
+async function checkMap(page) {
+  const colours = await page.evaluate(() => {
+    const canvas = document.querySelector("#map canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(new Uint32Array(data.buffer)).size;
+  });
+  assert.ok(colours > 20, `the map has ${colours} colours`);
+  const canvas = page.locator("#map canvas");
+  const box = await canvas.boundingBox();
+  await canvas.click({ position: { x: box.width - 50, y: box.height - 50 } });
+  assert.match(await page.textContent(".pe-details h3"), /^PE 11 \(column 3, row 2\)$/);
+  await canvas.focus();
+  await page.keyboard.press("ArrowRight"); // around the torus
+  assert.match(await page.textContent(".pe-details h3"), /^PE 8 /);
+  await page.keyboard.press("ArrowUp");
+  assert.match(await page.textContent(".pe-details h3"), /^PE 4 /);
+  for (const value of await page.locator("#pe-figure option").evaluateAll((all) => all.map((one) => one.value))) {
+    await page.selectOption("#pe-figure", value);
+  }
+  await page.selectOption("#link-figure", "packets");
+  assert.match(await page.textContent("#map"), /links: packets: 0/);
+}
+
+async function checkBrush(page) {
+  const shown = () => page.textContent("#shown");
+  const whole = await shown();
+  const chart = page.locator("#time-line .u-over").first();
+  await chart.scrollIntoViewIfNeeded();
+  const box = await chart.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.25, box.y + 40);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + 40, { steps: 5 });
+  await page.mouse.up();
+  const brushed = await shown();
+  assert.notEqual(brushed, whole);
+  await page.getByLabel("Shown from").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.notEqual(await shown(), brushed);
+  await page.getByText("Show all").click();
+  assert.equal(await shown(), whole);
+}
+
+async function checkCopying(page) {
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.click("#copy");
+  const copied = await page.evaluate(() => navigator.clipboard.readText());
+  assert.match(copied, /^torolux render .*cornell_box .*--pes 4x3/);
+  assert.equal(copied, await page.textContent("#command"));
+}
+
+async function checkRender(browser) {
+  const report = await open(browser, "render.html");
+  for (const section of kSections) assert.equal(await report.page.locator(`#${section}`).count(), 1, section);
+  assert.ok(await report.page.evaluate(() => document.querySelector(".picture img").naturalWidth === 96), "the picture");
+  assert.ok((await report.page.locator(".uplot").count()) >= 8, "charts");
+  assert.ok((await report.page.locator("rect.column").count()) > 20, "histograms");
+  await checkLooks(report.page);
+  await checkTabs(report.page);
+  await checkMap(report.page);
+  await checkBrush(report.page);
+  await checkCopying(report.page);
+  await report.page.emulateMedia({ colorScheme: "dark" }); // changes while it is open
+  await checkLooks(report.page);
+  assert.deepEqual(report.faults, []);
+  await report.close();
+}
+
+async function checkRun(browser) {
+  const report = await open(browser, "run.html");
+  assert.equal(await report.page.locator("#map canvas").count(), 1);
+  assert.equal(await report.page.locator("#energy, #rounds, #copies, .picture, .tabs").count(), 0);
+  await checkLooks(report.page);
+  assert.deepEqual(report.faults, []);
+  await report.close();
+}
+
+async function takeScreenshots(browser) {
+  for (const colorScheme of ["light", "dark"]) {
+    for (const width of [1280, 390]) {
+      const report = await open(browser, "render.html", { colorScheme, width });
+      await report.page.click("#tab-radiosity");
+      await report.page.waitForTimeout(300);
+      await checkLooks(report.page);
+      await report.page.screenshot({ path: join(folder, `report_${colorScheme}_${width}.png`), fullPage: true });
+      assert.deepEqual(report.faults, []);
+      await report.close();
+    }
+  }
+}
+
+const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: kFlags });
+try {
+  await checkRender(browser);
+  await checkRun(browser);
+  await takeScreenshots(browser);
+} finally {
+  await browser.close();
+}
+console.log("reports: passed");
