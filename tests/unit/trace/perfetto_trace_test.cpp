@@ -88,6 +88,10 @@ TEST(PerfettoTrace, AWindowCutsSlicesAndNoArrow) {
   EXPECT_EQ(trace.wrong, std::vector<std::string>());
   EXPECT_EQ(trace.lengths(pe_track(trace, 5)), (Lengths{{"traverse", 550}, {"wait: arrivals", 500}}));
   EXPECT_EQ(trace.arrows(), 1U);  // the second was sent behind it
+  for (const ReadEvent& event : trace.events) {
+    if (event.arrow_ends.empty()) continue;
+    EXPECT_EQ(event.name + std::to_string(event.time), "received6000");
+  }
 }
 
 TEST(PerfettoTrace, OtherPesAreLeftOut) {
