@@ -47,16 +47,15 @@ void PerfettoPackets::add() {
   packet_.varint(trace_packet::kSequenceFlags,
                  first_ ? trace_packet::kStateCleared | trace_packet::kNeedsState : trace_packet::kNeedsState);
   first_ = false;
-  ProtoMessage trace;
-  waiting_ += trace.message(kTracePacket, packet_).bytes();
+  waiting_.message(kTracePacket, packet_);
   packet_.clear();
-  if (waiting_.size() >= kMostWaiting) flush();
+  if (waiting_.bytes().size() >= kMostWaiting) flush();
 }
 
 void PerfettoPackets::flush() {
-  if (waiting_.empty()) return;
-  take_(waiting_);
-  taken_ += waiting_.size();
+  if (waiting_.bytes().empty()) return;
+  take_(waiting_.bytes());
+  taken_ += waiting_.bytes().size();
   waiting_.clear();
 }
 
@@ -87,14 +86,13 @@ void PerfettoPackets::make_counter(TrackId track, TrackId parent, std::string_vi
 
 // ---- Events ----
 
-/// Each name stands in the trace once; events have its number.
-std::uint64_t PerfettoPackets::number_of(std::string_view name) {
-  const auto known = names_.find(name);
+NameId PerfettoPackets::name(std::string_view text) {
+  const auto known = names_.find(text);
   if (known != names_.end()) return known->second;
-  const std::uint64_t number = names_.size() + 1;
-  names_.emplace(name, number);
+  const NameId number = names_.size() + 1;
+  names_.emplace(text, number);
   ProtoMessage entry, data;
-  entry.varint(interned_data::kNumber, number).text(interned_data::kName, name);
+  entry.varint(interned_data::kNumber, number).text(interned_data::kName, text);
   data.message(interned_data::kEventNames, entry);
   packet_.message(trace_packet::kInternedData, data);
   add();
@@ -116,27 +114,26 @@ void PerfettoPackets::annotate(std::span<const Annotation> annotations) {
   }
 }
 
-void PerfettoPackets::slice(TrackId track, std::uint64_t begin, std::uint64_t end, std::string_view name) {
-  const std::uint64_t number = number_of(name);
+void PerfettoPackets::slice(TrackId track, std::uint64_t begin, std::uint64_t end, NameId name) {
   event_.varint(track_event::kType, track_event::kSliceBegin).varint(track_event::kTrack, track);
-  event_.varint(track_event::kName, number);
+  event_.varint(track_event::kName, name);
   event(begin);
   event_.varint(track_event::kType, track_event::kSliceEnd).varint(track_event::kTrack, track);
   event(end);
 }
 
-void PerfettoPackets::instant(TrackId track, std::uint64_t time, std::string_view name,
+void PerfettoPackets::instant(TrackId track, std::uint64_t time, std::string_view text,
                               std::span<const Annotation> annotations) {
-  const std::uint64_t number = number_of(name);
+  const NameId number = name(text);
   event_.varint(track_event::kType, track_event::kInstant).varint(track_event::kTrack, track);
   event_.varint(track_event::kName, number);
   annotate(annotations);
   event(time);
 }
 
-void PerfettoPackets::arrow(TrackId track, std::uint64_t time, std::string_view name, ArrowId arrow, ArrowEnd end,
+void PerfettoPackets::arrow(TrackId track, std::uint64_t time, std::string_view text, ArrowId arrow, ArrowEnd end,
                             std::span<const Annotation> annotations) {
-  const std::uint64_t number = number_of(name);
+  const NameId number = name(text);
   event_.varint(track_event::kType, track_event::kInstant).varint(track_event::kTrack, track);
   event_.varint(track_event::kName, number);
   event_.fixed64(end == ArrowEnd::begins ? track_event::kFlow : track_event::kTerminatingFlow, arrow);

@@ -18,6 +18,8 @@ namespace torolux {
 using TrackId = std::uint64_t;
 /// Names an arrow; any number but 0.
 using ArrowId = std::uint64_t;
+/// A name that events have.
+using NameId = std::uint64_t;
 enum class ArrowEnd : std::uint8_t { begins, ends };
 
 /// A name and a value, shown when an event is clicked on.
@@ -38,7 +40,9 @@ class PerfettoPackets {
   /// unit: shown behind the values.
   void make_counter(TrackId track, TrackId parent, std::string_view name, std::string_view unit, std::uint32_t rank);
 
-  void slice(TrackId track, std::uint64_t begin, std::uint64_t end, std::string_view name);
+  /// Stands in the trace once; events have its number, which is not 0.
+  NameId name(std::string_view text);
+  void slice(TrackId track, std::uint64_t begin, std::uint64_t end, NameId name);
   void instant(TrackId track, std::uint64_t time, std::string_view name, std::span<const Annotation> annotations);
   void arrow(TrackId track, std::uint64_t time, std::string_view name, ArrowId arrow, ArrowEnd end,
              std::span<const Annotation> annotations);
@@ -46,20 +50,19 @@ class PerfettoPackets {
   void counter(TrackId track, std::uint64_t time, double value);
 
   /// So far.
-  std::uint64_t bytes() const { return taken_ + waiting_.size(); }
+  std::uint64_t bytes() const { return taken_ + waiting_.bytes().size(); }
   /// Gives what waits to `take`.
   void flush();
 
  private:
   void describe(TrackId track, TrackId parent, std::string_view name, std::uint32_t rank, const ProtoMessage* counter);
-  std::uint64_t number_of(std::string_view name);
   void event(std::uint64_t time);
   void add();
   void annotate(std::span<const Annotation> annotations);
 
   Take take_;
-  std::map<std::string, std::uint64_t, std::less<>> names_;
-  std::string waiting_;
+  std::map<std::string, NameId, std::less<>> names_;
+  ProtoMessage waiting_;  // of the trace, which is a message, too
   std::uint64_t taken_ = 0;
   bool first_ = true;
   ProtoMessage packet_, event_, inner_;  // of the packet being made

@@ -148,36 +148,40 @@ void PerfettoTrace::tell_settings(const WatchedMachine& machine) {
 
 // ---- States ----
 
-/// name: of the next slice, which must outlive it; empty: none.
-void PerfettoTrace::change(Lane& lane, TrackId track, Cycles time, std::string_view name) {
+/// name: of the next slice; 0: none.
+void PerfettoTrace::change(Lane& lane, TrackId track, Cycles time, NameId name) {
   last_ = std::max(last_, time);
   const Cycles begin = std::max(lane.since, choice_.from);
   const Cycles end = std::min(time, choice_.to);
-  if (!lane.name.empty() && begin < end && room(begin))
+  if (lane.name != 0 && begin < end && room(begin))
     packets_.slice(track, nanoseconds(begin), nanoseconds(end), lane.name);
   lane = {name, time};
 }
 
+NameId PerfettoTrace::name_of_state(PeState state) {
+  NameId& name = state_names_.at(state);
+  if (name == 0) name = packets_.name(name_of_pe_state(state));
+  return name;
+}
+
 void PerfettoTrace::pe_state(unsigned pe, Cycles begin, PeState state) {
-  if (shows(pe)) change(pes_[pe], track_of(pe, kStates), begin, name_of_pe_state(state));
+  if (shows(pe)) change(pes_[pe], track_of(pe, kStates), begin, name_of_state(state));
 }
 
 void PerfettoTrace::bus_state(Cycles begin, std::size_t state) {
-  change(bus_, kBus, begin, state == kBusIdle ? std::string_view() : kBusKindNames.at(state));
+  change(bus_, kBus, begin, state == kBusIdle ? 0 : packets_.name(kBusKindNames.at(state)));
 }
 
 void PerfettoTrace::host_state(Cycles begin, bool busy) {
-  change(host_, kHost, begin, busy ? "works" : "");
+  change(host_, kHost, begin, busy ? packets_.name("works") : 0);
 }
 
 void PerfettoTrace::frame_buffer_state(Cycles begin, bool busy) {
-  change(frame_buffer_, kFrameBuffer, begin, busy ? "adds pixels" : "");
+  change(frame_buffer_, kFrameBuffer, begin, busy ? packets_.name("adds pixels") : 0);
 }
 
 void PerfettoTrace::stage(Cycles begin, std::string_view name) {
-  if (stage_names_.empty()) stage_names_.reserve(kMostStages + 1);
-  stage_names_.emplace_back(name);  // none moves: there are no more stages than that
-  change(stage_, kStages, begin, stage_names_.back());
+  change(stage_, kStages, begin, packets_.name(name));
 }
 
 // ---- Counters ----
@@ -250,12 +254,12 @@ void PerfettoTrace::end(Cycles time) {
 void PerfettoTrace::finish() {
   if (std::exchange(finished_, true)) return;
   for (unsigned pe = 0; pe < pes_.size(); ++pe) {
-    if (shown_[pe]) change(pes_[pe], track_of(pe, kStates), last_, "");
+    if (shown_[pe]) change(pes_[pe], track_of(pe, kStates), last_, 0);
   }
-  change(bus_, kBus, last_, "");
-  change(host_, kHost, last_, "");
-  change(frame_buffer_, kFrameBuffer, last_, "");
-  change(stage_, kStages, last_, "");
+  change(bus_, kBus, last_, 0);
+  change(host_, kHost, last_, 0);
+  change(frame_buffer_, kFrameBuffer, last_, 0);
+  change(stage_, kStages, last_, 0);
   for (const auto& [number, packet] : arrows_) end_arrow(last_, packet.source, number, "still on its way", packet);
   arrows_.clear();
   if (full_at_) {

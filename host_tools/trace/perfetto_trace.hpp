@@ -58,7 +58,7 @@ class PerfettoTrace final : public MachineWatcher {
 
  private:
   struct Lane {
-    std::string_view name;  // of the slice that is open; empty: none is
+    NameId name = 0;  // of the slice that is open; 0: none is
     Cycles since = 0;
   };
   struct CounterLane {
@@ -71,7 +71,8 @@ class PerfettoTrace final : public MachineWatcher {
   bool in_window(Cycles time) const { return time >= choice_.from && time < choice_.to; }
   std::uint64_t nanoseconds(Cycles time) const;
   bool room(Cycles time, std::uint64_t bytes = 0);
-  void change(Lane& lane, TrackId track, Cycles time, std::string_view name);
+  void change(Lane& lane, TrackId track, Cycles time, NameId name);
+  NameId name_of_state(PeState state);
   void sample(CounterLane& lane, TrackId track, Cycles time, std::uint64_t value);
   void make_machine_tracks();
   void make_pe_tracks(unsigned pe);
@@ -91,7 +92,7 @@ class PerfettoTrace final : public MachineWatcher {
   std::vector<std::array<CounterLane, kPeCounters>> pe_counters_;
   std::array<CounterLane, kMachineCounters> machine_counters_{};
   Lane stage_, bus_, host_, frame_buffer_;
-  std::vector<std::string> stage_names_;
+  std::array<NameId, kPeStates> state_names_{};
   std::map<std::uint64_t, PacketName> arrows_;  // begun, not ended
 };
 
