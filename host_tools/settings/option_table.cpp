@@ -43,6 +43,7 @@ std::vector<std::string_view> list(const std::array<std::string_view, N>& names)
 
 std::vector<std::string_view> filter_names() {
   std::vector<std::string_view> names;
+  names.reserve(kPixelFilters.size());
   for (const FilterName& filter : kPixelFilters) names.push_back(filter.name);
   return names;
 }

@@ -77,7 +77,7 @@ Value take_at(std::span<const std::byte> origin, std::size_t at) {
   return value;
 }
 
-/// Bytes of what has no kind of its own in the file.
+/// For kinds that no field has.
 [[noreturn]] void refuse_kind() {
   throw std::logic_error("the radiosity file has no form for an option of this kind");
 }
