@@ -10,10 +10,11 @@ setup_stop() {
   exit "$setup_failed"
 }
 
-# Installs what cmake/packages.txt lists and this computer lacks.
+# setup_packages [tests]: installs what cmake/packages.txt lists and this computer lacks: all of it, or what a build needs.
 setup_packages() {
-  local wanted missing=() name
-  mapfile -t wanted < <(sed -e 's/#.*//' -e '/^ *$/d' "$root/cmake/packages.txt")
+  local wanted missing=() name last='^# Only for ./run-tests'
+  [[ ${1-} != tests ]] || last='^$never'
+  mapfile -t wanted < <(sed -e "\\#$last#q" "$root/cmake/packages.txt" | sed -e 's/#.*//' -e '/^ *$/d')
   command -v dpkg-query >/dev/null ||
     setup_stop 'This is not Debian. Install what these Debian packages hold, then build with the CMake presets:' "${wanted[*]}"
   local installed
@@ -137,7 +138,7 @@ setup_stop_read_only() {
     "Let $owner run ./torolux there once, or work in a checkout of your own (cp -r $root torolux)."
 }
 
-# Holds the lock from here on until setup_end: parallel starts build once.
+# setup_begin [tests]: holds the lock from here on until setup_end: parallel starts build once. Packages as above.
 setup_begin() {
   setup_read_only=0
   mkdir -p "$root/build" 2>/dev/null || setup_stop_read_only
@@ -153,7 +154,7 @@ setup_begin() {
       flock --shared 9
     fi
   fi
-  setup_packages
+  setup_packages "$@"
 }
 
 setup_end() {

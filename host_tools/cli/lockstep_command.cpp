@@ -41,13 +41,14 @@ void check_options_of_image(const CLI::App& command) {
 
 void run_image_in_lock_step(const RenderOptions& options) {
   MachineSetup setup;
-  if (options.pes) {
-    setup.columns = (*options.pes)[0];
-    setup.rows = (*options.pes)[1];
+  const MachineChoice& given = options.given.values().machine;
+  if (options.given.has(&MachineChoice::columns)) {
+    setup.columns = given.columns;
+    setup.rows = given.rows;
   }
-  setup.local_memory_bytes = options.pe_memory.value_or(setup.local_memory_bytes);
+  setup.local_memory_bytes = given.pe_memory.value_or(setup.local_memory_bytes);
   setup.engine = kLockstep;
-  setup.threads = options.threads.value_or(0);
+  setup.threads = given.threads;
   if (options.machine) setup.description = load_machine_description(*options.machine);
   for (const std::string& value : options.machine_values) set_machine_value(setup.description, value);
   const auto print = [&](const PeText& text) {

@@ -26,17 +26,6 @@ std::string in_quotes(std::string_view text) {
   throw UsageError(in_quotes(text) + " is not " + expected);
 }
 
-/// The value whose name `text` is.
-template <class Value>
-Value one_of(std::string_view text, std::initializer_list<Value> values, const std::string& kind) {
-  std::vector<std::string> names;
-  for (const Value value : values) {
-    names.emplace_back(name_of(value));
-    if (text == names.back()) return value;
-  }
-  throw UsageError(no_such_name(text, kind, names));
-}
-
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -245,11 +234,6 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
   return *value;
 }
 
-PixelFilter parse_filter(const std::string& text) {
-  if (const auto filter = filter_named(text)) return *filter;
-  throw UsageError(no_such_name(text, "no filter", {"box", "tent", "gaussian"}));
-}
-
 Preset parse_preset(const std::string& text) {
   if (const auto preset = preset_named(text)) return *preset;
   throw UsageError(no_such_name(text, "no quality preset", {"draft", "normal", "fine"}));
@@ -272,44 +256,21 @@ LayerSet parse_layers(const std::string& text) {
   return set;
 }
 
-ToneCurve parse_tone_curve(const std::string& text) {
-  if (text == "filmic") return ToneCurve::filmic;
-  if (text == "linear") return ToneCurve::linear;
-  throw UsageError(no_such_name(text, "no tone curve", {"filmic", "linear"}));
-}
-
 MissingMaterials parse_missing_materials(const std::string& text) {
   if (text == "refuse") return MissingMaterials::refuse;
   if (text == "white") return MissingMaterials::white;
   throw UsageError(no_such_name(text, "nothing that is done with missing materials", {"refuse", "white"}));
 }
 
-Scheme parse_scheme(const std::string& text) {
-  return one_of(text, {Scheme::spread, Scheme::paper}, "no scheme");
-}
-
-Points parse_points(const std::string& text) {
-  return one_of(text, {Points::travel, Points::stay}, "no way of points");
-}
-
-Empty parse_empty(const std::string& text) {
-  return one_of(text, {Empty::over, Empty::enter}, "no way with empty subspaces");
-}
-
-RayMaker parse_ray_maker(const std::string& text) {
-  return one_of(text, {RayMaker::pes, RayMaker::host}, "no maker of camera rays");
+std::size_t parse_name(const std::string& text, std::span<const std::string_view> names, std::string_view kind) {
+  const auto found = std::ranges::find(names, text);
+  if (found == names.end()) throw UsageError(no_such_name(text, kind, {names.begin(), names.end()}));
+  return static_cast<std::size_t>(found - names.begin());
 }
 
 std::optional<double> parse_fraction(const std::string& text) {
   if (text == "auto") return std::nullopt;
   return parse_number(text, 0, 1);
-}
-
-bool parse_direct(const std::string& text) {
-  if (text != "radiosity" && text != "shadow-rays") {
-    throw UsageError(no_such_name(text, "no way of direct light", {"radiosity", "shadow-rays"}));
-  }
-  return text == "shadow-rays";
 }
 
 }  // namespace torolux

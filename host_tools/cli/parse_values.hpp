@@ -5,17 +5,18 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/engines/engine/debugging.hpp"
-#include "host_tools/camera/pixel_samples.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/presets.hpp"
-#include "host_tools/settings/scheme.hpp"
 
 namespace torolux {
 
@@ -63,29 +64,17 @@ double parse_link_fault(const std::string& text);
 /// "R" or "R,R,...": flits per node and cycle, each above 0 and up to 1.
 std::vector<double> parse_rates(const std::string& text);
 
-/// "radiosity" or "shadow-rays". True: shadow rays.
-bool parse_direct(const std::string& text);
-
 /// "refuse" or "white".
 MissingMaterials parse_missing_materials(const std::string& text);
 
-/// "spread" or "paper".
-Scheme parse_scheme(const std::string& text);
-/// "travel" or "stay".
-Points parse_points(const std::string& text);
-/// "over" or "enter".
-Empty parse_empty(const std::string& text);
-/// "pes" or "host".
-RayMaker parse_ray_maker(const std::string& text);
+/// The number of the name among `names`. kind: of another one, as in "no filter".
+std::size_t parse_name(const std::string& text, std::span<const std::string_view> names, std::string_view kind);
 /// A fraction 0..1, or "auto" (absent).
 std::optional<double> parse_fraction(const std::string& text);
 
-PixelFilter parse_filter(const std::string& text);
 /// The name of a quality preset.
 Preset parse_preset(const std::string& text);
 /// Names of layers with commas between them, or "all".
 LayerSet parse_layers(const std::string& text);
-/// "filmic" or "linear".
-ToneCurve parse_tone_curve(const std::string& text);
 
 }  // namespace torolux

@@ -10,6 +10,7 @@
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/parse_words.hpp"
+#include "host_tools/cli/table_options.hpp"
 #include "host_tools/scene/recorded_files.hpp"
 
 namespace torolux {
@@ -21,7 +22,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_light_options(command, options);
   add_machine_options(command, options);
   add_engine_option(command, options);
-  add_debugging_options(command, options.debugging, kMachineGroup);
+  add_debugging_options(command, options.debugging, heading(OptionGroup::machine));
   add_trace_options(command, options.trace, TracedRun::render, "Trace");
 }
 

@@ -111,8 +111,8 @@ RunEnd run_render_again(const Json& was, const std::vector<std::string>& words, 
   render.outputs = options.outputs;
   render.no_picture = options.outputs.empty();
   if (options.stats) render.stats = *options.stats;
-  if (options.engine) render.engine = options.engine;
-  if (options.threads != 0) render.threads = options.threads;
+  if (options.engine) render.given.set(&MachineChoice::engine, *options.engine);
+  if (options.threads != 0) render.given.set(&MachineChoice::threads, options.threads);
   render.quiet = true;
   PreparedRender prepared = with_hint(options, [&] { return prepare_render(render); });
   check_settings(was, settings_json(prepared.run, nullptr), options);

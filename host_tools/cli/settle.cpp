@@ -3,9 +3,11 @@
 #include "host_tools/cli/settle.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/parse_values.hpp"
+#include "host_tools/cli/table_options.hpp"
 #include "host_tools/scene/load_scene.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -16,22 +18,13 @@ namespace {
 /// lies near to them gets very unequal shares from rays to points that are spread over them evenly.
 constexpr double kMostEmittingShare = 0.125;
 
-/// An option given > the scene's default > the built-in value that `value` holds already.
-template <class Value, class Given, class Suggested>
-void pick(Value& value, const std::optional<Given>& given, const std::optional<Suggested>& suggested) {
-  if (given)
-    value = static_cast<Value>(*given);
-  else if (suggested)
-    value = static_cast<Value>(*suggested);
-}
-
-/// Runs `take` on a value of the scene; what it refuses is the scene's fault.
+/// Runs `take` on a text of the scene; what it refuses is the scene's fault.
 template <class Take>
-void from_scene(const std::string& place, const char* key, Take take) {
+void from_scene(const PlacedText& text, const char* key, Take take) {
   try {
-    take();
+    take(text.text);
   } catch (const std::runtime_error& error) {
-    throw InputError(place + ": [defaults] '" + key + "': " + error.what());
+    throw InputError(text.place + ": [defaults] '" + key + "': " + error.what());
   }
 }
 
@@ -45,53 +38,13 @@ Camera settle_camera(const RenderOptions& options, const Scene& scene) {
   return camera;
 }
 
-/// Returns the preset at which the scene's settings hold.
-Preset take_scenes(const SceneDefaults& defaults, Quality& quality) {
+/// The preset at which the scene's settings hold.
+Preset preset_of(const SceneDefaults& defaults) {
   Preset preset = *preset_named("normal");
   if (defaults.quality) {
-    from_scene(defaults.quality_place, "quality", [&] { preset = parse_preset(*defaults.quality); });
-    apply(preset, quality);
+    from_scene(*defaults.quality, "quality", [&preset](const std::string& text) { preset = parse_preset(text); });
   }
-  if (defaults.filter)
-    from_scene(defaults.filter_place, "filter", [&] { quality.filter = parse_filter(*defaults.filter); });
-  const auto take = [](auto& value, const auto& scenes) { value = scenes.value_or(value); };
-  take(quality.width, defaults.width);
-  take(quality.height, defaults.height);
-  take(quality.samples, defaults.samples);
-  take(quality.refine, defaults.refine);
-  take(quality.hemicube, defaults.hemicube);
-  take(quality.shot_points, defaults.shot_points);
-  take(quality.emission_records, defaults.emission_records);
-  take(quality.unshot, defaults.unshot);
-  take(quality.max_shots, defaults.max_shots);
-  take(quality.bounces, defaults.bounces);
-  take(quality.shadow_rays, defaults.shadow_rays);
-  take(quality.texels, defaults.texels);
-  take(quality.seed, defaults.seed);
-  take(quality.two_sided_lights, defaults.two_sided_lights);
   return preset;
-}
-
-void take_options(const RenderOptions& options, Quality& quality) {
-  const auto take = [](auto& value, const auto& given) { value = given.value_or(value); };
-  if (options.size) {
-    quality.width = (*options.size)[0];
-    quality.height = (*options.size)[1];
-  }
-  take(quality.samples, options.samples);
-  take(quality.refine, options.refine);
-  take(quality.filter, options.filter);
-  quality.layers = options.layers;
-  take(quality.hemicube, options.hemicube);
-  take(quality.shot_points, options.shot_points);
-  take(quality.emission_records, options.emission_records);
-  take(quality.unshot, options.unshot);
-  take(quality.max_shots, options.max_shots);
-  take(quality.bounces, options.bounces);
-  take(quality.shadow_rays, options.shadow_rays);
-  take(quality.texels, options.texels);
-  take(quality.seed, options.seed);
-  quality.two_sided_lights = quality.two_sided_lights || options.two_sided_lights;
 }
 
 /// Share of the scene's surface.
@@ -109,54 +62,57 @@ double emitting_share(const Scene& scene) {
   return emitting / all;
 }
 
-void settle_quality(const RenderOptions& options, const Scene& scene, Quality& quality, std::string& preset) {
-  const SceneDefaults& defaults = scene.defaults;
-  const Preset scenes_preset = take_scenes(defaults, quality);
-  preset = options.preset.value_or(scenes_preset).name;
-  if (options.preset) change_preset(scenes_preset, *options.preset, quality);
-  if (quality.shadow_rays && !defaults.shadow_rays && emitting_share(scene) > kMostEmittingShare)
-    quality.shadow_rays = false;
-  take_options(options, quality);
-  // A preset makes the scene's own lengths shorter or longer; one that is given holds.
-  const auto length = [](const std::optional<LengthOption>& given, const std::optional<double>& scenes, double factor) {
-    if (given) return given->length;
-    return scenes ? std::optional(*scenes * factor) : std::nullopt;
+/// A preset makes the scene's own lengths shorter or longer; one that is given holds.
+void scale_lengths(const GivenSettings& given, Quality& quality) {
+  const auto scale = [&](std::optional<double> Quality::*length, double factor) {
+    if (quality.*length && !given.has(length)) *(quality.*length) *= factor;
   };
-  quality.patch_length = length(options.patches, defaults.patch_length, quality.patch_factor);
-  quality.element_length = length(options.elements, defaults.element_length, quality.element_factor);
+  scale(&Quality::patch_length, quality.patch_factor);
+  scale(&Quality::element_length, quality.element_factor);
   // What is not refined is as fine as patches are, or as elements that are given.
-  quality.cluster_factor = options.elements ? 1 : std::min(1.0, quality.patch_factor / quality.element_factor);
+  const bool elements_given = given.has(&Quality::element_length);
+  quality.cluster_factor = elements_given ? 1 : std::min(1.0, quality.patch_factor / quality.element_factor);
 }
 
-MachineChoice settle_machine(const RenderOptions& options, const Scene& scene) {
-  MachineChoice machine;
-  if (options.machine) machine.description = load_machine_description(*options.machine);
-  for (const std::string& value : options.machine_values) set_machine_value(machine.description, value);
-  machine.description.ideal = either(machine.description.ideal, options.ideal);
-  options.faults.apply_to(machine.description);
-  if (options.pes) {
-    machine.columns = (*options.pes)[0];
-    machine.rows = (*options.pes)[1];
+MachineDescription settle_description(const RenderOptions& options) {
+  MachineDescription description;
+  if (options.machine) description = load_machine_description(*options.machine);
+  for (const std::string& value : options.machine_values) set_machine_value(description, value);
+  description.ideal = either(description.ideal, options.ideal);
+  options.faults.apply_to(description);
+  return description;
+}
+
+/// What of the machine a scene suggests and the user does not outweigh.
+void take_machine(const SceneDefaults& defaults, const GivenSettings& given, MachineChoice& machine) {
+  if (defaults.subspaces && !given.has(&MachineChoice::subspaces)) {
+    from_scene(*defaults.subspaces, "subspaces",
+               [&machine](const std::string& text) { machine.subspaces = parse_subspaces(text); });
   }
-  machine.pe_memory = options.pe_memory;
-  if (options.subspaces)
-    machine.subspaces = options.subspaces->cells;
-  else if (scene.defaults.subspaces)
-    from_scene(scene.defaults.subspaces_place, "subspaces",
-               [&] { machine.subspaces = parse_subspaces(*scene.defaults.subspaces); });
-  take_scheme(machine, options.scheme.value_or(machine.scheme));
-  if (options.replicate) machine.replicate = options.replicate->fraction;
-  machine.points = options.points.value_or(machine.points);
-  machine.empty = options.empty.value_or(machine.empty);
-  machine.camera_rays = options.camera_rays.value_or(machine.camera_rays);
-  if (!options.allocation && scene.defaults.allocation)
-    from_scene(scene.defaults.allocation_place, "allocation", [&] { check_allocation(*scene.defaults.allocation); });
-  pick(machine.allocation, options.allocation, scene.defaults.allocation);
-  machine.skip_empty_subspaces = !options.enter_empty;
-  if (options.engine) machine.engine = *options.engine;
-  machine.debugging = options.debugging;
-  machine.threads = options.threads.value_or(0);
-  return machine;
+  if (defaults.allocation && !given.has(&MachineChoice::allocation)) {
+    from_scene(*defaults.allocation, "allocation", check_allocation);
+    machine.allocation = defaults.allocation->text;
+  }
+}
+
+/// Each setting: given by the user, else by the scene, in the measure of the preset, else built in. Returns the preset
+/// that is in force.
+std::string settle_settings(const RenderOptions& options, const Scene& scene, AllSettings& settings) {
+  const SceneDefaults& defaults = scene.defaults;
+  const Preset scenes_preset = preset_of(defaults);
+  apply(scenes_preset, settings.quality);
+  defaults.given.apply_to(settings);
+  if (options.preset) change_preset(scenes_preset, *options.preset, settings.quality);
+  bool& shadow_rays = settings.quality.shadow_rays;
+  if (shadow_rays && !defaults.given.has(&Quality::shadow_rays) && emitting_share(scene) > kMostEmittingShare)
+    shadow_rays = false;
+  settings.machine.description = settle_description(options);
+  take_scheme(settings.machine, options.given.values().machine.scheme);
+  take_machine(defaults, options.given, settings.machine);
+  options.given.apply_to(settings);
+  scale_lengths(options.given, settings.quality);
+  settings.machine.debugging = options.debugging;
+  return std::string(options.preset.value_or(scenes_preset).name);
 }
 
 }  // namespace
@@ -180,10 +136,11 @@ SceneOptions scene_options(const RenderOptions& options) {
 Settled settle(const RenderOptions& options, const Scene& scene) {
   Settled settled;
   settled.camera = settle_camera(options, scene);
-  settle_quality(options, scene, settled.quality, settled.preset);
-  settled.machine = settle_machine(options, scene);
-  pick(settled.tone.exposure_ev, options.tone.exposure_ev, scene.defaults.exposure_ev);
-  settled.tone.curve = options.tone.curve.value_or(ToneCurve::filmic);
+  AllSettings settings;
+  settled.preset = settle_settings(options, scene, settings);
+  settled.quality = settings.quality;
+  settled.machine = std::move(settings.machine);
+  settled.tone = settings.tone;
   settled.outputs = options.outputs;
   if (options.no_picture && !settled.outputs.empty()) throw UsageError("--no-picture and --output exclude each other");
   if (settled.outputs.empty() && !options.no_picture) settled.outputs.emplace_back(scene.name + ".png");

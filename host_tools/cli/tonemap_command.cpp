@@ -14,16 +14,14 @@ namespace {
 
 struct TonemapOptions {
   std::string picture, output;
-  ToneOptions tone;
+  GivenSettings given;
 };
 
 int run_tonemap(const TonemapOptions& options) {
   const std::filesystem::path output = options.output;
   check_writable(output);
   if (holds_radiance(output)) throw UsageError(options.output + ": a tone-mapped picture is a .png");
-  const ToneMapping built_in;
-  write_picture(read_picture(options.picture), output,
-                {options.tone.exposure_ev.value_or(built_in.exposure_ev), options.tone.curve.value_or(built_in.curve)});
+  write_picture(read_picture(options.picture), output, options.given.values().tone);
   return 0;
 }
 
@@ -34,7 +32,7 @@ void add_tonemap_command(CLI::App& app, CommandAction& action) {
   CLI::App* command = app.add_subcommand("tonemap", "Make a .png of a picture of radiance");
   command->add_option("IN", options->picture, "A picture, .exr or .pfm")->required()->type_name("");
   command->add_option("OUT", options->output, "The picture to write, .png")->required()->type_name("");
-  add_tone_options(*command, options->tone, "Picture");
+  add_tone_options(*command, options->given, "Picture");
   command->callback([options, &action] { action = [options] { return run_tonemap(*options); }; });
 }
 

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The block `settings` of a run's statistics enters, the command line that leads to it again leaves.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
 #include "host_tools/report/settings_json.hpp"
+#include "host_tools/settings/options.hpp"
 
 namespace torolux {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
-
-/// Beneath this --unshot takes none: then it is the scene's own, and the preset's.
-constexpr double kLeastUnshotOption = 1e-9;
 
 std::string text(const Json& value) {
   if (value.is_number_float()) return text_of(MachineValue(value.get<double>()));
@@ -46,27 +45,56 @@ void add_camera(Words& words, const Json& camera) {
   }
 }
 
-void add_quality(Words& words, const Json& settings) {
-  add(words, "--quality", text(settings.at("quality")));
-  add(words, "--size", text(settings.at("width")) + "x" + text(settings.at("height")));
-  if (const Json& layers = settings.at("layers"); !layers.empty()) add(words, "--layers", joined(layers, ','));
-  add(words, "--patches", text(settings.at("patches")));
+/// What the command line does not take is the scene's own, and the preset's.
+bool is_taken(const Option& option, const Json& value) {
+  const auto* number = std::get_if<option::Number>(&option.kind);
+  return number == nullptr || value.get<double>() >= number->least_on_command_line.value_or(number->least);
+}
+
+void add_option(Words& words, const Option& option, const Json& settings) {
+  const Json& value = settings.at(option.key);
+  if (const auto* flag = std::get_if<option::Flag>(&option.kind)) {
+    if (value.get<bool>() == flag->given) words.push_back(option.name);
+  } else if (std::holds_alternative<option::Layers>(option.kind)) {
+    if (!value.empty()) add(words, option.name, joined(value, ','));
+  } else if (is_taken(option, value)) {
+    add(words, option.name, text(value));
+  }
+}
+
+/// The options of the table among which the option is; in the statistics for which there is an option.
+template <class Among>
+void add_options(Words& words, const Json& settings, Among among) {
+  for (const Option& option : all_options()) {
+    if (!option.name.empty() && !option.key.empty() && among(option)) add_option(words, option, settings);
+  }
+}
+
+/// Where a picture's option stands on the command line: these first, and these last, as before there was a table.
+constexpr int kLastPlace = 4;
+int place_of(const Option& option) {
+  const auto one_of = [&option](std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), option.name) != names.end();
+  };
+  if (one_of({"--exposure", "--tone-curve"})) return 0;
+  if (one_of({"--layers", "--patches", "--elements"})) return 1;
+  if (one_of({"--texels", "--seed"})) return 3;
+  if (one_of({"--unshot", "--two-sided-lights"})) return kLastPlace;
+  return 2;
+}
+
+void add_picture(Words& words, const Json& settings) {
   // Elements that are given make small triangles' clusters as fine. Where they are not, elements were not given.
-  if (settings.at("cluster_factor").get<double>() == 1) add(words, "--elements", text(settings.at("elements")));
-  constexpr std::array<std::array<const char*, 2>, 11> kOptions{{{"samples", "--samples"},
-                                                                 {"filter", "--filter"},
-                                                                 {"refine", "--refine"},
-                                                                 {"hemicube", "--hemicube"},
-                                                                 {"shot_points", "--shot-points"},
-                                                                 {"emission_records", "--emission-records"},
-                                                                 {"max_shots", "--max-shots"},
-                                                                 {"bounces", "--bounces"},
-                                                                 {"direct", "--direct"},
-                                                                 {"texels", "--texels"},
-                                                                 {"seed", "--seed"}}};
-  for (const auto& [key, option] : kOptions) add(words, option, text(settings.at(key)));
-  if (settings.at("unshot").get<double>() >= kLeastUnshotOption) add(words, "--unshot", text(settings.at("unshot")));
-  if (settings.at("two_sided_lights").get<bool>()) words.emplace_back("--two-sided-lights");
+  const bool elements_given = settings.at("cluster_factor").get<double>() == 1;
+  for (int place = 0; place <= kLastPlace; ++place) {
+    add_options(words, settings, [&](const Option& option) {
+      if (option.name == "--elements" && !elements_given) return false;
+      return option.bears_on != BearsOn::machine && place_of(option) == place;
+    });
+    if (place > 0) continue;
+    add(words, "--quality", text(settings.at("quality")));
+    add(words, "--size", text(settings.at("width")) + "x" + text(settings.at("height")));
+  }
 }
 
 bool automatic(const Json& settings, const char* key) {
@@ -107,19 +135,11 @@ Words render_words(const Json& settings) {
     if (input.at("role") == "radiosity") add(words, "--radiosity", text(input.at("path")));
   }
   add_camera(words, settings.at("camera"));
-  add(words, "--exposure", text(settings.at("exposure")));
-  add(words, "--tone-curve", text(settings.at("tone_curve")));
-  add_quality(words, settings);
+  add_picture(words, settings);
   add(words, "--pes", joined(settings.at("pes"), 'x'));
   if (!automatic(settings, "pe_memory")) add(words, "--pe-memory", text(settings.at("pe_memory")));
   add(words, "--subspaces", automatic(settings, "subspaces") ? "auto" : joined(settings.at("subspaces"), 'x'));
-  add(words, "--scheme", text(settings.at("scheme")));
-  add(words, "--allocation", text(settings.at("allocation")));
-  add(words, "--replicate", text(settings.at("replicate")));
-  add(words, "--points", text(settings.at("points")));
-  add(words, "--empty", text(settings.at("empty")));
-  add(words, "--camera-rays", text(settings.at("camera_rays")));
-  if (!settings.at("skip_empty_subspaces").get<bool>()) words.emplace_back("--enter-empty");
+  add_options(words, settings, [](const Option& option) { return option.bears_on == BearsOn::machine; });
   return words;
 }
 

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host_tools/report/version.hpp"
+#include "host_tools/settings/options.hpp"
+#include "host_tools/settings/overloaded.hpp"
 
 namespace torolux {
 namespace {
@@ -41,55 +43,63 @@ Json machine_json(const MachineDescription& description) {
   return machine;
 }
 
-Json layer_names(LayerSet set) {
-  Json names = Json::array();
-  for (const LayerName& layer : layers_in(set)) names.push_back(layer.name);
-  return names;
-}
-
 template <class Value>
 Json value_or_auto(const std::optional<Value>& value) {
   return value ? Json(*value) : Json("auto");
 }
 
-void add_view(Json& json, const RunDescription& run) {
+Json option_json(const Option& option, const AllSettings& settings) {
+  return std::visit(Overloaded{
+                        [&](const option::Choice& kind) { return Json(kind.names.at(kind.member.of(settings))); },
+                        [&](const option::Length& kind) { return value_or_auto(kind.member.of(settings)); },
+                        [&](const option::Fraction& kind) { return value_or_auto(kind.member.of(settings)); },
+                        [&](const option::Memory& kind) { return value_or_auto(kind.member.of(settings)); },
+                        [&](const option::Cells& kind) { return value_or_auto(kind.member.of(settings)); },
+                        [&](const option::Layers& kind) {
+                          Json names = Json::array();
+                          for (const LayerName& layer : layers_in(kind.member.of(settings)))
+                            names.push_back(layer.name);
+                          return names;
+                        },
+                        [&](const auto& kind) { return Json(kind.member.of(settings)); },
+                    },
+                    option.kind);
+}
+
+/// The options `among` which the option is, in the order of the table.
+template <class Among>
+void add_options(Json& json, const AllSettings& settings, Among among) {
+  for (const Option& option : all_options()) {
+    if (!option.key.empty() && among(option)) json[option.key] = option_json(option, settings);
+  }
+}
+
+void add_camera(Json& json, const RunDescription& run) {
   json["camera"] = {{"eye", run.camera.eye},
                     {"look_at", run.camera.look_at},
                     {"up", run.camera.up},
                     {"field_of_view", run.camera.field_of_view_degrees}};
   if (run.inputs.studio) json["camera"]["given"] = run.inputs.camera_given;
-  json["exposure"] = run.tone.exposure_ev;
-  json["tone_curve"] = run.tone.curve == ToneCurve::filmic ? "filmic" : "linear";
 }
 
-void add_quality(Json& json, const RunDescription& run) {
-  const Quality& quality = run.quality;
+/// Their place in the statistics is after those that were there before them.
+bool comes_late(const Option& option) {
+  return option.key == "texels" || option.key == "two_sided_lights" || option.key == "seed";
+}
+
+void add_picture(Json& json, const RunDescription& run, const AllSettings& settings) {
+  add_options(json, settings,
+              [](const Option& option) { return option.group == OptionGroup::results && option.key != "layers"; });
   json["quality"] = run.preset;
-  json["width"] = quality.width;
-  json["height"] = quality.height;
-  json["samples"] = quality.samples;
-  json["filter"] = name_of(quality.filter);
-  json["layers"] = layer_names(quality.layers);
-  json["patches"] = value_or_auto(quality.patch_length);
-  json["elements"] = value_or_auto(quality.element_length);
-  json["patch_factor"] = quality.patch_factor;
-  json["element_factor"] = quality.element_factor;
-  json["cluster_factor"] = quality.cluster_factor;
-  json["refine"] = quality.refine;
-  json["hemicube"] = quality.hemicube;
-  json["shot_points"] = quality.shot_points;
-  json["emission_records"] = quality.emission_records;
-  json["unshot"] = quality.unshot;
-  json["max_shots"] = quality.max_shots;
-  json["bounces"] = quality.bounces;
-  json["direct"] = quality.shadow_rays ? "shadow-rays" : "radiosity";
-  json["texels"] = quality.texels;
-  json["two_sided_lights"] = quality.two_sided_lights;
-  json["seed"] = quality.seed;
+  const auto bears = [](const Option& option) {
+    return option.group == OptionGroup::view || option.group == OptionGroup::quality || option.key == "layers";
+  };
+  add_options(json, settings, [&](const Option& option) { return bears(option) && !comes_late(option); });
+  add_options(json, settings, [&](const Option& option) { return bears(option) && comes_late(option); });
 }
 
-void add_machine(Json& json, const RunDescription& run, const RenderFigures* figures) {
-  const MachineChoice& machine = run.machine;
+void add_machine(Json& json, const AllSettings& settings, const RenderFigures* figures) {
+  const MachineChoice& machine = settings.machine;
   json["pes"] = {machine.columns, machine.rows};
   if (figures != nullptr || machine.pe_memory)
     json["pe_memory"] = figures != nullptr ? figures->local_memory_bytes : *machine.pe_memory;
@@ -98,13 +108,7 @@ void add_machine(Json& json, const RunDescription& run, const RenderFigures* fig
   json["automatic"] = Json::array();
   if (!machine.pe_memory) json["automatic"].push_back("pe_memory");
   if (!machine.subspaces) json["automatic"].push_back("subspaces");
-  json["scheme"] = name_of(machine.scheme);
-  json["allocation"] = machine.allocation;
-  json["replicate"] = value_or_auto(machine.replicate);
-  json["points"] = name_of(machine.points);
-  json["empty"] = name_of(machine.empty);
-  json["camera_rays"] = name_of(machine.camera_rays);
-  json["skip_empty_subspaces"] = machine.skip_empty_subspaces;
+  add_options(json, settings, [](const Option& option) { return option.group == OptionGroup::machine; });
   if (!machine.debugging.qemu_pes.empty()) json["qemu_pes"] = machine.debugging.qemu_pes;
   json["machine"] = machine_json(machine.description);
 }
@@ -121,9 +125,10 @@ Json settings_json(const RunDescription& run, const RenderFigures* figures) {
   json["studio"] = run.inputs.studio;
   if (run.inputs.missing_are_white) json["missing_materials"] = "white";
   json["inputs"] = inputs_json(run.inputs.files);
-  add_view(json, run);
-  add_quality(json, run);
-  add_machine(json, run, figures);
+  const AllSettings settings{run.quality, run.tone, run.machine};
+  add_camera(json, run);
+  add_picture(json, run, settings);
+  add_machine(json, settings, figures);
   return json;
 }
 

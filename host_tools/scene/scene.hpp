@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/settings/given_settings.hpp"
+
 namespace torolux {
 
 using Vec3d = std::array<double, 3>;
@@ -70,15 +72,16 @@ struct Camera {
   double field_of_view_degrees = 40;  ///< vertical
 };
 
+/// A value that is read only where nothing outweighs it.
+struct PlacedText {
+  std::string text;
+  std::string place;  ///< FILE:LINE, for messages
+};
+
 /// Values that a scene.toml suggests for options the user did not give.
 struct SceneDefaults {
-  std::optional<std::uint32_t> width, height, samples, hemicube, shot_points, emission_records, max_shots, bounces,
-      texels;
-  std::optional<double> exposure_ev, patch_length, element_length, refine, unshot;
-  std::optional<std::string> subspaces, allocation, filter, quality;
-  std::string subspaces_place, allocation_place, filter_place, quality_place;  ///< FILE:LINE of these, for messages
-  std::optional<bool> two_sided_lights, shadow_rays;
-  std::optional<std::uint64_t> seed;
+  GivenSettings given;
+  std::optional<PlacedText> subspaces, allocation, quality;
 };
 
 struct Scene {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Reads scene.toml: meshes, material overrides, lights, camera, defaults.
 #include "host_tools/scene/scene_file.hpp"
-#include "host_tools/settings/quality.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <variant>
+
+#include "emulator/nearest_name.hpp"
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/toml_table.hpp"
@@ -106,41 +111,70 @@ Camera read_camera(TomlTable table) {
   return camera;
 }
 
-std::optional<std::uint32_t> narrow(std::optional<std::uint64_t> value) {
-  if (!value) return std::nullopt;
-  return static_cast<std::uint32_t>(*value);
-}
+/// Reads an option's key of [defaults] into settings, in which it is then given.
+class DefaultReader {
+ public:
+  DefaultReader(const Option& option, TomlTable& table, GivenSettings& given)
+      : option_(option), table_(table), given_(given) {}
+
+  template <class Integer>
+  void operator()(const option::Count<Integer>& kind) const {
+    constexpr std::uint64_t kMostInToml = std::numeric_limits<std::int64_t>::max();
+    const auto value = table_.integer(key(), kind.least, std::min(kind.most, kMostInToml));
+    if (!value) return;
+    if (kind.even && *value % 2 != 0)
+      refuse(table_.place(key()), "[defaults] '" + option_.scene_key + "' must be even");
+    kind.member.in(given_.give(option_)) = static_cast<Integer>(*value);
+  }
+  void operator()(const option::Number& kind) const { put(kind.member, table_.number(key(), kind.least, kind.most)); }
+  void operator()(const option::Length& kind) const { put(kind.member, table_.number(key(), 1e-15, kMost)); }
+  void operator()(const option::Fraction& kind) const { put(kind.member, table_.number(key(), 0, 1)); }
+  void operator()(const option::Flag& kind) const { put(kind.member, table_.flag(key())); }
+  void operator()(const option::Choice& kind) const {
+    if (kind.flag_in_scene) {
+      if (const auto flag = table_.flag(key())) kind.member.put(given_.give(option_), *flag ? 1 : 0);
+      return;
+    }
+    const auto name = table_.text(key());
+    if (!name) return;
+    const auto found = std::ranges::find(kind.names, *name);
+    if (found == kind.names.end())
+      refuse(table_.place(key()), "[defaults] '" + option_.scene_key +
+                                      "': " + no_such_name(*name, kind.kind, {kind.names.begin(), kind.names.end()}));
+    kind.member.put(given_.give(option_), static_cast<std::size_t>(found - kind.names.begin()));
+  }
+  template <class Kind>
+  void operator()(const Kind& kind) const {
+    static_cast<void>(kind);
+    throw std::logic_error("a scene has no form for " + option_.name);
+  }
+
+ private:
+  std::string_view key() const { return option_.scene_key; }
+  template <class Value, class Read>
+  void put(const option::Member<Value>& member, const std::optional<Read>& value) const {
+    if (value) member.in(given_.give(option_)) = *value;
+  }
+
+  const Option& option_;
+  TomlTable& table_;
+  GivenSettings& given_;
+};
 
 SceneDefaults read_defaults(TomlTable table) {
-  SceneDefaults d;
-  d.width = narrow(table.integer("width", 1, 32768));
-  d.height = narrow(table.integer("height", 1, 32768));
-  d.samples = narrow(table.integer("samples", 1, kMostSamples));
-  d.hemicube = narrow(table.integer("hemicube", 4, 256));
-  if (d.hemicube && *d.hemicube % 2 != 0) refuse(table.place("hemicube"), "[defaults] 'hemicube' must be even");
-  d.shot_points = narrow(table.integer("shot_points", 1, 64));
-  d.emission_records = narrow(table.integer("emission_records", 0, kMostEmissionRecords));
-  d.max_shots = narrow(table.integer("max_shots", 0, 0xFFFF'FFFFU));
-  d.bounces = narrow(table.integer("bounces", 1, 255));
-  d.texels = narrow(table.integer("texels", 1, 4U << 20U));
-  d.exposure_ev = table.number("exposure", -50, 50);
-  d.patch_length = table.number("patches", 1e-15, kMost);
-  d.element_length = table.number("elements", 1e-15, kMost);
-  d.refine = table.number("refine", 0, 100);
-  d.unshot = table.number("unshot", 0, 1);
-  d.subspaces = table.text("subspaces");
-  d.allocation = table.text("allocation");
-  d.filter = table.text("filter");
-  d.quality = table.text("quality");
-  if (d.quality) d.quality_place = table.place("quality").text();
-  if (d.filter) d.filter_place = table.place("filter").text();
-  if (d.subspaces) d.subspaces_place = table.place("subspaces").text();
-  if (d.allocation) d.allocation_place = table.place("allocation").text();
-  d.two_sided_lights = table.flag("two_sided_lights");
-  d.shadow_rays = table.flag("shadow_rays");
-  d.seed = table.integer("seed", 0, 0x7FFF'FFFF'FFFF'FFFFU);
+  SceneDefaults defaults;
+  for (const Option& option : all_options()) {
+    if (!option.scene_key.empty()) std::visit(DefaultReader(option, table, defaults.given), option.kind);
+  }
+  const auto text = [&table](std::string_view key) -> std::optional<PlacedText> {
+    const auto value = table.text(key);
+    return value ? std::optional(PlacedText{*value, table.place(key).text()}) : std::nullopt;
+  };
+  defaults.subspaces = text("subspaces");
+  defaults.allocation = text("allocation");
+  defaults.quality = text("quality");
   table.finish();
-  return d;
+  return defaults;
 }
 
 }  // namespace

@@ -5,20 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
-#include "firmware/protocol/stores.hpp"
+#include "host_tools/settings/options.hpp"
+#include "host_tools/settings/overloaded.hpp"
 
 namespace torolux {
 namespace {
 
-/// `value` was chosen where the preset has `was`; a whole number from 1 to `most`.
-std::uint32_t in_measure(std::uint32_t value, std::uint32_t was, std::uint32_t is, double most) {
-  return static_cast<std::uint32_t>(std::lround(std::clamp(static_cast<double>(value) * is / was, 1.0, most)));
-}
-
+/// `value` was chosen where the preset has `was`.
 double in_measure(double value, double was, double is) {
   if (was == is) return value;  // to the last bit
-  return value == was ? is : value * is / was;
+  return value == was || was == 0 ? is : value * is / was;
+}
+
+/// Even where it must be; at least 1.
+std::uint64_t in_measure(std::uint64_t value, std::uint64_t was, std::uint64_t is, const auto& count) {
+  const double most = static_cast<double>(count.even ? count.most - 1 : count.most);
+  const double wanted = static_cast<double>(value) * static_cast<double>(is) / static_cast<double>(was);
+  const auto whole = static_cast<std::uint64_t>(std::lround(std::clamp(wanted, 1.0, most)));
+  return std::max(count.least, count.even ? (whole + 1) / 2 * 2 : whole);
 }
 
 }  // namespace
@@ -29,28 +35,36 @@ std::optional<Preset> preset_named(std::string_view name) {
 }
 
 void apply(const Preset& preset, Quality& quality) {
-  quality.patch_factor = preset.patch_factor;
-  quality.element_factor = preset.element_factor;
-  quality.hemicube = preset.hemicube;
-  quality.shot_points = preset.shot_points;
-  quality.emission_records = preset.emission_records;
-  quality.unshot = preset.unshot;
-  quality.refine = preset.refine;
-  quality.samples = preset.samples;
+  const AllSettings from{preset.quality, {}, {}};
+  AllSettings to{quality, {}, {}};
+  for (const Option& option : all_options()) {
+    if (option.in_presets) copy_value(option, from, to);
+  }
+  quality = to.quality;
 }
 
 void change_preset(const Preset& was, const Preset& is, Quality& quality) {
-  quality.patch_factor = is.patch_factor;
-  quality.element_factor = is.element_factor;
-  const std::uint32_t pixels = in_measure(quality.hemicube, was.hemicube, is.hemicube, protocol::kMostHemicubeSize - 1);
-  quality.hemicube = std::max(4U, (pixels + 1) / 2 * 2);
-  quality.shot_points = in_measure(quality.shot_points, was.shot_points, is.shot_points, protocol::kMostShotPoints);
-  quality.emission_records =
-      in_measure(quality.emission_records, was.emission_records, is.emission_records, kMostEmissionRecords);
-  quality.unshot = std::min(in_measure(quality.unshot, was.unshot, is.unshot), 1.0);
-  const bool refined = quality.refine > was.refine && is.patch_factor <= was.patch_factor;
-  quality.refine = refined ? std::max(quality.refine, is.refine) : is.refine;
-  quality.samples = in_measure(quality.samples, was.samples, is.samples, kMostSamples);
+  const AllSettings before{was.quality, {}, {}};
+  const AllSettings after{is.quality, {}, {}};
+  AllSettings settings{quality, {}, {}};
+  const Overloaded change{
+      [&](const option::Number& kind) {
+        const double value = in_measure(kind.member.of(settings), kind.member.of(before), kind.member.of(after));
+        kind.member.in(settings) = std::clamp(value, kind.least, kind.most);
+      },
+      [&]<class Integer>(const option::Count<Integer>& kind) {
+        kind.member.in(settings) = static_cast<Integer>(
+            in_measure(kind.member.of(settings), kind.member.of(before), kind.member.of(after), kind));
+      },
+      [&](const auto& kind) { static_cast<void>(kind); },
+  };
+  for (const Option& option : all_options()) {
+    if (option.in_presets) std::visit(change, option.kind);
+  }
+  const double refine = quality.refine;
+  quality = settings.quality;
+  const bool refined = refine > was.quality.refine && is.quality.patch_factor <= was.quality.patch_factor;
+  quality.refine = refined ? std::max(refine, is.quality.refine) : is.quality.refine;
 }
 
 }  // namespace torolux

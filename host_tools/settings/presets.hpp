@@ -13,18 +13,29 @@ namespace torolux {
 struct Preset {
   std::string_view name;
   std::string_view what;
-  double patch_factor, element_factor;  ///< of their lengths, times what the scene says or what is chosen for it
-  std::uint32_t hemicube, shot_points, emission_records;
-  double unshot;
-  double refine;
-  std::uint32_t samples;
+  Quality quality;  ///< of it the options that are in_presets; factors multiply what the scene says or is chosen for it
 };
 
 /// `normal` is what Quality has built in.
 inline constexpr std::array<Preset, 3> kPresets{{
-    {"draft", "a few seconds: to see what is there", 2, 2, 8, 3, 500'000, 0.02, 0, 4},
-    {"normal", "the default", 1, 1, 8, 6, 4'000'000, 0.002, 0, 16},
-    {"fine", "minutes: little noise, light followed into corners", 0.5, 2, 8, 16, 24'000'000, 0.0005, 4, 64},
+    {"draft",
+     "a few seconds: to see what is there",
+     {.samples = 4,
+      .patch_factor = 2,
+      .element_factor = 2,
+      .shot_points = 3,
+      .emission_records = 500'000,
+      .unshot = 0.02}},
+    {"normal", "the default", {}},
+    {"fine",
+     "minutes: little noise, light followed into corners",
+     {.samples = 64,
+      .patch_factor = 0.5,
+      .element_factor = 2,
+      .refine = 4,
+      .shot_points = 16,
+      .emission_records = 24'000'000,
+      .unshot = 0.0005}},
 }};
 
 /// Absent: there is none of this name.

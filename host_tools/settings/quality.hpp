@@ -20,9 +20,9 @@ struct Quality {
   std::uint32_t width = 512, height = 512;
   std::uint32_t samples = 16;  ///< per pixel
   PixelFilter filter = PixelFilter::box;
-  LayerSet layers = 0;                 ///< of the picture, besides its colours, which they do not change
-  std::optional<double> patch_length;  ///< longest edge, scene units; absent: auto
-  std::optional<double> element_length;
+  LayerSet layers = 0;                                ///< of the picture, besides its colours, which they do not change
+  std::optional<double> patch_length = std::nullopt;  ///< longest edge, scene units; absent: auto
+  std::optional<double> element_length = std::nullopt;
   double patch_factor = 1, element_factor = 1;  ///< of lengths that are chosen by themselves
   /// Of elements of several small triangles each, which are not refined, times the length of the others.
   double cluster_factor = 1;

@@ -66,6 +66,10 @@ constexpr RayMaker camera_rays_of(Scheme scheme) {
 constexpr const char* allocation_of(Scheme scheme) {
   return scheme == Scheme::paper ? "skewed" : "balanced";
 }
+/// All allocations, as messages name them.
+inline constexpr std::string_view kAllocations =
+    "skewed, skewed:AB (A, B two of x, y, z), skewed-both, modulo, block, balanced";
+
 /// Most of a PE's memory for copies of subspaces, 0..1; absent: what fits.
 constexpr std::optional<double> replicate_of(Scheme scheme) {
   return scheme == Scheme::paper ? std::optional(0.0) : std::nullopt;

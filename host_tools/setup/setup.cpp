@@ -11,6 +11,7 @@
 #include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/random.hpp"
 #include "host_tools/camera/pixel_samples.hpp"
+#include "host_tools/settings/options.hpp"
 #include "host_tools/setup/placements.hpp"
 
 namespace torolux {
@@ -30,18 +31,11 @@ void require(bool holds, const std::string& what) {
 void check(const Quality& quality, const MachineChoice& machine) {
   require(quality.width > 0 && quality.height > 0 && std::uint64_t{quality.width} * quality.height <= kMostPixels,
           "--size: at least 1x1 and at most " + std::to_string(kMostPixels) + " pixels");
-  require(quality.samples > 0 && quality.samples <= kMostSamples, "--samples: 1 to " + std::to_string(kMostSamples));
-  require(quality.hemicube >= 4 && quality.hemicube <= protocol::kMostHemicubeSize && quality.hemicube % 2 == 0,
-          "--hemicube: an even number from 4 to " + std::to_string(protocol::kMostHemicubeSize));
-  require(quality.shot_points > 0 && quality.shot_points <= protocol::kMostShotPoints,
-          "--shot-points: 1 to " + std::to_string(protocol::kMostShotPoints));
-  require(quality.bounces > 0 && quality.bounces <= protocol::kMostBounces,
-          "--bounces: 1 to " + std::to_string(protocol::kMostBounces));
-  require(quality.refine >= 0 && quality.refine <= 100, "--refine: 0 to 100");
-  require(quality.texels > 0 && quality.texels <= kMostTexels, "--texels: 1 to " + std::to_string(kMostTexels));
-  require(quality.unshot >= 0 && quality.unshot <= 1, "--unshot: a fraction from 0 to 1");
-  require(!quality.patch_length || *quality.patch_length > 0, "--patches: a length greater than 0, or auto");
-  require(!quality.element_length || *quality.element_length > 0, "--elements: a length greater than 0, or auto");
+  const AllSettings settings{quality, {}, {}};
+  for (const Option& option : all_options()) {
+    if (option.bears_on == BearsOn::machine || option.name.empty()) continue;
+    if (const auto allowed = range_fault(option, settings)) throw UsageError(option.name + ": " + *allowed);
+  }
   require(
       machine.columns > 0 && machine.rows > 0 && std::uint64_t{machine.columns} * machine.rows <= protocol::kMostPes,
       "--pes: at least 1x1 and at most " + std::to_string(protocol::kMostPes) + " in all");

@@ -5,14 +5,12 @@
 
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <type_traits>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "host_tools/files/write_file.hpp"
-#include "host_tools/settings/presets.hpp"
 
 namespace torolux {
 namespace {
@@ -55,23 +53,6 @@ std::uint32_t crc32(std::span<const std::byte> bytes) {
   return ~crc;
 }
 
-/// FNV-1a over 64-bit words, with a final mix: names a scene, no defence against malice.
-class Hash {
- public:
-  void add(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x0000'0100'0000'01B3U;
-    value_ ^= value_ >> 29U;
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(const Vec3d& v) {
-    for (const double value : v) add(value);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xCBF2'9CE4'8422'2325U;
-};
-
 /// Writes `value` at the start of `bytes` and moves on; the caller has made room.
 template <typename T>
 void put(std::span<std::byte>& bytes, const T& value) {
@@ -89,82 +70,8 @@ T take(std::span<const std::byte>& bytes) {
   return value;
 }
 
-/// A setting that the saved radiosities were made with, and this run's, where they differ.
-struct Difference {
-  std::string option;  ///< without a value: it has none
-  std::string was, is;
-};
-
-std::string quality_name(double patch_factor) {
-  for (const Preset& preset : kPresets)
-    if (preset.patch_factor == patch_factor) return std::string(preset.name);
-  return std::to_string(patch_factor) + " times as long patches";
-}
-
-/// As short as it can be read back.
-std::string shortest(double value) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
-std::vector<Difference> differences(const RadiosityOrigin& saved, const RadiosityOrigin& run) {
-  std::vector<Difference> found;
-  const auto differ = [&found](const char* option, auto was, auto is, auto text) {
-    if (was != is) found.push_back({option, text(was), text(is)});
-  };
-  const auto number = [](auto value) {
-    if constexpr (std::is_integral_v<decltype(value)>)
-      return std::to_string(value);
-    else
-      return shortest(value);
-  };
-  const auto length = [](double value) { return value == 0 ? std::string("auto") : shortest(value); };
-  // A preset brings these with it; they are named where the preset is the same.
-  differ("--quality", saved.patch_factor, run.patch_factor, quality_name);
-  const bool same_preset = found.empty();
-  const auto differ_by_preset = [&](const char* option, auto was, auto is, auto text) {
-    if (same_preset) differ(option, was, is, text);
-  };
-  differ_by_preset("--patches", saved.patch_length, run.patch_length, length);
-  differ_by_preset("--elements", saved.element_length, run.element_length, length);
-  differ_by_preset("--refine", saved.refine, run.refine, number);
-  differ_by_preset("--unshot", saved.unshot, run.unshot, number);
-  differ("--seed", saved.seed, run.seed, [](std::uint64_t value) { return std::to_string(value); });
-  differ_by_preset("--hemicube", saved.hemicube, run.hemicube, number);
-  differ_by_preset("--shot-points", saved.shot_points, run.shot_points, number);
-  differ_by_preset("--emission-records", saved.emission_records, run.emission_records, number);
-  differ("--max-shots", saved.max_shots, run.max_shots, number);
-  differ("--bounces", saved.bounces, run.bounces, number);
-  differ("--texels", saved.texels, run.texels, number);
-  // Without a draft nothing was split for the sake of either way: the file serves both.
-  if (saved.refine > 0)
-    differ("--direct", saved.shadow_rays, run.shadow_rays,
-           [](std::uint32_t value) { return std::string(value != 0 ? "shadow-rays" : "radiosity"); });
-  return found;
-}
-
-/// Throws InputError with what differs, and the options that mend it.
-void check_settings(const RadiosityOrigin& saved, const RadiosityOrigin& run, const std::string& name) {
-  const auto refuse = [&name](const std::string& what) {
-    throw InputError(name + ": these radiosities were made with " + what);
-  };
-  if (saved.geometry != run.geometry) refuse("other geometry; make them anew, with --save-radiosity");
-  if (saved.materials != run.materials) refuse("other materials or lights; make them anew, with --save-radiosity");
-  if (saved.two_sided_lights != run.two_sided_lights)
-    refuse(saved.two_sided_lights != 0 ? "--two-sided-lights; give it"
-                                       : "lights of one side; leave --two-sided-lights out");
-  const std::vector<Difference> found = differences(saved, run);
-  std::string options;
-  for (const Difference& difference : found) options += " " + difference.option + " " + difference.was;
-  if (!found.empty())
-    refuse(found[0].option + " " + found[0].was + ", this run has " + found[0].is + "; give" + options +
-           ", or make them anew, with --save-radiosity");
-  if (saved.element_factor != run.element_factor || saved.cluster_factor != run.cluster_factor)
-    refuse("another --quality, or with --elements of another length");
-}
-
 void check_origin(const RadiosityOrigin& saved, const RadiosityOrigin& run, const std::string& name) {
-  check_settings(saved, run, name);
+  check_origin_settings(saved, run, name);
   if (saved.patch_sides != run.patch_sides || saved.elements != run.elements)
     throw InputError(name + ": these radiosities are of " + std::to_string(saved.patch_sides) + " patch sides and " +
                      std::to_string(saved.elements) + " elements, the scene has " + std::to_string(run.patch_sides) +
@@ -196,68 +103,14 @@ void check_flux(const protocol::Flux& flux, const std::string& name) {
 
 }  // namespace
 
-RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, const Mesh& mesh) {
-  Hash geometry;
-  for (const Vec3d& position : scene.positions) geometry.add(position);
-  for (const Vec3d& normal : scene.normals) geometry.add(normal);
-  for (const auto& [u, v] : scene.texture_points) {
-    geometry.add(u);
-    geometry.add(v);
-  }
-  for (const SceneTriangle& triangle : scene.triangles) {
-    for (const std::uint32_t index : triangle.position) geometry.add(std::uint64_t{index});
-    for (const std::uint32_t index : triangle.normal) geometry.add(std::uint64_t{index});
-    geometry.add(std::uint64_t{triangle.material});
-    geometry.add(std::uint64_t{triangle.texture_points});
-  }
-  Hash materials;
-  for (const SceneMaterial& material : scene.materials) {
-    materials.add(static_cast<std::uint64_t>(material.kind));
-    materials.add(material.diffuse);
-    materials.add(material.specular);
-    materials.add(material.exponent);
-    materials.add(std::uint64_t{material.texture});
-    materials.add(material.transmittance);
-    materials.add(material.refractive_index);
-    materials.add(material.emission);
-  }
-  for (const SceneTexture& texture : scene.textures) {
-    materials.add((std::uint64_t{texture.width} << 32U) | texture.height);
-    for (const auto& [r, g, b] : texture.texels)
-      materials.add((std::uint64_t{r} << 16U) | (std::uint64_t{g} << 8U) | b);
-  }
-  RadiosityOrigin origin;
-  origin.geometry = geometry.value();
-  origin.materials = materials.value();
-  origin.patch_length = quality.patch_length.value_or(0);
-  origin.element_length = quality.element_length.value_or(0);
-  origin.patch_factor = quality.patch_factor;
-  origin.element_factor = quality.element_factor;
-  origin.cluster_factor = quality.cluster_factor;
-  origin.refine = quality.refine;
-  origin.unshot = quality.unshot;
-  origin.seed = quality.seed;
-  origin.hemicube = quality.hemicube;
-  origin.shot_points = quality.shot_points;
-  origin.emission_records = quality.emission_records;
-  origin.max_shots = quality.max_shots;
-  origin.bounces = quality.bounces;
-  origin.texels = quality.texels;
-  origin.two_sided_lights = quality.two_sided_lights ? 1 : 0;
-  origin.shadow_rays = quality.shadow_rays ? 1 : 0;
-  origin.patch_sides = mesh.patch_sides;
-  origin.elements = mesh.elements;
-  return origin;
-}
-
 std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, std::span<const Split> splits,
                                       const Solution& solution) {
-  const std::size_t length = sizeof(RadiosityOrigin) + sizeof(std::uint64_t) + splits.size_bytes() + sizeof(SavedSums) +
+  const std::size_t length = sizeof(OriginBytes) + sizeof(std::uint64_t) + splits.size_bytes() + sizeof(SavedSums) +
                              solution.sides.size() * sizeof(SolvedSide) +
                              solution.elements.size() * sizeof(SolvedElement);
   std::vector<std::byte> bytes(sizeof(Head) + length);
   std::span<std::byte> rest = std::span(bytes).subspan(sizeof(Head));
-  put(rest, origin);
+  put(rest, bytes_of(origin));
   put(rest, std::uint64_t{splits.size()});
   for (const Split& split : splits) put(rest, split);
   put(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.shots});
@@ -277,12 +130,12 @@ SavedRadiosity parse_radiosity(std::span<const std::byte> bytes, const std::stri
     throw InputError(name + ": radiosity file of version " + std::to_string(head.version) + ", this program reads " +
                      std::to_string(kVersion));
   }
-  if (head.bytes != bytes.size() || bytes.size() < sizeof(RadiosityOrigin) + sizeof(std::uint64_t)) {
+  if (head.bytes != bytes.size() || bytes.size() < sizeof(OriginBytes) + sizeof(std::uint64_t)) {
     throw InputError(name + ": cut short or too long: " + std::to_string(bytes.size()) + " bytes after the head, " +
                      std::to_string(head.bytes) + " expected");
   }
   if (head.unused != 0 || crc32(bytes) != head.crc) throw InputError(name + ": damaged: its CRC-32 does not match");
-  SavedRadiosity saved{name, take<RadiosityOrigin>(bytes), {}, {}};
+  SavedRadiosity saved{name, origin_of(take<OriginBytes>(bytes)), {}, {}};
   const auto count = take<std::uint64_t>(bytes);
   if (count > bytes.size() / sizeof(Split)) throw InputError(name + ": damaged: its splits do not fit in");
   saved.splits.reserve(count);
@@ -295,7 +148,7 @@ SavedRadiosity parse_radiosity(std::span<const std::byte> bytes, const std::stri
 }
 
 void check_radiosity(const SavedRadiosity& saved, const Scene& scene, const Quality& quality) {
-  check_settings(saved.origin, radiosity_origin(scene, quality, Mesh{}), saved.name);
+  check_origin_settings(saved.origin, radiosity_origin(scene, quality, Mesh{}), saved.name);
 }
 
 Solution unpack_radiosity(const SavedRadiosity& saved, const RadiosityOrigin& expected, const Mesh& mesh) {

@@ -10,30 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/settings/quality.hpp"
+#include "host_tools/solution/radiosity_origin.hpp"
 #include "host_tools/solution/solution.hpp"
 
 namespace torolux {
-
-/// What a solution depends on: the scene's geometry and materials, and the quality settings of the radiosity stage.
-/// Camera, picture size, samples and machine are not among it.
-struct RadiosityOrigin {
-  std::uint64_t geometry = 0;                   ///< hash of positions and triangles
-  std::uint64_t materials = 0;                  ///< hash of all materials
-  double patch_length = 0, element_length = 0;  ///< 0: auto
-  double patch_factor = 1, element_factor = 1, cluster_factor = 1, refine = 0;
-  double unshot = 0;
-  std::uint64_t seed = 0;
-  std::uint32_t hemicube = 0, shot_points = 0, max_shots = 0, bounces = 0;
-  std::uint32_t two_sided_lights = 0;
-  std::uint32_t patch_sides = 0, elements = 0;  ///< of the mesh
-  std::uint32_t emission_records = 0;
-  std::uint32_t texels = 0;
-  std::uint32_t shadow_rays = 0;  ///< what splits were chosen for
-};
-static_assert(sizeof(RadiosityOrigin) == 120);
-
-RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, const Mesh& mesh);
 
 /// File: "TLXRAD" and version, CRC-32 and length of the rest, RadiosityOrigin, sums, splits, patch sides, elements;
 /// little-endian.

@@ -10,6 +10,7 @@
 #include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/cli/run_options.hpp"
 #include "host_tools/report/settings_json.hpp"
+#include "host_tools/settings/options.hpp"
 #include "host_tools/study/options.hpp"
 
 namespace torolux::study {
@@ -17,19 +18,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Options of render and run whose effect stands in the settings. Any other one comes into the key as it is written,
-/// so that an option that is forgotten here makes keys differ, never agree.
-constexpr std::array<std::string_view, 45> kSettled = {
-    "scene",     "image",     "studio",           "layers",  "exposure",   "tone-curve", "radiosity",
-    "size",      "samples",   "filter",           "eye",     "look-at",    "up",         "fov",
-    "quality",   "patches",   "elements",         "refine",  "hemicube",   "unshot",     "shot-points",
-    "max-shots", "bounces",   "emission-records", "direct",  "texels",     "seed",       "two-sided-lights",
-    "pes",       "pe-memory", "subspaces",        "scheme",  "allocation", "replicate",  "enter-empty",
-    "points",    "empty",     "camera-rays",      "machine", "engine",     "qemu-pes",   "jitter",
-    "fault",     "ideal",     "missing-materials"};
+/// Options of render and run whose effect stands in the settings beside those of the table. Any other one comes into
+/// the key as it is written, so that an option that is forgotten here makes keys differ, never agree.
+constexpr std::array<std::string_view, 20> kSettled = {
+    "scene",   "image",  "studio", "missing-materials", "radiosity", "size",      "eye",
+    "look-at", "up",     "fov",    "quality",           "pes",       "pe-memory", "subspaces",
+    "machine", "engine", "ideal",  "qemu-pes",          "jitter",    "fault"};
 
 bool settled(const std::string& name) {
-  return name.starts_with("machine.") || std::ranges::find(kSettled, name) != kSettled.end();
+  const auto in_settings = [&name](const Option& option) { return option.name == "--" + name && !option.key.empty(); };
+  return name.starts_with("machine.") || std::ranges::find(kSettled, name) != kSettled.end() ||
+         std::ranges::any_of(all_options(), in_settings);
 }
 
 std::vector<std::string> after_command(const std::vector<std::string>& words) {

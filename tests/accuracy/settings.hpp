@@ -12,11 +12,26 @@ namespace torolux::accuracy {
 using Setting = Preset;
 
 inline constexpr std::array<Setting, 6> kSettings = {{
-    {"coarse", "", 4, 4, 6, 2, 100'000, 0.1, 0, 2},
+    {"coarse",
+     "",
+     {.samples = 2,
+      .patch_factor = 4,
+      .element_factor = 4,
+      .hemicube = 6,
+      .shot_points = 2,
+      .emission_records = 100'000,
+      .unshot = 0.1}},
     kPresets[0],
-    {"rough", "", 1.4, 1.4, 8, 4, 1'500'000, 0.006, 0, 8},
+    {"rough",
+     "",
+     {.samples = 8,
+      .patch_factor = 1.4,
+      .element_factor = 1.4,
+      .shot_points = 4,
+      .emission_records = 1'500'000,
+      .unshot = 0.006}},
     kPresets[1],
-    {"good", "", 0.7, 1, 8, 6, 8'000'000, 0.001, 0.25, 32},
+    {"good", "", {.samples = 32, .patch_factor = 0.7, .refine = 0.25, .emission_records = 8'000'000, .unshot = 0.001}},
     kPresets[2],
 }};
 

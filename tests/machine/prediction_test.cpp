@@ -77,8 +77,8 @@ TEST_P(PredictionOfEffects, IsWithinAQuarter) {
   const Scene scene = load_scene(render_case.scene, {});
   Quality& quality = render_case.quality;
   apply(kPresets[0], quality);
-  quality.patch_length = scene.defaults.patch_length;
-  quality.element_length = scene.defaults.element_length;
+  quality.patch_length = scene.defaults.given.values().quality.patch_length;
+  quality.element_length = scene.defaults.given.values().quality.element_length;
   for (auto* length : {&quality.patch_length, &quality.element_length}) {
     if (*length) **length *= 4;
   }

@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 
 #include "emulator/errors.hpp"
+#include "host_tools/settings/scheme.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace torolux {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing_support::message_of;
 
@@ -38,18 +40,6 @@ TEST(ParsePes, AtMostAsManyAsHaveNumbers) {
 TEST(ParseSubspaces, TakesThreeNumbersOrAuto) {
   EXPECT_EQ(parse_subspaces("8x4x2"), (std::array<std::uint32_t, 3>{8, 4, 2}));
   EXPECT_EQ(parse_subspaces("auto"), std::nullopt);
-  EXPECT_EQ(parse_scheme("paper"), Scheme::paper);
-  EXPECT_EQ(parse_scheme("spread"), Scheme::spread);
-  EXPECT_THROW(parse_scheme("Paper"), UsageError);
-  EXPECT_EQ(parse_points("travel"), Points::travel);
-  EXPECT_EQ(parse_points("stay"), Points::stay);
-  EXPECT_THROW(parse_points("go"), UsageError);
-  EXPECT_EQ(parse_empty("over"), Empty::over);
-  EXPECT_EQ(parse_empty("enter"), Empty::enter);
-  EXPECT_THROW(parse_empty(""), UsageError);
-  EXPECT_EQ(parse_ray_maker("pes"), RayMaker::pes);
-  EXPECT_EQ(parse_ray_maker("host"), RayMaker::host);
-  EXPECT_THROW(parse_ray_maker("pe"), UsageError);
   EXPECT_EQ(parse_fraction("auto"), std::nullopt);
   EXPECT_EQ(parse_fraction("0.25"), 0.25);
   EXPECT_THROW(parse_fraction("1.5"), InputError);
@@ -109,21 +99,12 @@ TEST(ParseNumber, HasLimits) {
   EXPECT_THROW(parse_number("nan", 0, 1), UsageError);
 }
 
-TEST(ParseDirect, KnowsTwoWays) {
-  EXPECT_TRUE(parse_direct("shadow-rays"));
-  EXPECT_FALSE(parse_direct("radiosity"));
-  for (const char* text : {"", "shadow", "shadow-rays "}) EXPECT_THROW(parse_direct(text), UsageError) << text;
-}
-
-TEST(ParseFilter, KnowsThreeNames) {
-  EXPECT_EQ(parse_filter("tent"), PixelFilter::tent);
-  for (const char* text : {"", "Tent", "mitchell"}) EXPECT_THROW(parse_filter(text), UsageError) << text;
-}
-
-TEST(ParseToneCurve, KnowsTwoNames) {
-  EXPECT_EQ(parse_tone_curve("filmic"), ToneCurve::filmic);
-  EXPECT_EQ(parse_tone_curve("linear"), ToneCurve::linear);
-  for (const char* text : {"", "aces", "Filmic"}) EXPECT_THROW(parse_tone_curve(text), UsageError) << text;
+TEST(ParseName, GivesItsNumber) {
+  EXPECT_EQ(parse_name("spread", kSchemeNames, "no scheme"), 0U);
+  EXPECT_EQ(parse_name("paper", kSchemeNames, "no scheme"), 1U);
+  for (const char* text : {"", "Paper", "paper "})
+    EXPECT_THAT(message_of<UsageError>([&] { parse_name(text, kSchemeNames, "no scheme"); }),
+                AllOf(HasSubstr("no scheme"), HasSubstr("spread, paper")));
 }
 
 TEST(ParseLayers, TakesNamesOrAll) {

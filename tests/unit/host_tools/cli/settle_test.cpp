@@ -17,25 +17,25 @@ Scene scene_with_defaults() {
   Scene scene;
   scene.name = "room";
   scene.camera = Camera{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 55};
-  SceneDefaults& d = scene.defaults;
-  d.width = 101;
-  d.height = 102;
-  d.samples = 103;
-  d.hemicube = 104;
-  d.shot_points = 5;
-  d.emission_records = 108;
-  d.max_shots = 106;
-  d.bounces = 107;
-  d.exposure_ev = 1.5;
-  d.patch_length = 2.5;
-  d.element_length = 3.5;
-  d.unshot = 0.25;
-  d.subspaces = "2x3x4";
-  d.allocation = "block";
-  d.seed = 99;
-  d.two_sided_lights = true;
-  d.shadow_rays = true;
-  d.filter = "box";
+  GivenSettings& d = scene.defaults.given;
+  d.set(&Quality::width, 101);
+  d.set(&Quality::height, 102);
+  d.set(&Quality::samples, 103);
+  d.set(&Quality::hemicube, 104);
+  d.set(&Quality::shot_points, 5);
+  d.set(&Quality::emission_records, 108);
+  d.set(&Quality::max_shots, 106);
+  d.set(&Quality::bounces, 107);
+  d.set(&ToneMapping::exposure_ev, 1.5);
+  d.set(&Quality::patch_length, 2.5);
+  d.set(&Quality::element_length, 3.5);
+  d.set(&Quality::unshot, 0.25);
+  scene.defaults.subspaces = PlacedText{"2x3x4", ""};
+  scene.defaults.allocation = PlacedText{"block", ""};
+  d.set(&Quality::seed, 99);
+  d.set(&Quality::two_sided_lights, true);
+  d.set(&Quality::shadow_rays, true);
+  d.set(&Quality::filter, PixelFilter::box);
   return scene;
 }
 
@@ -68,13 +68,13 @@ TEST(Settle, BuiltInValues) {
 TEST(Settle, AllocationFollowsTheScheme) {
   RenderOptions options;
   EXPECT_EQ(settle(options, bare_scene()).machine.allocation, allocation_of(MachineChoice().scheme));
-  options.scheme = Scheme::spread;
+  options.given.set(&MachineChoice::scheme, Scheme::spread);
   EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "balanced");
-  options.scheme = Scheme::paper;
+  options.given.set(&MachineChoice::scheme, Scheme::paper);
   EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "skewed");
   EXPECT_EQ(settle(options, scene_with_defaults()).machine.allocation, "block") << "the scene's";
-  options.allocation = "modulo";
-  options.replicate = ReplicateOption{0.25};
+  options.given.set(&MachineChoice::allocation, "modulo");
+  options.given.set(&MachineChoice::replicate, 0.25);
   EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "modulo");
   EXPECT_EQ(settle(options, bare_scene()).machine.replicate, 0.25);
 }
@@ -86,17 +86,17 @@ TEST(Settle, EachStepFollowsTheSchemeUnlessGiven) {
   EXPECT_EQ(machine().empty, Empty::over);
   EXPECT_EQ(machine().camera_rays, RayMaker::pes);
   EXPECT_EQ(machine().replicate, std::nullopt);
-  options.scheme = Scheme::paper;
+  options.given.set(&MachineChoice::scheme, Scheme::paper);
   EXPECT_EQ(machine().points, Points::stay);
   EXPECT_EQ(machine().empty, Empty::enter);
   EXPECT_EQ(machine().camera_rays, RayMaker::host);
   EXPECT_EQ(machine().replicate, 0.0);
-  options.points = Points::travel;
+  options.given.set(&MachineChoice::points, Points::travel);
   EXPECT_EQ(machine().points, Points::travel);
   EXPECT_EQ(machine().empty, Empty::enter) << "one at a time";
-  options.empty = Empty::over;
-  options.camera_rays = RayMaker::pes;
-  options.replicate = ReplicateOption{};
+  options.given.set(&MachineChoice::empty, Empty::over);
+  options.given.set(&MachineChoice::camera_rays, RayMaker::pes);
+  options.given.set(&MachineChoice::replicate, std::nullopt);
   EXPECT_EQ(machine().empty, Empty::over);
   EXPECT_EQ(machine().camera_rays, RayMaker::pes);
   EXPECT_EQ(machine().replicate, std::nullopt) << "auto outweighs the scheme's 0";
@@ -128,27 +128,29 @@ TEST(Settle, SceneOutweighsBuiltIn) {
 
 RenderOptions all_given() {
   RenderOptions options;
-  options.size = {{11, 12}};
-  options.samples = 13;
-  options.hemicube = 14;
-  options.shot_points = 15;
-  options.emission_records = 21;
-  options.max_shots = 16;
-  options.bounces = 17;
-  options.patches = LengthOption{};  // auto, given
-  options.elements = LengthOption{18};
-  options.unshot = 0.19;
-  options.seed = 20;
-  options.shadow_rays = false;
-  options.filter = PixelFilter::gaussian;
-  options.layers = 6;
-  options.tone.exposure_ev = -2;
-  options.tone.curve = ToneCurve::linear;
-  options.subspaces = SubspacesOption{};  // auto, given
-  options.allocation = "modulo";
-  options.pes = {{3, 5}};
-  options.pe_memory = 1U << 20U;
-  options.threads = 2;
+  options.given.set(&Quality::width, 11);
+  options.given.set(&Quality::height, 12);
+  options.given.set(&Quality::samples, 13);
+  options.given.set(&Quality::hemicube, 14);
+  options.given.set(&Quality::shot_points, 15);
+  options.given.set(&Quality::emission_records, 21);
+  options.given.set(&Quality::max_shots, 16);
+  options.given.set(&Quality::bounces, 17);
+  options.given.set(&Quality::patch_length, std::nullopt);  // auto, given
+  options.given.set(&Quality::element_length, 18);
+  options.given.set(&Quality::unshot, 0.19);
+  options.given.set(&Quality::seed, 20);
+  options.given.set(&Quality::shadow_rays, false);
+  options.given.set(&Quality::filter, PixelFilter::gaussian);
+  options.given.set(&Quality::layers, 6);
+  options.given.set(&ToneMapping::exposure_ev, -2);
+  options.given.set(&ToneMapping::curve, ToneCurve::linear);
+  options.given.set(&MachineChoice::subspaces, std::nullopt);  // auto, given
+  options.given.set(&MachineChoice::allocation, "modulo");
+  options.given.set(&MachineChoice::columns, 3);
+  options.given.set(&MachineChoice::rows, 5);
+  options.given.set(&MachineChoice::pe_memory, 1U << 20U);
+  options.given.set(&MachineChoice::threads, 2);
   options.eye = {{1, 2, 3}};
   options.field_of_view_degrees = 33;
   options.outputs = {"a.exr", "b.pfm"};
@@ -213,12 +215,12 @@ TEST(Settle, APresetIsAllThatABareSceneGets) {
 // A scene says what it needs at `normal`, or at the preset that it names.
 TEST(Settle, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   Scene scene = bare_scene();
-  scene.defaults.samples = 32;
-  scene.defaults.emission_records = 12'000'000;
-  scene.defaults.patch_length = 2;
-  scene.defaults.element_length = 1;
-  scene.defaults.refine = 6;
-  scene.defaults.shadow_rays = false;
+  scene.defaults.given.set(&Quality::samples, 32);
+  scene.defaults.given.set(&Quality::emission_records, 12'000'000);
+  scene.defaults.given.set(&Quality::patch_length, 2);
+  scene.defaults.given.set(&Quality::element_length, 1);
+  scene.defaults.given.set(&Quality::refine, 6);
+  scene.defaults.given.set(&Quality::shadow_rays, false);
   const Quality fine = quality_of(scene, "fine");
   EXPECT_EQ(fine.samples, 128U);
   EXPECT_EQ(fine.emission_records, 72'000'000U);
@@ -234,7 +236,7 @@ TEST(Settle, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   EXPECT_EQ(draft.element_length, 2.0);
   EXPECT_EQ(draft.refine, 0.0);
   EXPECT_FALSE(draft.shadow_rays);
-  scene.defaults.quality = "fine";
+  scene.defaults.quality = PlacedText{"fine", ""};
   EXPECT_EQ(quality_of(scene, "fine").samples, 32U);
   EXPECT_EQ(quality_of(scene, "normal").samples, 8U);
 }
@@ -251,11 +253,11 @@ TEST(Settle, PresetsSendNoShadowRaysToLargeEmitters) {
   EXPECT_FALSE(quality_of(scene, "fine").shadow_rays) << "three quarters of all surface emit";
   RenderOptions options;
   options.preset = preset_named("fine");
-  options.shadow_rays = true;
+  options.given.set(&Quality::shadow_rays, true);
   EXPECT_TRUE(settle(options, scene).quality.shadow_rays) << "asked for";
-  scene.defaults.shadow_rays = true;
+  scene.defaults.given.set(&Quality::shadow_rays, true);
   EXPECT_TRUE(quality_of(scene, "fine").shadow_rays) << "the scene asks for them";
-  scene.defaults.shadow_rays.reset();
+  scene.defaults.given.forget(&Quality::shadow_rays);
   scene.positions[3] = {0, 0.1, 0};
   EXPECT_TRUE(quality_of(scene, "fine").shadow_rays) << "a tenth";
 }
@@ -267,26 +269,24 @@ TEST(Settle, ClustersAreAsFineAsPatches) {
   EXPECT_EQ(quality_of(bare_scene(), "fine").cluster_factor, 0.25);
   RenderOptions options;
   options.preset = preset_named("fine");
-  options.elements = LengthOption{0.5};
+  options.given.set(&Quality::element_length, 0.5);
   EXPECT_EQ(settle(options, bare_scene()).quality.cluster_factor, 1.0);
 }
 
 TEST(Settle, FaultsOfTheSceneNameTheirPlace) {
   Scene scene = scene_with_defaults();
-  scene.defaults.subspaces = "2x3";
-  scene.defaults.subspaces_place = "room/scene.toml:7";
+  scene.defaults.subspaces = PlacedText{"2x3", "room/scene.toml:7"};
   EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }),
               testing::StartsWith("room/scene.toml:7: [defaults] 'subspaces'"));
   scene = scene_with_defaults();
-  scene.defaults.allocation = "heaps";
+  scene.defaults.allocation = PlacedText{"heaps", "room/scene.toml:8"};
   EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }), HasSubstr("heaps"));
-  Scene filtered = scene_with_defaults();
-  filtered.defaults.filter = "round";
-  filtered.defaults.filter_place = "room/scene.toml:9";
-  EXPECT_THAT(message_of<InputError>([&] { settle({}, filtered); }),
-              testing::AllOf(testing::StartsWith("room/scene.toml:9: [defaults] 'filter'"), HasSubstr("round")));
+  Scene fair = scene_with_defaults();
+  fair.defaults.quality = PlacedText{"good", "room/scene.toml:9"};
+  EXPECT_THAT(message_of<InputError>([&] { settle({}, fair); }),
+              testing::AllOf(testing::StartsWith("room/scene.toml:9: [defaults] 'quality'"), HasSubstr("good")));
   RenderOptions options;
-  options.allocation = "block";
+  options.given.set(&MachineChoice::allocation, "block");
   EXPECT_NO_THROW(settle(options, scene)) << "outweighed, so it does not matter";
 }
 

@@ -54,52 +54,59 @@ std::string preset() {
 
 SceneDefaults any_defaults() {
   SceneDefaults d;
-  perhaps([&] { d.quality = preset(); });
-  perhaps([&] { d.width = whole<std::uint32_t>(1, 4096); });
-  perhaps([&] { d.samples = whole<std::uint32_t>(1, 65536); });
-  perhaps([&] { d.hemicube = 2 * whole<std::uint32_t>(2, 128); });
-  perhaps([&] { d.shot_points = whole<std::uint32_t>(1, 64); });
-  perhaps([&] { d.emission_records = whole<std::uint32_t>(0, 1'000'000'000); });
-  perhaps([&] { d.exposure_ev = real(-50, 50); });
-  perhaps([&] { d.patch_length = real(1e-3, 10); });
-  perhaps([&] { d.element_length = real(1e-3, 10); });
-  perhaps([&] { d.refine = real(0, 100); });
-  perhaps([&] { d.unshot = *rc::gen::element(0.0, 1e-10, real(0, 1)); });
-  perhaps([&] { d.subspaces = "2x3x4"; });
-  perhaps([&] { d.allocation = allocation(); });
-  perhaps([&] { d.two_sided_lights = *rc::gen::arbitrary<bool>(); });
-  perhaps([&] { d.shadow_rays = *rc::gen::arbitrary<bool>(); });
+  perhaps([&] { d.quality = PlacedText{preset(), ""}; });
+  perhaps([&] { d.given.set(&Quality::width, whole<std::uint32_t>(1, 4096)); });
+  perhaps([&] { d.given.set(&Quality::samples, whole<std::uint32_t>(1, 65536)); });
+  perhaps([&] { d.given.set(&Quality::hemicube, 2 * whole<std::uint32_t>(2, 128)); });
+  perhaps([&] { d.given.set(&Quality::shot_points, whole<std::uint32_t>(1, 64)); });
+  perhaps([&] { d.given.set(&Quality::emission_records, whole<std::uint32_t>(0, 1'000'000'000)); });
+  perhaps([&] { d.given.set(&ToneMapping::exposure_ev, real(-50, 50)); });
+  perhaps([&] { d.given.set(&Quality::patch_length, real(1e-3, 10)); });
+  perhaps([&] { d.given.set(&Quality::element_length, real(1e-3, 10)); });
+  perhaps([&] { d.given.set(&Quality::refine, real(0, 100)); });
+  perhaps([&] { d.given.set(&Quality::unshot, *rc::gen::element(0.0, 1e-10, real(0, 1))); });
+  perhaps([&] { d.subspaces = PlacedText{"2x3x4", ""}; });
+  perhaps([&] { d.allocation = PlacedText{allocation(), ""}; });
+  perhaps([&] { d.given.set(&Quality::two_sided_lights, *rc::gen::arbitrary<bool>()); });
+  perhaps([&] { d.given.set(&Quality::shadow_rays, *rc::gen::arbitrary<bool>()); });
   return d;
 }
 
 void any_light(RenderOptions& o) {
   perhaps([&] { o.preset = preset_named(preset()); });
-  perhaps([&] { o.patches = LengthOption{length()}; });
-  perhaps([&] { o.elements = LengthOption{length()}; });
-  perhaps([&] { o.hemicube = 2 * whole<std::uint32_t>(2, 128); });
-  perhaps([&] { o.shot_points = whole<std::uint32_t>(1, 64); });
-  perhaps([&] { o.emission_records = whole<std::uint32_t>(0, 1'000'000'000); });
-  perhaps([&] { o.max_shots = whole<std::uint32_t>(0, 0xFFFF'FFFFU); });
-  perhaps([&] { o.bounces = whole<std::uint32_t>(1, 255); });
-  perhaps([&] { o.texels = whole<std::uint32_t>(1, kMostTexels); });
-  perhaps([&] { o.refine = real(0, 100); });
-  perhaps([&] { o.unshot = real(1e-9, 1); });
-  perhaps([&] { o.seed = whole<std::uint64_t>(0, ~std::uint64_t{0} - 1); });
-  perhaps([&] { o.shadow_rays = *rc::gen::arbitrary<bool>(); });
-  o.two_sided_lights = *rc::gen::arbitrary<bool>();
+  perhaps([&] { o.given.set(&Quality::patch_length, length()); });
+  perhaps([&] { o.given.set(&Quality::element_length, length()); });
+  perhaps([&] { o.given.set(&Quality::hemicube, 2 * whole<std::uint32_t>(2, 128)); });
+  perhaps([&] { o.given.set(&Quality::shot_points, whole<std::uint32_t>(1, 64)); });
+  perhaps([&] { o.given.set(&Quality::emission_records, whole<std::uint32_t>(0, 1'000'000'000)); });
+  perhaps([&] { o.given.set(&Quality::max_shots, whole<std::uint32_t>(0, 0xFFFF'FFFFU)); });
+  perhaps([&] { o.given.set(&Quality::bounces, whole<std::uint32_t>(1, 255)); });
+  perhaps([&] { o.given.set(&Quality::texels, whole<std::uint32_t>(1, kMostTexels)); });
+  perhaps([&] { o.given.set(&Quality::refine, real(0, 100)); });
+  perhaps([&] { o.given.set(&Quality::unshot, real(1e-9, 1)); });
+  perhaps([&] { o.given.set(&Quality::seed, whole<std::uint64_t>(0, ~std::uint64_t{0} - 1)); });
+  perhaps([&] { o.given.set(&Quality::shadow_rays, *rc::gen::arbitrary<bool>()); });
+  perhaps([&] { o.given.set(&Quality::two_sided_lights, true); });
 }
 
 void any_view(RenderOptions& o) {
-  perhaps([&] { o.size = {{whole<std::uint32_t>(1, 32768), whole<std::uint32_t>(1, 32768)}}; });
-  perhaps([&] { o.samples = whole<std::uint32_t>(1, 65536); });
-  perhaps([&] { o.filter = *rc::gen::element(PixelFilter::box, PixelFilter::tent, PixelFilter::gaussian); });
+  perhaps([&] {
+    o.given.set(&Quality::width, whole<std::uint32_t>(1, 32768));
+    o.given.set(&Quality::height, whole<std::uint32_t>(1, 32768));
+  });
+  perhaps([&] { o.given.set(&Quality::samples, whole<std::uint32_t>(1, 65536)); });
+  perhaps([&] {
+    o.given.set(&Quality::filter, *rc::gen::element(PixelFilter::box, PixelFilter::tent, PixelFilter::gaussian));
+  });
   perhaps([&] { o.eye = place(); });
   perhaps([&] { o.look_at = place(); });
   perhaps([&] { o.up = place(); });
   perhaps([&] { o.field_of_view_degrees = real(0.01, 179); });
-  perhaps([&] { o.tone.exposure_ev = real(-50, 50); });
-  perhaps([&] { o.tone.curve = ToneCurve::linear; });
-  for (const LayerName& layer : kLayerNames) perhaps([&] { o.layers |= protocol::plane_bit(layer.plane); });
+  perhaps([&] { o.given.set(&ToneMapping::exposure_ev, real(-50, 50)); });
+  perhaps([&] { o.given.set(&ToneMapping::curve, ToneCurve::linear); });
+  LayerSet layers = 0;
+  for (const LayerName& layer : kLayerNames) perhaps([&] { layers |= protocol::plane_bit(layer.plane); });
+  o.given.set(&Quality::layers, layers);
 }
 
 /// Of every third key a value that the key can have, or one that it has from the start.
@@ -124,20 +131,23 @@ std::vector<std::string> any_machine_values() {
 }
 
 void any_machine(RenderOptions& o) {
-  perhaps([&] { o.pes = {{whole<std::uint32_t>(1, 255), whole<std::uint32_t>(1, 255)}}; });
-  perhaps([&] { o.pe_memory = 4096 * whole<std::uint32_t>(64, 16384); });
-  perhaps([&] { o.subspaces = SubspacesOption{}; });
-  perhaps([&] { o.subspaces = SubspacesOption{{{whole<std::uint32_t>(1, 1024), 7, 9}}}; });
-  perhaps([&] { o.scheme = *rc::gen::element(Scheme::spread, Scheme::paper); });
-  perhaps([&] { o.allocation = allocation(); });
-  perhaps([&] { o.replicate = ReplicateOption{real(0, 1)}; });
-  perhaps([&] { o.replicate = ReplicateOption{}; });
-  perhaps([&] { o.points = *rc::gen::element(Points::travel, Points::stay); });
-  perhaps([&] { o.empty = *rc::gen::element(Empty::over, Empty::enter); });
-  perhaps([&] { o.camera_rays = *rc::gen::element(RayMaker::pes, RayMaker::host); });
-  perhaps([&] { o.engine = "qemu"; });
+  perhaps([&] {
+    o.given.set(&MachineChoice::columns, whole<std::uint32_t>(1, 255));
+    o.given.set(&MachineChoice::rows, whole<std::uint32_t>(1, 255));
+  });
+  perhaps([&] { o.given.set(&MachineChoice::pe_memory, 4096 * whole<std::uint32_t>(64, 16384)); });
+  perhaps([&] { o.given.set(&MachineChoice::subspaces, std::nullopt); });
+  perhaps([&] { o.given.set(&MachineChoice::subspaces, {{whole<std::uint32_t>(1, 1024), 7, 9}}); });
+  perhaps([&] { o.given.set(&MachineChoice::scheme, *rc::gen::element(Scheme::spread, Scheme::paper)); });
+  perhaps([&] { o.given.set(&MachineChoice::allocation, allocation()); });
+  perhaps([&] { o.given.set(&MachineChoice::replicate, real(0, 1)); });
+  perhaps([&] { o.given.set(&MachineChoice::replicate, std::nullopt); });
+  perhaps([&] { o.given.set(&MachineChoice::points, *rc::gen::element(Points::travel, Points::stay)); });
+  perhaps([&] { o.given.set(&MachineChoice::empty, *rc::gen::element(Empty::over, Empty::enter)); });
+  perhaps([&] { o.given.set(&MachineChoice::camera_rays, *rc::gen::element(RayMaker::pes, RayMaker::host)); });
+  perhaps([&] { o.given.set(&MachineChoice::engine, "qemu"); });
   perhaps([&] { o.debugging.qemu_pes = {0, 1, 7}; });
-  o.enter_empty = *rc::gen::arbitrary<bool>();
+  perhaps([&] { o.given.set(&MachineChoice::skip_empty_subspaces, false); });
   o.machine_values = any_machine_values();
 }
 

@@ -123,26 +123,28 @@ TEST(SceneToml, CameraAndDefaults) {
   EXPECT_EQ(camera.eye, (Vec3d{1, 2, 3}));
   EXPECT_EQ(camera.up, (Vec3d{0, 0, 1}));
   EXPECT_EQ(camera.field_of_view_degrees, 30);
-  EXPECT_EQ(scene.defaults.width, 64U);
-  EXPECT_EQ(scene.defaults.height, 32U);
-  EXPECT_EQ(scene.defaults.samples, 9U);
-  EXPECT_EQ(scene.defaults.hemicube, 32U);
-  EXPECT_EQ(scene.defaults.shot_points, 3U);
-  EXPECT_EQ(scene.defaults.emission_records, 6U);
-  EXPECT_EQ(scene.defaults.max_shots, 7U);
-  EXPECT_EQ(scene.defaults.bounces, 8U);
-  EXPECT_EQ(scene.defaults.exposure_ev, -1.5);
-  EXPECT_EQ(scene.defaults.patch_length, 0.5);
-  EXPECT_EQ(scene.defaults.element_length, 0.25);
-  EXPECT_EQ(scene.defaults.unshot, 0.05);
-  EXPECT_EQ(scene.defaults.subspaces, "2x2x2");
-  EXPECT_EQ(scene.defaults.allocation, "block");
-  EXPECT_THAT(scene.defaults.subspaces_place, testing::MatchesRegex(".*:[0-9]+"));
-  EXPECT_EQ(scene.defaults.two_sided_lights, true);
-  EXPECT_EQ(scene.defaults.shadow_rays, true);
-  EXPECT_EQ(scene.defaults.filter, "tent");
-  EXPECT_THAT(scene.defaults.filter_place, testing::MatchesRegex(".*:[0-9]+"));
-  EXPECT_EQ(scene.defaults.seed, 5U);
+  const SceneDefaults& defaults = scene.defaults;
+  const auto given = [&defaults](auto member) { return defaults.given.get(member); };
+  EXPECT_EQ(given(&Quality::width), 64U);
+  EXPECT_EQ(given(&Quality::height), 32U);
+  EXPECT_EQ(given(&Quality::samples), 9U);
+  EXPECT_EQ(given(&Quality::hemicube), 32U);
+  EXPECT_EQ(given(&Quality::shot_points), 3U);
+  EXPECT_EQ(given(&Quality::emission_records), 6U);
+  EXPECT_EQ(given(&Quality::max_shots), 7U);
+  EXPECT_EQ(given(&Quality::bounces), 8U);
+  EXPECT_EQ(given(&ToneMapping::exposure_ev), -1.5);
+  EXPECT_EQ(given(&Quality::patch_length).value(), 0.5);
+  EXPECT_EQ(given(&Quality::element_length).value(), 0.25);
+  EXPECT_EQ(given(&Quality::unshot), 0.05);
+  EXPECT_EQ(given(&Quality::two_sided_lights), true);
+  EXPECT_EQ(given(&Quality::shadow_rays), true);
+  EXPECT_EQ(given(&Quality::filter), PixelFilter::tent);
+  EXPECT_EQ(given(&Quality::seed), 5U);
+  EXPECT_EQ(given(&Quality::texels), std::nullopt) << "not said";
+  EXPECT_EQ(defaults.subspaces.value().text, "2x2x2");
+  EXPECT_THAT(defaults.subspaces.value().place, testing::MatchesRegex(".*:[0-9]+"));
+  EXPECT_EQ(defaults.allocation.value().text, "block");
 }
 
 TEST(SceneToml, TheFolderNamesTheScene) {
@@ -156,6 +158,8 @@ TEST(SceneToml, UnknownKeysAreRefusedWithTheNearest) {
               AllOf(StartsWith("s.toml:3: [[light]] lacks 'radiance'"), HasSubstr("did you mean it by 'radience'?")));
   EXPECT_THAT(refused(kMesh + "[material.m]\nDifuse = 0.5\n"), HasSubstr("did you mean 'diffuse'?"));
   EXPECT_THAT(refused("[camra]\neye = [0, 0, 0]\n"), AllOf(StartsWith("s.toml:1: "), HasSubstr("'camera'")));
+  EXPECT_THAT(refused(kMesh + "[defaults]\nfilter = 'round'\n"),
+              AllOf(StartsWith("s.toml:4: [defaults] 'filter': "), HasSubstr("round")));
   EXPECT_THAT(refused(kMesh + "[defaults]\nwidht = 3\n"), AllOf(StartsWith("s.toml:4: "), HasSubstr("'width'")));
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "emulator/errors.hpp"
+#include "host_tools/settings/options.hpp"
+#include "host_tools/settings/overloaded.hpp"
 #include "tests/unit/host_tools/test_scenes.hpp"
 
 namespace torolux {
@@ -119,52 +121,46 @@ TEST_F(RadiosityFileTest, SplitsForAnotherDirectLightAreRefused) {
   EXPECT_THROW(check_radiosity(saved, scene_, quality_), InputError) << "known before there is a mesh";
 }
 
-/// A setting changed, and the word by which the refusal names it; null: the file serves both.
-struct Change {
-  void (*make)(Quality&);
-  const char* named;
-};
+/// Gives the option another value than any in this file.
+void change(const Option& option, AllSettings& settings) {
+  std::visit(Overloaded{
+                 [&]<class Integer>(const option::Count<Integer>& kind) {
+                   kind.member.in(settings) = static_cast<Integer>(kind.least + 8);
+                 },
+                 [&](const option::Number& kind) { kind.member.in(settings) += 0.25; },
+                 [&](const option::Length& kind) { kind.member.in(settings) = 0.7; },
+                 [&](const option::Choice& kind) { kind.member.put(settings, kind.member.of(settings) == 0 ? 1 : 0); },
+                 [&](const option::Flag& kind) { kind.member.in(settings) = !kind.member.of(settings); },
+                 [&](const option::Layers& kind) { kind.member.in(settings) = 1; },
+                 [](const auto&) {},
+             },
+             option.kind);
+}
 
-// Every member of Quality: what splits and sums depend on is refused, before there is a mesh as well; the view is free.
+/// By which a refusal names it.
+std::string named(const Option& option) {
+  if (option.key == "cluster_factor") return "--elements";
+  return option.name.empty() ? "--quality" : option.name;
+}
+
+// What splits and sums depend on is refused, before there is a mesh as well; the view is free.
 TEST_F(RadiosityFileTest, EverySettingOfTheSolutionIsRefusedAndNoOther) {
-  // One that is added does not compile here until it stands in the list below.
-  [[maybe_unused]] const auto [width, height, samples, filter, layers, patch_length, element_length, patch_factor,
-                               element_factor, cluster_factor, refine, hemicube, shot_points, emission_records, unshot,
-                               max_shots, bounces, shadow_rays, two_sided_lights, texels, seed] = quality_;
-  const Change changes[]{{[](Quality& q) { q.width = 9; }, nullptr},
-                         {[](Quality& q) { q.height = 9; }, nullptr},
-                         {[](Quality& q) { q.samples = 9; }, nullptr},
-                         {[](Quality& q) { q.filter = PixelFilter::tent; }, nullptr},
-                         {[](Quality& q) { q.layers = 1; }, nullptr},
-                         {[](Quality& q) { q.patch_length = 0.7; }, "--patches 0.9"},
-                         {[](Quality& q) { q.element_length = 0.7; }, "--elements 0.9"},
-                         {[](Quality& q) { q.patch_factor = 3; }, "--quality"},
-                         {[](Quality& q) { q.element_factor = 3; }, "--quality"},
-                         {[](Quality& q) { q.cluster_factor = 0.5; }, "--elements"},
-                         {[](Quality& q) { q.refine = 3; }, "--refine 4"},
-                         {[](Quality& q) { q.hemicube = 12; }, "--hemicube"},
-                         {[](Quality& q) { q.shot_points = 3; }, "--shot-points"},
-                         {[](Quality& q) { q.emission_records = 3; }, "--emission-records"},
-                         {[](Quality& q) { q.unshot = 0.3; }, "--unshot"},
-                         {[](Quality& q) { q.max_shots = 3; }, "--max-shots"},
-                         {[](Quality& q) { q.bounces = 3; }, "--bounces"},
-                         {[](Quality& q) { q.shadow_rays = false; }, "--direct shadow-rays"},
-                         {[](Quality& q) { q.two_sided_lights = true; }, "--two-sided-lights"},
-                         {[](Quality& q) { q.texels = 3; }, "--texels"},
-                         {[](Quality& q) { q.seed = 3; }, "--seed"}};
   quality_.refine = 4;
   const auto bytes = pack_radiosity(radiosity_origin(scene_, quality_, mesh_), splits_, solution_);
   const SavedRadiosity saved = parse_radiosity(bytes, "file");
-  for (const auto& [make, named] : changes) {
-    Quality changed = quality_;
-    make(changed);
-    const std::string refused = refusal(bytes, radiosity_origin(scene_, changed, mesh_));
-    if (named == nullptr) {
+  for (const Option& option : all_options()) {
+    if (option.bears_on == BearsOn::machine) continue;
+    SCOPED_TRACE(option.key);
+    AllSettings settings{quality_, {}, {}};
+    change(option, settings);
+    EXPECT_FALSE(same_value(option, settings, {quality_, {}, {}}));
+    const std::string refused = refusal(bytes, radiosity_origin(scene_, settings.quality, mesh_));
+    if (option.bears_on == BearsOn::picture) {
       EXPECT_EQ(refused, "");
-      EXPECT_NO_THROW(check_radiosity(saved, scene_, changed));
+      EXPECT_NO_THROW(check_radiosity(saved, scene_, settings.quality));
     } else {
-      EXPECT_NE(refused.find(named), std::string::npos) << named << ": " << refused;
-      EXPECT_THROW(check_radiosity(saved, scene_, changed), InputError) << named;
+      EXPECT_NE(refused.find(named(option)), std::string::npos) << refused;
+      EXPECT_THROW(check_radiosity(saved, scene_, settings.quality), InputError);
     }
   }
 }
