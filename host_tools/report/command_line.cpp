@@ -48,7 +48,8 @@ void add_camera(Words& words, const Json& camera) {
 /// What the command line does not take is the scene's own, and the preset's.
 bool is_taken(const Option& option, const Json& value) {
   const auto* number = std::get_if<option::Number>(&option.kind);
-  return number == nullptr || value.get<double>() >= number->least_on_command_line.value_or(number->least);
+  if (number == nullptr || !number->least_on_command_line) return true;
+  return value.get<double>() >= *number->least_on_command_line;
 }
 
 void add_option(Words& words, const Option& option, const Json& settings) {

@@ -211,21 +211,21 @@ void add_light(std::vector<Option>& table) {
                .key = "max_shots",
                .scene_key = "max_shots",
                .bears_on = BearsOn::elements,
-               .kind = option::Count<std::uint32_t>{at<&Quality::max_shots>(), 0, 0xFFFF'FFFFU}},
-              {.name = "--bounces",
-               .form = "N",
-               .group = quality,
-               .help = "Path segments after which light is cut off, 1" + up_to(protocol::kMostBounces),
-               .key = "bounces",
-               .scene_key = "bounces",
-               .bears_on = BearsOn::elements,
-               .kind = option::Count<std::uint32_t>{at<&Quality::bounces>(), 1, protocol::kMostBounces}}});
+               .kind = option::Count<std::uint32_t>{at<&Quality::max_shots>(), 0, 0xFFFF'FFFFU}}});
 }
 
 void add_surfaces(std::vector<Option>& table) {
   using enum OptionGroup;
   add(table,
-      {{.name = "--texels",
+      {{.name = "--bounces",
+        .form = "N",
+        .group = quality,
+        .help = "Path segments after which light is cut off, 1" + up_to(protocol::kMostBounces),
+        .key = "bounces",
+        .scene_key = "bounces",
+        .bears_on = BearsOn::elements,
+        .kind = option::Count<std::uint32_t>{at<&Quality::bounces>(), 1, protocol::kMostBounces}},
+       {.name = "--texels",
         .form = "N",
         .group = quality,
         .help = "Texels of each texture, at most; larger images are averaged",
