@@ -12,9 +12,9 @@ setup_stop() {
 
 # setup_packages [tests]: installs what cmake/packages.txt lists and this computer lacks: all of it, or what a build needs.
 setup_packages() {
-  local wanted missing=() name last='^# Only for ./run-tests'
-  [[ ${1-} != tests ]] || last='^$never'
-  mapfile -t wanted < <(sed -e "\\#$last#q" "$root/cmake/packages.txt" | sed -e 's/#.*//' -e '/^ *$/d')
+  local wanted missing=() name
+  mapfile -t wanted < <(awk -v which="${1-}" '/^# Only for .\/run-tests/ && which != "tests" { exit }
+    !/^#/ && NF { print $1 }' "$root/cmake/packages.txt")
   command -v dpkg-query >/dev/null ||
     setup_stop 'This is not Debian. Install what these Debian packages hold, then build with the CMake presets:' "${wanted[*]}"
   local installed

@@ -13,7 +13,8 @@ namespace torolux {
 namespace {
 
 // Tracks by number. Those of a PE: kPes + pe * kTracksOfPe + ...
-constexpr TrackId kMachine = 1, kStages = 2, kHost = 3, kBus = 4, kFrameBuffer = 5, kGauges = 8, kCounters = 16;
+constexpr TrackId kMachine = 1, kStages = 2, kHost = 3, kBus = 4, kFrameBuffer = 5, kRounds = 6, kGauges = 8,
+                  kCounters = 16;
 constexpr TrackId kRows = 0x100, kPes = 0x2'0000, kTracksOfPe = 8;
 constexpr TrackId kStates = 0, kPackets = 1, kFirstCounter = 2;
 
@@ -104,6 +105,7 @@ void PerfettoTrace::make_machine_tracks() {
   packets_.make_track(kMachine, 0, "machine", 0);
   std::uint32_t rank = 0;
   packets_.make_track(kStages, kMachine, "stage", rank++);
+  packets_.make_track(kRounds, kMachine, "rounds", rank++);
   packets_.make_track(kHost, kMachine, "host", rank++);
   packets_.make_track(kBus, kMachine, "bus", rank++);
   packets_.make_track(kFrameBuffer, kMachine, "frame buffer controller (FBC)", rank++);
@@ -180,8 +182,14 @@ void PerfettoTrace::frame_buffer_state(Cycles begin, bool busy) {
   change(frame_buffer_, kFrameBuffer, begin, busy ? packets_.name("adds pixels") : 0);
 }
 
+/// Of a stage or round, of which there may be many: 0 where the trace is full.
+NameId PerfettoTrace::name_of_part(Cycles begin, std::string_view name) {
+  return room(begin) ? packets_.name(name) : 0;
+}
+
 void PerfettoTrace::stage(Cycles begin, std::string_view name) {
-  change(stage_, kStages, begin, packets_.name(name));
+  change(stage_, kStages, begin, name_of_part(begin, name));
+  change(rounds_, kRounds, begin, 0);
 }
 
 // ---- Counters ----
@@ -190,6 +198,10 @@ void PerfettoTrace::gauge(Cycles begin, HostGauge gauge, double value) {
   last_ = std::max(last_, begin);
   if (in_window(begin) && room(begin))
     packets_.counter(kGauges + static_cast<std::size_t>(gauge), nanoseconds(begin), value);
+  // It is told once for each choice of who shoots next, and is 0 when there is nothing left.
+  if (gauge != HostGauge::unshot || value <= 0) return;
+  ++round_;
+  change(rounds_, kRounds, begin, name_of_part(begin, "round " + std::to_string(round_)));
 }
 
 /// A value holds until the next one: what has not changed is not said again.
@@ -260,6 +272,7 @@ void PerfettoTrace::finish() {
   change(host_, kHost, last_, 0);
   change(frame_buffer_, kFrameBuffer, last_, 0);
   change(stage_, kStages, last_, 0);
+  change(rounds_, kRounds, last_, 0);
   for (const auto& [number, packet] : arrows_) end_arrow(last_, packet.source, number, "still on its way", packet);
   arrows_.clear();
   if (full_at_) {

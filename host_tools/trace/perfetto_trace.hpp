@@ -73,6 +73,7 @@ class PerfettoTrace final : public MachineWatcher {
   bool room(Cycles time, std::uint64_t bytes = 0);
   void change(Lane& lane, TrackId track, Cycles time, NameId name);
   NameId name_of_state(PeState state);
+  NameId name_of_part(Cycles begin, std::string_view name);
   void sample(CounterLane& lane, TrackId track, Cycles time, std::uint64_t value);
   void make_machine_tracks();
   void make_pe_tracks(unsigned pe);
@@ -91,7 +92,8 @@ class PerfettoTrace final : public MachineWatcher {
   std::vector<Lane> pes_;
   std::vector<std::array<CounterLane, kPeCounters>> pe_counters_;
   std::array<CounterLane, kMachineCounters> machine_counters_{};
-  Lane stage_, bus_, host_, frame_buffer_;
+  Lane stage_, rounds_, bus_, host_, frame_buffer_;
+  std::uint64_t round_ = 0;  // rounds begun
   std::array<NameId, kPeStates> state_names_{};
   std::map<std::uint64_t, PacketName> arrows_;  // begun, not ended
 };

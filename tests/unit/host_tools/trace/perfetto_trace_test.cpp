@@ -37,6 +37,8 @@ std::string trace_of(TraceChoice choice, bool fails = false, std::optional<Cycle
     trace.sent(t + 260, {round * 10 + 2, 1, 0, 8});
     trace.bus_state(t + 300, kBusIdle);
     trace.counters(t + 512, 1, {3, 0, 8, 1, 50});
+    trace.gauge(t + 550, HostGauge::unshot, 0.5);
+    trace.gauge(t + 560, HostGauge::records_in_flight, 12);
     trace.received(t + 600, {round * 10 + 1, 1, 4, 16});
     for (unsigned pe = 0; pe < 6; ++pe) trace.pe_state(pe, t + 700, kShade);
     if (fails) break;
@@ -72,6 +74,7 @@ TEST(PerfettoTrace, HasWhatWasTold) {
             (Lengths{{"traverse", 2010}, {"wait: arrivals", 4990}, {"shade", 3000}}));
   EXPECT_EQ(trace.lengths(trace.track("bus", trace.track("machine"))), (Lengths{{"pixels", 2000}}));
   EXPECT_EQ(trace.lengths(trace.track("stage", trace.track("machine"))), (Lengths{{"first", 10000}}));
+  EXPECT_EQ(trace.lengths(trace.track("rounds", trace.track("machine"))), (Lengths{{"round 1", 4500}}));
   EXPECT_EQ(trace.arrows(), 2U);
   // Five counters at first, and the one that has changed.
   std::size_t samples = 0;
