@@ -21,6 +21,15 @@ std::vector<NiuNetworkSide> make_nius(const std::vector<NiuChannel*>& channels, 
 
 }  // namespace
 
+namespace {
+
+RecordPacket packet_of(const Block& block) {
+  return {block.number, block.source, block.destination, block.bytes / std::max<std::size_t>(1, block.records),
+          block.payload()};
+}
+
+}  // namespace
+
 Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image,
                      Engine& engine, HostProgram& program)
     : pes_(static_cast<std::uint32_t>(channels.size())),
@@ -39,7 +48,8 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       controller_(setup.description.frame_buffer, setup.frame_width, setup.frame_height, setup.frame_layers, events_,
                   2 * pes_ + 2, pool_),
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
-      signal_cycles_(setup.description.signal_cycles()) {
+      signal_cycles_(setup.description.signal_cycles()),
+      record_watcher_(setup.record_watcher) {
   cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
   events_.watch(this);
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
@@ -126,6 +136,7 @@ void Emulation::command(unsigned pe, const PendingCommand& command) {
       block.flits = torus_.flits(block.bytes);
       count_kinds(block);
       if (watch_) watch_->sent(now_, block);
+      if (record_watcher_ != nullptr) record_watcher_->sent(now_, packet_of(block));
       torus_.inject(pe, command.block, now_);
       break;
     }
@@ -275,6 +286,7 @@ void Emulation::copy_in(unsigned pe, BlockIndex block, bool from_bus) {
 
 void Emulation::copied(unsigned pe, BlockIndex block, bool from_bus) {
   if (watch_) watch_->received(now_, pool_[block]);
+  if (record_watcher_ != nullptr) record_watcher_->received(now_, packet_of(pool_[block]));
   nius_[pe].deliver(block, now_, pool_, times_);
   if (from_bus) {
     nius_[pe].release_bus_buffer();
@@ -340,6 +352,8 @@ void Emulation::bus_done(BlockIndex index) {
   const unsigned from = block.source;
   const unsigned to = block.destination;
   const bool from_host_queue = from == protocol::kHost;
+  if (record_watcher_ != nullptr && block.records == 0)
+    record_watcher_->came(now_, {block.source, block.destination, block.message_kind, block.payload()});
   if (block.records != 0 && !from_host_queue && parts_[to].diverting == index) {
     parts_[to].diverting = kNoBlock;
     host_.arrive(index, now_);

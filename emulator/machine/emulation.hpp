@@ -19,6 +19,7 @@
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/torus.hpp"
 #include "emulator/trace/machine_watch.hpp"
+#include "emulator/trace/record_watcher.hpp"
 
 namespace torolux {
 
@@ -121,6 +122,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   FrameBufferController controller_;
   HostActor host_;
   std::uint32_t signal_cycles_;
+  RecordWatcher* record_watcher_;  // null: nobody
   std::function<void(Cycles)> attend_;
   std::uint32_t until_attend_ = 0;
   double last_attended_ = 0;

@@ -23,6 +23,7 @@
 namespace torolux {
 
 class MachineWatcher;  // emulator/trace/watcher.hpp
+class RecordWatcher;   // emulator/trace/record_watcher.hpp
 
 struct MachineSetup {
   MachineDescription description;
@@ -36,6 +37,7 @@ struct MachineSetup {
   std::uint32_t frame_height = 0;
   std::uint32_t frame_layers = 0;     ///< planes of the frame buffer besides the colours, as bits (protocol::plane_bit)
   MachineWatcher* watcher = nullptr;  ///< told what happens; outlives the machine. Changes nothing of the run
+  RecordWatcher* record_watcher = nullptr;  ///< shown what packets and messages hold; likewise
 };
 
 struct PeFigures {

@@ -133,6 +133,7 @@ void Emulation::note(HostGauge gauge, double value) {
 
 void Emulation::end_watch(Cycles end) {
   if (watch_) watch_->end(end);
+  if (record_watcher_ != nullptr) record_watcher_->end(end);
 }
 
 /// Of a packet that a PE sends.

@@ -33,10 +33,10 @@ std::string closed_around(const Scene& scene) {
 
 }  // namespace
 
-std::vector<std::string> findings_before(const Scene& scene, const Settled& settled) {
+std::vector<std::string> findings_before(const Scene& scene, const Resolved& resolved) {
   std::vector<std::string> found = inspect(scene);
-  const double aspect = static_cast<double>(settled.quality.width) / settled.quality.height;
-  for (std::string& reason : inspect_view(scene, settled.camera, aspect, settled.quality.two_sided_lights))
+  const double aspect = static_cast<double>(resolved.quality.width) / resolved.quality.height;
+  for (std::string& reason : inspect_view(scene, resolved.camera, aspect, resolved.quality.two_sided_lights))
     found.push_back(std::move(reason));
   return found;
 }

@@ -11,7 +11,7 @@
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/measured_speed.hpp"
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 #include "host_tools/report/text.hpp"
 
 namespace torolux {
@@ -116,20 +116,20 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
 
 int run_info(const RenderOptions& options) {
   const Scene scene = load_scene(options.scene, scene_options(options));
-  const Settled settled = settle(options, scene);
+  const Resolved resolved = resolve(options, scene);
   print_scene(scene);
   std::vector<std::string> refusals;
   try {
     check_renderable(scene);
-    const RenderPlan planned = plan(scene, settled.camera, settled.quality, settled.machine, firmware_image());
-    if (planned.patches > 0) print_plan(planned, settled.machine);
+    const RenderPlan planned = plan(scene, resolved.camera, resolved.quality, resolved.machine, firmware_image());
+    if (planned.patches > 0) print_plan(planned, resolved.machine);
     for (const std::string& note : planned.notes) line("note", note);
     refusals = planned.refusals;
   } catch (const InputError& error) {
     refusals.emplace_back(error.what());
   }
   for (const std::string& warning : scene.warnings) line("note", warning);
-  const std::vector<std::string> findings = findings_before(scene, settled);
+  const std::vector<std::string> findings = findings_before(scene, resolved);
   for (const std::string& finding : findings) line("note", finding);
   if (options.strict && !findings.empty()) refusals.emplace_back("by --strict: what the notes say of the scene");
   for (const std::string& refusal : refusals) line("would be refused", refusal);

@@ -13,7 +13,7 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/firmware_image.hpp"
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 #include "host_tools/report/progress_line.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/run/run.hpp"
@@ -62,11 +62,11 @@ void render_in_lock_step(const RenderOptions& options) {
   check_renderable(scene);
   if (!options.quiet)
     for (const std::string& warning : scene.warnings) std::cerr << "torolux: note: " << warning << "\n";
-  Settled settled = settle(options, scene);
-  settled.machine.engine = kLockstep;
+  Resolved resolved = resolve(options, scene);
+  resolved.machine.engine = kLockstep;
   ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
-                    settled.machine.description.processor.clock_hertz);
-  render(scene, settled.camera, settled.quality, settled.machine, {}, firmware_image(),
+                    resolved.machine.description.processor.clock_hertz);
+  render(scene, resolved.camera, resolved.quality, resolved.machine, {}, firmware_image(),
          [&line](const RenderProgress& progress) {
            if (!interrupted()) line.show(progress);
            return !interrupted();

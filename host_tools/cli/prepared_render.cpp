@@ -39,14 +39,14 @@ PreparedRender prepare_render(const RenderOptions& options) {
   PreparedRender prepared;
   prepared.scene = load_scene_from(recorded, options.scene, scene_options(options));
   check_renderable(prepared.scene);
-  prepared.settled = settle(options, prepared.scene);
-  prepared.findings = findings_before(prepared.scene, prepared.settled);
+  prepared.resolved = resolve(options, prepared.scene);
+  prepared.findings = findings_before(prepared.scene, prepared.resolved);
   if (options.strict) refuse_what_is_told(prepared.findings);
   std::vector<InputFile> files = recorded.files();
   if (options.radiosity)
     files.push_back({"radiosity", options.radiosity->string(), sha256_of_file(*options.radiosity)});
   files.push_back({"firmware", "pe.elf", sha256_of_file(firmware_image())});
-  prepared.run = describe(options, prepared.settled, prepared.scene.name, std::move(files));
+  prepared.run = describe(options, prepared.resolved, prepared.scene.name, std::move(files));
   return prepared;
 }
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// All that comes before a render's machine starts: options read, scene loaded, settings settled, inputs' digests taken.
+// All that comes before a render's machine starts: options read, scene loaded, settings resolved, inputs' digests
+// taken.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 
 namespace torolux {
 
 struct PreparedRender {
   Scene scene;
   std::vector<std::string> findings;  ///< what in it looks as if it was not meant so
-  Settled settled;
+  Resolved resolved;
   RunDescription run;
 };
 

@@ -19,6 +19,7 @@
 #include "host_tools/report/figures.hpp"
 #include "host_tools/report/html_report.hpp"
 #include "host_tools/report/progress_line.hpp"
+#include "host_tools/trace/story.hpp"
 
 namespace torolux {
 namespace {
@@ -26,10 +27,10 @@ namespace {
 /// Throws InputError where one result would be written over another, or over what is read.
 void check_results_distinct(const PreparedRender& prepared, const RenderOptions& options) {
   std::vector<NamedFile> written;
-  for (const auto& file : prepared.settled.outputs) {
+  for (const auto& file : prepared.resolved.outputs) {
     written.push_back({"--output", file});
     if (holds_radiance(file)) continue;
-    for (const LayerName& layer : layers_in(prepared.settled.quality.layers))
+    for (const LayerName& layer : layers_in(prepared.resolved.quality.layers))
       written.push_back({"a layer of --output", layer_file(file, layer.name)});
   }
   const auto add = [&written](const char* option, const std::optional<std::filesystem::path>& file) {
@@ -47,8 +48,8 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
 }
 
 /// What cannot be written is better known before the work than after it.
-void check_results_writable(const Settled& settled, const RenderOptions& options) {
-  for (const auto& file : settled.outputs) check_layers_writable(file, settled.quality.layers);
+void check_results_writable(const Resolved& resolved, const RenderOptions& options) {
+  for (const auto& file : resolved.outputs) check_layers_writable(file, resolved.quality.layers);
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
   if (options.report) check_file_writable(*options.report);
@@ -61,11 +62,11 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
 }
 
-RenderResult run_machine(const Scene& scene, Settled& settled, const RenderOptions& options, TraceFile* trace) try {
-  if (trace != nullptr) settled.machine.watcher = &trace->watcher();
+RenderResult run_machine(const Scene& scene, Resolved& resolved, const RenderOptions& options, TraceFile* trace) try {
+  if (trace != nullptr) resolved.machine.watcher = &trace->watcher();
   ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
-                    settled.machine.description.processor.clock_hertz, options.verbose);
-  return render(scene, settled.camera, settled.quality, settled.machine, settled.files, firmware_image(),
+                    resolved.machine.description.processor.clock_hertz, options.verbose);
+  return render(scene, resolved.camera, resolved.quality, resolved.machine, resolved.files, firmware_image(),
                 [&line](const RenderProgress& progress) {
                   if (interrupted()) return false;
                   line.show(progress);
@@ -84,28 +85,33 @@ void finish_trace(TraceFile& trace, bool quiet) {
 }  // namespace
 
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
-  Settled& settled = prepared.settled;
-  settled.machine.debugging.listens = announce_debugger(firmware_image());
+  Resolved& resolved = prepared.resolved;
+  resolved.machine.debugging.listens = announce_debugger(firmware_image());
   check_results_distinct(prepared, options);
-  check_results_writable(settled, options);
+  check_results_writable(resolved, options);
   print_notes(prepared.scene.warnings, options.quiet);
   print_notes(prepared.findings, options.quiet);
   if (interrupted()) return {kInterrupted, ""};
-  const auto trace = trace_file(options.trace, TracedRun::render, settled.machine.columns * settled.machine.rows);
-  const RenderResult result = run_machine(prepared.scene, settled, options, trace.get());
+  const auto trace = trace_file(options.trace, TracedRun::render, resolved.machine.columns * resolved.machine.rows);
+  std::optional<Story> story;
+  if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
+  const RenderResult result = run_machine(prepared.scene, resolved, options, trace.get());
   if (interrupted()) return {kInterrupted, ""};
   if (trace) finish_trace(*trace, options.quiet);
-  remember_speed(settled.machine, result.figures);
+  if (story) {
+    for (const std::string& line : story->lines()) std::cout << line << "\n";
+  }
+  remember_speed(resolved.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
 
-  for (const auto& file : settled.outputs) write_layers(result.picture, result.layers, file, settled.tone);
+  for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
   std::string statistics = stats_json(prepared.run, result.figures);
   if (options.stats) write_file(*options.stats, statistics);
   if (options.stats_csv) write_stats_tables(*options.stats_csv, stats_tables(result.figures));
   if (options.report) {
     write_file(*options.report,
-               report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, settled.tone}));
+               report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
   return {0, std::move(statistics)};

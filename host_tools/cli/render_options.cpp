@@ -70,6 +70,11 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FOLDER")
       ->group(group);
   path("--report", "The run as one .html page: picture, maps, time line, what limits each stage", options.report);
+  add_value(command, "--follow", "X,Y|SHOT:POINT",
+            "Tell one record's story: of a pixel's sample (X,Y or X,Y:SAMPLE) or of a direction of a shot's point "
+            "(SHOT:POINT or SHOT:POINT:DIRECTION), all counted from 0",
+            [&options](const std::string& text) { options.follow = parse_follow(text); })
+      ->group(group);
   path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);
   path("--save-mesh", "The solved elements with the radiosity at their corners, as .ply", options.save_mesh);
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",

@@ -16,6 +16,7 @@
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/given_settings.hpp"
 #include "host_tools/settings/presets.hpp"
+#include "host_tools/trace/follow_target.hpp"
 
 namespace CLI {
 class App;
@@ -36,6 +37,7 @@ struct RenderOptions {
   bool no_picture = false;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
   TraceOptions trace;
+  std::optional<FollowTarget> follow;
   bool quiet = false, verbose = false;
 
   // The view.

@@ -13,6 +13,7 @@
 #include "host_tools/render/course.hpp"
 #include "host_tools/render/frame_layers.hpp"
 #include "host_tools/setup/advice.hpp"
+#include "host_tools/setup/record_follower.hpp"
 #include "host_tools/setup/setup.hpp"
 #include "host_tools/solution/ply_file.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
@@ -167,6 +168,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   RenderProgram program(std::move(job));
   MachineSetup of_picture = machine_setup(setup, quality, machine);
   of_picture.watcher = machine.watcher;
+  of_picture.record_watcher = machine.follower;
+  if (machine.follower != nullptr) machine.follower->begin(scene, setup, quality, machine);
   Machine torolux(of_picture, image);
   const auto run_begin = std::chrono::steady_clock::now();
   watch.run(torolux, program);

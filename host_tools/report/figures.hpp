@@ -21,7 +21,7 @@ struct RunInputs {
   std::vector<InputFile> files;  ///< scene files in the order in which they are read, saved radiosity, firmware
 };
 
-/// What was asked for, as settled from command line, scene and built-in values.
+/// What was asked for, as resolved from command line, scene and built-in values.
 struct RunDescription {
   std::string scene;  ///< its name
   Quality quality;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that determines a run, as settled, as a block of the statistics; and the command line that repeats it.
+// Everything that determines a run, as resolved, as a block of the statistics; and the command line that repeats it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -16,6 +16,7 @@
 namespace torolux {
 
 class MachineWatcher;  // emulator/trace/watcher.hpp
+class RecordFollower;  // host_tools/setup/record_follower.hpp
 
 /// The machine that makes it.
 struct MachineChoice {
@@ -33,7 +34,8 @@ struct MachineChoice {
   std::string engine = kDefaultEngine;
   Debugging debugging;
   unsigned threads = 0;
-  MachineWatcher* watcher = nullptr;  ///< of the machine that makes the picture, not of drafts'; outlives the render
+  MachineWatcher* watcher = nullptr;   ///< of the machine that makes the picture, not of drafts'; outlives the render
+  RecordFollower* follower = nullptr;  ///< likewise
 };
 
 /// The scheme, and all that it has where nothing else is said.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A point enters; it is settled as its run would be, and the digest of that leaves.
+// A point enters; it is resolved as its run would be, and the digest of that leaves.
 #include "host_tools/study/keys.hpp"
 
 #include <algorithm>
@@ -20,14 +20,14 @@ using Json = nlohmann::ordered_json;
 
 /// Options of render and run whose effect stands in the settings beside those of the table. Any other one comes into
 /// the key as it is written, so that an option that is forgotten here makes keys differ, never agree.
-constexpr std::array<std::string_view, 20> kSettled = {
+constexpr std::array<std::string_view, 20> kResolved = {
     "scene",   "image",  "studio", "missing-materials", "radiosity", "size",      "eye",
     "look-at", "up",     "fov",    "quality",           "pes",       "pe-memory", "subspaces",
     "machine", "engine", "ideal",  "qemu-pes",          "jitter",    "fault"};
 
-bool settled(const std::string& name) {
+bool resolved(const std::string& name) {
   const auto in_settings = [&name](const Option& option) { return option.name == "--" + name && !option.key.empty(); };
-  return name.starts_with("machine.") || std::ranges::find(kSettled, name) != kSettled.end() ||
+  return name.starts_with("machine.") || std::ranges::find(kResolved, name) != kResolved.end() ||
          std::ranges::any_of(all_options(), in_settings);
 }
 
@@ -56,14 +56,14 @@ Json written(const Plan& plan, const Point& point, bool all) {
   std::ranges::sort(options, {}, &PlanOption::name);
   Json json = Json::object();
   for (const PlanOption& option : options) {
-    if (!all && settled(option.name)) continue;
+    if (!all && resolved(option.name)) continue;
     json[option.name] =
         option.name == "machine" ? sha256_of_file(plan.file.parent_path() / option.value) : option.value;
   }
   return json;
 }
 
-KeyedRun settle_run(const Plan& plan, const Point& point, const std::string& program) {
+KeyedRun resolve_run(const Plan& plan, const Point& point, const std::string& program) {
   KeyedRun run;
   run.words = words_of(plan, point.options);
   Json material = {{"program", program}, {"command", plan.command}};
@@ -85,7 +85,7 @@ std::string program_digest() {
 KeyedRun keyed_run(const Plan& plan, const Point& point, const std::string& program) {
   const auto place = [&] { return point.place.text() + ": " + label_of(point, varied_names(plan)) + ": "; };
   try {
-    return settle_run(plan, point, program);
+    return resolve_run(plan, point, program);
   } catch (const UsageError& error) {
     throw InputError(place() + error.what());
   } catch (const InputError& error) {

@@ -21,7 +21,7 @@ struct KeyedRun {
 /// SHA-256 of the program that is running.
 std::string program_digest();
 
-/// SHA-256 over the program's digest, the settings as settled (before the run), and the digests of all inputs with the
+/// SHA-256 over the program's digest, the settings as resolved (before the run), and the digests of all inputs with the
 /// firmware; for a command without settings: over its options and the digests of files that they name.
 /// Throws InputError or UsageError for a run that would be refused; the message begins with what asked for it.
 KeyedRun keyed_run(const Plan& plan, const Point& point, const std::string& program);

@@ -39,12 +39,12 @@ double error_of_cells(const SolvedScene& cornell) {
 /// The radiosity stage as the command line runs it with --quality. All light comes from the elements, that of shadow
 /// rays, too: the radiosity stage holds both.
 SolvedScene solve_at(const std::filesystem::path& scene, std::string_view preset) {
-  const accuracy::SceneRun run = accuracy::settle_scene(scene, {});
+  const accuracy::SceneRun run = accuracy::resolve_scene(scene, {});
   RenderCase render_case;
   render_case.quality = accuracy::quality_at(preset_named(preset).value(), run.scene);
   render_case.quality.shadow_rays = false;
   render_case.quality.width = render_case.quality.height = 4;
-  render_case.machine = run.settled.machine;
+  render_case.machine = run.resolved.machine;
   SolvedScene solved = solve_scene(run.scene, render_case);
   EXPECT_LT(energy_error(solved.figures.energy), 1e-6);
   return solved;

@@ -70,11 +70,11 @@ TEST(FormFactorAccuracy, FinerSettingsComeCloser) {
 
 // The bounds at `fine`. Refinement must not follow noise here, whose light is the same everywhere.
 TEST(FurnaceAccuracy, AtFine) {
-  const accuracy::SceneRun run = accuracy::settle_scene(data_dir() / "scenes" / "furnace", {});
+  const accuracy::SceneRun run = accuracy::resolve_scene(data_dir() / "scenes" / "furnace", {});
   Quality quality = accuracy::quality_at(preset_named("fine").value(), run.scene);
   quality.width = quality.height = 128;
   quality.samples = 16;  // more of them show the same elements
-  const RenderResult result = render(run.scene, run.settled.camera, quality, run.settled.machine, {}, pe_image(), {});
+  const RenderResult result = render(run.scene, run.resolved.camera, quality, run.resolved.machine, {}, pe_image(), {});
   double squares = 0;
   double worst = 0;
   for (const auto& pixel : result.picture.pixels) {

@@ -37,11 +37,11 @@ struct Reference {
 void add_row(Table& table, const SceneRun& run, const Reference& reference, const Setting& setting,
              const ReportChoice& choice) {
   Quality quality = quality_at(setting, run.scene);
-  quality.width = run.settled.quality.width;
-  quality.height = run.settled.quality.height;
+  quality.width = run.resolved.quality.width;
+  quality.height = run.resolved.quality.height;
   const double before = cpu_seconds();
   const RenderResult result =
-      render(run.scene, run.settled.camera, quality, run.settled.machine, {}, test::pe_image(), {});
+      render(run.scene, run.resolved.camera, quality, run.resolved.machine, {}, test::pe_image(), {});
   const double seconds = cpu_seconds() - before;
   const references::PictureError error = references::picture_error(result.picture, reference.traced.picture);
   const auto length = [](const std::optional<double>& value) { return value ? text_of("%.4g", *value) : "auto"; };
@@ -61,14 +61,14 @@ void add_row(Table& table, const SceneRun& run, const Reference& reference, cons
 }
 
 void add_scene(Table& table, const std::filesystem::path& path, const ReportChoice& choice) {
-  const SceneRun run = settle_scene(path, choice);
-  const Quality& quality = run.settled.quality;
+  const SceneRun run = resolve_scene(path, choice);
+  const Quality& quality = run.resolved.quality;
   Reference reference{
-      reference_picture(run.scene, {run.settled.camera, quality.two_sided_lights}, {quality.width, quality.height},
+      reference_picture(run.scene, {run.resolved.camera, quality.two_sided_lights}, {quality.width, quality.height},
                         choice.reference, choice.threads, choice.output / "references"),
       0};
   reference.noise = references::reference_noise(reference.traced);
-  write_picture(reference.traced.picture, choice.output / (run.scene.name + "-reference.png"), run.settled.tone);
+  write_picture(reference.traced.picture, choice.output / (run.scene.name + "-reference.png"), run.resolved.tone);
   for (const Setting& setting : chosen_settings(choice)) add_row(table, run, reference, setting, choice);
 }
 

@@ -21,12 +21,12 @@ Scene load(const std::filesystem::path& path) {
 
 }  // namespace
 
-SceneRun settle_scene(const std::filesystem::path& path, const ReportChoice& choice) {
+SceneRun resolve_scene(const std::filesystem::path& path, const ReportChoice& choice) {
   SceneRun run{load(path), {}};
-  run.settled = settle({}, run.scene);
-  run.settled.quality.width = std::max(1U, run.settled.quality.width / choice.shrink);
-  run.settled.quality.height = std::max(1U, run.settled.quality.height / choice.shrink);
-  MachineChoice& machine = run.settled.machine;
+  run.resolved = resolve({}, run.scene);
+  run.resolved.quality.width = std::max(1U, run.resolved.quality.width / choice.shrink);
+  run.resolved.quality.height = std::max(1U, run.resolved.quality.height / choice.shrink);
+  MachineChoice& machine = run.resolved.machine;
   machine.engine = choice.engine;
   machine.threads = choice.threads;
   // One PE and many records: no time in hand-overs. The picture is the same on any machine.

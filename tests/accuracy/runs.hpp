@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 #include "tests/accuracy/reference_pictures.hpp"
 #include "tests/accuracy/settings.hpp"
 
@@ -25,11 +25,11 @@ struct ReportChoice {
 
 struct SceneRun {
   Scene scene;
-  Settled settled;  ///< as the command line has it; the machine: one PE of the chosen engine
+  Resolved resolved;  ///< as the command line has it; the machine: one PE of the chosen engine
 };
 
 /// A scene without light gets the studio. Throws InputError.
-SceneRun settle_scene(const std::filesystem::path& path, const ReportChoice& choice);
+SceneRun resolve_scene(const std::filesystem::path& path, const ReportChoice& choice);
 
 std::vector<Setting> chosen_settings(const ReportChoice& choice);
 

@@ -2,14 +2,14 @@
 // The setting takes the place of --quality, and a scene's own numbers change with it in the same measure.
 #include "tests/accuracy/settings.hpp"
 
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 
 namespace torolux::accuracy {
 
 Quality quality_at(const Setting& setting, const Scene& scene) {
   RenderOptions options;
   options.preset = setting;
-  return settle(options, scene).quality;
+  return resolve(options, scene).quality;
 }
 
 }  // namespace torolux::accuracy

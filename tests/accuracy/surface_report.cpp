@@ -10,7 +10,7 @@ namespace torolux::accuracy {
 namespace {
 
 void add_scene(Table& table, const std::filesystem::path& path, const ReportChoice& choice) {
-  const SceneRun run = settle_scene(path, choice);
+  const SceneRun run = resolve_scene(path, choice);
   std::vector<std::uint32_t> material;
   for (const SceneTriangle& triangle : run.scene.triangles) material.push_back(triangle.material);
   std::vector<test::GroupLight> should;
@@ -18,12 +18,12 @@ void add_scene(Table& table, const std::filesystem::path& path, const ReportChoi
     test::RenderCase render_case;
     render_case.quality = quality_at(setting, run.scene);
     render_case.quality.width = render_case.quality.height = 4;
-    render_case.machine = run.settled.machine;
-    render_case.camera = run.settled.camera;
+    render_case.machine = run.resolved.machine;
+    render_case.camera = run.resolved.camera;
     const test::SolvedScene solved = test::solve_scene(run.scene, render_case);
     if (solved.mesh.triangles.size() != run.scene.triangles.size()) return;
     if (should.empty()) {
-      const references::World world(run.scene, run.settled.quality.two_sided_lights);
+      const references::World world(run.scene, run.resolved.quality.two_sided_lights);
       should =
           test::traced_light(world, solved.mesh, material, test::paths_by_area(world, material, choice.surface_paths));
     }

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "host_tools/cli/prepared_render.hpp"
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 #include "tests/support/render_support.hpp"
 
 namespace torolux::test {
@@ -25,8 +25,8 @@ std::string refusal_of(const std::string& scene_name, std::vector<std::string> w
   words.insert(words.begin(), (source_dir() / "scenes" / scene_name).string());
   const RenderOptions options = parse_render_options(words);
   const Scene scene = load_scene(options.scene, scene_options(options));
-  const Settled settled = settle(options, scene);
-  const RenderPlan planned = plan(scene, settled.camera, settled.quality, settled.machine, pe_image());
+  const Resolved resolved = resolve(options, scene);
+  const RenderPlan planned = plan(scene, resolved.camera, resolved.quality, resolved.machine, pe_image());
   return planned.refusals.empty() ? "" : planned.refusals.front();
 }
 

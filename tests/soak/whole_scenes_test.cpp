@@ -3,7 +3,7 @@
 // statistics to the last figure.
 #include <gtest/gtest.h>
 
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 #include "tests/support/render_support.hpp"
 
 namespace torolux::test {
@@ -13,11 +13,11 @@ class WholeScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(WholeScene, TranslatedIsQemuToTheLastFigure) {
   const Scene scene = load_scene(source_dir() / "scenes" / GetParam(), {});
-  const Settled settled = settle({}, scene);
+  const Resolved resolved = resolve({}, scene);
   const auto render_on = [&](const char* engine) {
-    MachineChoice machine = settled.machine;
+    MachineChoice machine = resolved.machine;
     machine.engine = engine;
-    return render(scene, settled.camera, settled.quality, machine, {}, pe_image(), {});
+    return render(scene, resolved.camera, resolved.quality, machine, {}, pe_image(), {});
   };
   const RenderResult translated = render_on("translated");
   const RenderResult qemu = render_on("qemu");

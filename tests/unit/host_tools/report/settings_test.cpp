@@ -163,7 +163,7 @@ Scene any_scene() {
 Json settings_of(const RenderOptions& options, const Scene& scene) {
   std::vector<InputFile> files{{"scene", "room/scene.toml", sha256("room")}};
   if (options.radiosity) files.push_back({"radiosity", options.radiosity->string(), sha256("light")});
-  return settings_json(describe(options, settle(options, scene), scene.name, files), nullptr);
+  return settings_json(describe(options, resolve(options, scene), scene.name, files), nullptr);
 }
 
 std::vector<std::string> after_command(std::vector<std::string> words) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Proves, for each option of the table: what is set on the command line, or in a scene file, is settled; stands in the
+// Proves, for each option of the table: what is set on the command line, or in a scene file, is resolved; stands in the
 // statistics; and is what the command line made of them leads to again. Presets and checks of ranges follow the table.
 #include "host_tools/settings/options.hpp"
 
@@ -42,20 +42,20 @@ std::string other_text(const Option& option) {
       option.kind);
 }
 
-AllSettings settled(const RenderOptions& options, const SceneDefaults& defaults) {
+AllSettings resolved(const RenderOptions& options, const SceneDefaults& defaults) {
   Scene scene;
   scene.name = "room";
   scene.camera = Camera{};
   scene.defaults = defaults;
-  const Settled settled = settle(options, scene);
-  return {settled.quality, settled.tone, settled.machine};
+  const Resolved resolved = resolve(options, scene);
+  return {resolved.quality, resolved.tone, resolved.machine};
 }
 
 Json settings_of(const RenderOptions& options) {
   Scene scene;
   scene.name = "room";
   scene.camera = Camera{};
-  return settings_json(describe(options, settle(options, scene), scene.name, {}), nullptr);
+  return settings_json(describe(options, resolve(options, scene), scene.name, {}), nullptr);
 }
 
 std::vector<std::string> words_of(const Option& option) {
@@ -69,7 +69,7 @@ TEST(Options, GivenOnTheCommandLineLeadToThemselves) {
     SCOPED_TRACE(option.name);
     const RenderOptions options = parse_render_options(words_of(option));
     EXPECT_TRUE(options.given.has(option));
-    const AllSettings settings = settled(options, {});
+    const AllSettings settings = resolved(options, {});
     EXPECT_EQ(value_text(option, settings), other_text(option));
     EXPECT_FALSE(same_value(option, settings, built_in_settings()));
     const Json json = settings_of(options);
@@ -91,18 +91,18 @@ std::string toml_text(const Option& option) {
   return "'" + text + "'";
 }
 
-TEST(Options, OfASceneFileAreSettledAndOutweighed) {
+TEST(Options, OfASceneFileAreResolvedAndOutweighed) {
   for (const Option& option : all_options()) {
     if (option.scene_key.empty()) continue;
     SCOPED_TRACE(option.scene_key);
     const std::string text = "[defaults]\n" + option.scene_key + " = " + toml_text(option) + "\n";
     const SceneDefaults defaults = read_scene_file(text, "s.toml").defaults;
     EXPECT_TRUE(defaults.given.has(option));
-    EXPECT_FALSE(same_value(option, settled({}, defaults), built_in_settings()));
+    EXPECT_FALSE(same_value(option, resolved({}, defaults), built_in_settings()));
     if (option.name.empty() || std::holds_alternative<option::Flag>(option.kind)) continue;
     RenderOptions options;
     copy_value(option, built_in_settings(), options.given.give(option));
-    EXPECT_TRUE(same_value(option, settled(options, defaults), built_in_settings())) << "given, though as built in";
+    EXPECT_TRUE(same_value(option, resolved(options, defaults), built_in_settings())) << "given, though as built in";
   }
 }
 

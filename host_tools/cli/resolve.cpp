@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Options and a scene enter, complete settings leave.
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -28,7 +28,7 @@ void from_scene(const PlacedText& text, const char* key, Take take) {
   }
 }
 
-Camera settle_camera(const RenderOptions& options, const Scene& scene) {
+Camera resolve_camera(const RenderOptions& options, const Scene& scene) {
   Camera camera = scene.camera.value_or(Camera{});
   if (options.eye) camera.eye = *options.eye;
   if (options.look_at) camera.look_at = *options.look_at;
@@ -74,7 +74,7 @@ void scale_lengths(const GivenSettings& given, Quality& quality) {
   quality.cluster_factor = elements_given ? 1 : std::min(1.0, quality.patch_factor / quality.element_factor);
 }
 
-MachineDescription settle_description(const RenderOptions& options) {
+MachineDescription resolve_description(const RenderOptions& options) {
   MachineDescription description;
   if (options.machine) description = load_machine_description(*options.machine);
   for (const std::string& value : options.machine_values) set_machine_value(description, value);
@@ -97,7 +97,7 @@ void take_machine(const SceneDefaults& defaults, const GivenSettings& given, Mac
 
 /// Each setting: given by the user, else by the scene, in the measure of the preset, else built in. Returns the preset
 /// that is in force.
-std::string settle_settings(const RenderOptions& options, const Scene& scene, AllSettings& settings) {
+std::string resolve_settings(const RenderOptions& options, const Scene& scene, AllSettings& settings) {
   const SceneDefaults& defaults = scene.defaults;
   const Preset scenes_preset = preset_of(defaults);
   apply(scenes_preset, settings.quality);
@@ -106,7 +106,7 @@ std::string settle_settings(const RenderOptions& options, const Scene& scene, Al
   bool& shadow_rays = settings.quality.shadow_rays;
   if (shadow_rays && !defaults.given.has(&Quality::shadow_rays) && emitting_share(scene) > kMostEmittingShare)
     shadow_rays = false;
-  settings.machine.description = settle_description(options);
+  settings.machine.description = resolve_description(options);
   take_scheme(settings.machine, options.given.values().machine.scheme);
   take_machine(defaults, options.given, settings.machine);
   options.given.apply_to(settings);
@@ -133,31 +133,31 @@ SceneOptions scene_options(const RenderOptions& options) {
   return result;
 }
 
-Settled settle(const RenderOptions& options, const Scene& scene) {
-  Settled settled;
-  settled.camera = settle_camera(options, scene);
+Resolved resolve(const RenderOptions& options, const Scene& scene) {
+  Resolved resolved;
+  resolved.camera = resolve_camera(options, scene);
   AllSettings settings;
-  settled.preset = settle_settings(options, scene, settings);
-  settled.quality = settings.quality;
-  settled.machine = std::move(settings.machine);
-  settled.tone = settings.tone;
-  settled.outputs = options.outputs;
-  if (options.no_picture && !settled.outputs.empty()) throw UsageError("--no-picture and --output exclude each other");
-  if (settled.outputs.empty() && !options.no_picture) settled.outputs.emplace_back(scene.name + ".png");
-  settled.files = {options.save_radiosity, options.save_mesh, options.radiosity};
-  return settled;
+  resolved.preset = resolve_settings(options, scene, settings);
+  resolved.quality = settings.quality;
+  resolved.machine = std::move(settings.machine);
+  resolved.tone = settings.tone;
+  resolved.outputs = options.outputs;
+  if (options.no_picture && !resolved.outputs.empty()) throw UsageError("--no-picture and --output exclude each other");
+  if (resolved.outputs.empty() && !options.no_picture) resolved.outputs.emplace_back(scene.name + ".png");
+  resolved.files = {options.save_radiosity, options.save_mesh, options.radiosity};
+  return resolved;
 }
 
-RunDescription describe(const RenderOptions& options, const Settled& settled, const std::string& scene_name,
+RunDescription describe(const RenderOptions& options, const Resolved& resolved, const std::string& scene_name,
                         std::vector<InputFile> files) {
   RunDescription run;
   run.scene = scene_name;
-  run.quality = settled.quality;
-  run.machine = settled.machine;
-  run.pictures = settled.outputs;
-  run.preset = settled.preset;
-  run.camera = settled.camera;
-  run.tone = settled.tone;
+  run.quality = resolved.quality;
+  run.machine = resolved.machine;
+  run.pictures = resolved.outputs;
+  run.preset = resolved.preset;
+  run.camera = resolved.camera;
+  run.tone = resolved.tone;
   run.inputs = {options.scene.string(),
                 options.studio,
                 options.missing_materials == MissingMaterials::white,

@@ -10,7 +10,7 @@
 
 namespace torolux {
 
-struct Settled {
+struct Resolved {
   Camera camera;
   Quality quality;
   std::string preset;  ///< in force, on top of which the rest was given
@@ -24,11 +24,11 @@ struct Settled {
 SceneOptions scene_options(const RenderOptions& options);
 
 /// What to report a run by. files: as in RunInputs.
-RunDescription describe(const RenderOptions& options, const Settled& settled, const std::string& scene_name,
+RunDescription describe(const RenderOptions& options, const Resolved& resolved, const std::string& scene_name,
                         std::vector<InputFile> files);
 
 /// Reads the machine file, if one was named. Throws InputError, UsageError; values from the scene are checked as those
 /// from the command line are, and the message says that they come from the scene.
-Settled settle(const RenderOptions& options, const Scene& scene);
+Resolved resolve(const RenderOptions& options, const Scene& scene);
 
 }  // namespace torolux

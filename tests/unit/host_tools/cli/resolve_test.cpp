@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Proves: an option given outweighs the scene's default, which outweighs the built-in one, for each of them.
-#include "host_tools/cli/settle.hpp"
+#include "host_tools/cli/resolve.hpp"
 
 #include <gmock/gmock.h>
 
@@ -46,42 +46,42 @@ Scene bare_scene() {
   return scene;
 }
 
-TEST(Settle, BuiltInValues) {
-  const Settled settled = settle({}, bare_scene());
+TEST(Resolve, BuiltInValues) {
+  const Resolved resolved = resolve({}, bare_scene());
   const Quality built_in;
-  EXPECT_EQ(settled.quality.width, built_in.width);
-  EXPECT_EQ(settled.quality.hemicube, built_in.hemicube);
-  EXPECT_EQ(settled.quality.unshot, built_in.unshot);
-  EXPECT_EQ(settled.quality.patch_length, std::nullopt);
-  EXPECT_FALSE(settled.quality.two_sided_lights);
-  EXPECT_TRUE(settled.quality.shadow_rays);
-  EXPECT_EQ(settled.quality.filter, built_in.filter);
-  EXPECT_EQ(settled.machine.columns, 4U);
-  EXPECT_EQ(settled.machine.subspaces, std::nullopt);
-  EXPECT_EQ(settled.machine.scheme, Scheme::spread);
-  EXPECT_EQ(settled.machine.allocation, "balanced");
-  EXPECT_EQ(settled.tone.exposure_ev, 0);
-  EXPECT_EQ(settled.tone.curve, ToneCurve::filmic);
-  EXPECT_THAT(settled.outputs, testing::ElementsAre("bare.png"));
+  EXPECT_EQ(resolved.quality.width, built_in.width);
+  EXPECT_EQ(resolved.quality.hemicube, built_in.hemicube);
+  EXPECT_EQ(resolved.quality.unshot, built_in.unshot);
+  EXPECT_EQ(resolved.quality.patch_length, std::nullopt);
+  EXPECT_FALSE(resolved.quality.two_sided_lights);
+  EXPECT_TRUE(resolved.quality.shadow_rays);
+  EXPECT_EQ(resolved.quality.filter, built_in.filter);
+  EXPECT_EQ(resolved.machine.columns, 4U);
+  EXPECT_EQ(resolved.machine.subspaces, std::nullopt);
+  EXPECT_EQ(resolved.machine.scheme, Scheme::spread);
+  EXPECT_EQ(resolved.machine.allocation, "balanced");
+  EXPECT_EQ(resolved.tone.exposure_ev, 0);
+  EXPECT_EQ(resolved.tone.curve, ToneCurve::filmic);
+  EXPECT_THAT(resolved.outputs, testing::ElementsAre("bare.png"));
 }
 
-TEST(Settle, AllocationFollowsTheScheme) {
+TEST(Resolve, AllocationFollowsTheScheme) {
   RenderOptions options;
-  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, allocation_of(MachineChoice().scheme));
+  EXPECT_EQ(resolve(options, bare_scene()).machine.allocation, allocation_of(MachineChoice().scheme));
   options.given.set(&MachineChoice::scheme, Scheme::spread);
-  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "balanced");
+  EXPECT_EQ(resolve(options, bare_scene()).machine.allocation, "balanced");
   options.given.set(&MachineChoice::scheme, Scheme::paper);
-  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "skewed");
-  EXPECT_EQ(settle(options, scene_with_defaults()).machine.allocation, "block") << "the scene's";
+  EXPECT_EQ(resolve(options, bare_scene()).machine.allocation, "skewed");
+  EXPECT_EQ(resolve(options, scene_with_defaults()).machine.allocation, "block") << "the scene's";
   options.given.set(&MachineChoice::allocation, "modulo");
   options.given.set(&MachineChoice::replicate, 0.25);
-  EXPECT_EQ(settle(options, bare_scene()).machine.allocation, "modulo");
-  EXPECT_EQ(settle(options, bare_scene()).machine.replicate, 0.25);
+  EXPECT_EQ(resolve(options, bare_scene()).machine.allocation, "modulo");
+  EXPECT_EQ(resolve(options, bare_scene()).machine.replicate, 0.25);
 }
 
-TEST(Settle, EachStepFollowsTheSchemeUnlessGiven) {
+TEST(Resolve, EachStepFollowsTheSchemeUnlessGiven) {
   RenderOptions options;
-  const auto machine = [&options] { return settle(options, bare_scene()).machine; };
+  const auto machine = [&options] { return resolve(options, bare_scene()).machine; };
   EXPECT_EQ(machine().points, Points::travel);
   EXPECT_EQ(machine().empty, Empty::over);
   EXPECT_EQ(machine().camera_rays, RayMaker::pes);
@@ -102,9 +102,9 @@ TEST(Settle, EachStepFollowsTheSchemeUnlessGiven) {
   EXPECT_EQ(machine().replicate, std::nullopt) << "auto outweighs the scheme's 0";
 }
 
-TEST(Settle, SceneOutweighsBuiltIn) {
-  const Settled settled = settle({}, scene_with_defaults());
-  const Quality& q = settled.quality;
+TEST(Resolve, SceneOutweighsBuiltIn) {
+  const Resolved resolved = resolve({}, scene_with_defaults());
+  const Quality& q = resolved.quality;
   EXPECT_EQ(q.width, 101U);
   EXPECT_EQ(q.height, 102U);
   EXPECT_EQ(q.samples, 103U);
@@ -120,10 +120,10 @@ TEST(Settle, SceneOutweighsBuiltIn) {
   EXPECT_TRUE(q.two_sided_lights);
   EXPECT_TRUE(q.shadow_rays);
   EXPECT_EQ(q.filter, PixelFilter::box);
-  EXPECT_EQ(settled.tone.exposure_ev, 1.5);
-  EXPECT_EQ(settled.machine.subspaces, (std::array<std::uint32_t, 3>{2, 3, 4}));
-  EXPECT_EQ(settled.machine.allocation, "block");
-  EXPECT_EQ(settled.camera.field_of_view_degrees, 55);
+  EXPECT_EQ(resolved.tone.exposure_ev, 1.5);
+  EXPECT_EQ(resolved.machine.subspaces, (std::array<std::uint32_t, 3>{2, 3, 4}));
+  EXPECT_EQ(resolved.machine.allocation, "block");
+  EXPECT_EQ(resolved.camera.field_of_view_degrees, 55);
 }
 
 RenderOptions all_given() {
@@ -157,9 +157,9 @@ RenderOptions all_given() {
   return options;
 }
 
-TEST(Settle, OptionsOutweighTheScene) {
-  const Settled settled = settle(all_given(), scene_with_defaults());
-  const Quality& q = settled.quality;
+TEST(Resolve, OptionsOutweighTheScene) {
+  const Resolved resolved = resolve(all_given(), scene_with_defaults());
+  const Quality& q = resolved.quality;
   EXPECT_EQ(q.width, 11U);
   EXPECT_EQ(q.height, 12U);
   EXPECT_EQ(q.samples, 13U);
@@ -175,27 +175,27 @@ TEST(Settle, OptionsOutweighTheScene) {
   EXPECT_EQ(q.filter, PixelFilter::gaussian);
   EXPECT_EQ(q.layers, 6U);
   EXPECT_FALSE(q.shadow_rays) << "--direct radiosity, given";
-  EXPECT_EQ(settled.tone.exposure_ev, -2);
-  EXPECT_EQ(settled.tone.curve, ToneCurve::linear);
-  EXPECT_EQ(settled.machine.subspaces, std::nullopt);
-  EXPECT_EQ(settled.machine.allocation, "modulo");
-  EXPECT_EQ(settled.machine.columns, 3U);
-  EXPECT_EQ(settled.machine.rows, 5U);
-  EXPECT_EQ(settled.machine.pe_memory, 1U << 20U);
-  EXPECT_EQ(settled.machine.threads, 2U);
-  EXPECT_EQ(settled.camera.eye, (Vec3d{1, 2, 3}));
-  EXPECT_EQ(settled.camera.look_at, (Vec3d{0, 0, 0})) << "not given: the scene's";
-  EXPECT_EQ(settled.camera.field_of_view_degrees, 33);
-  EXPECT_THAT(settled.outputs, testing::ElementsAre("a.exr", "b.pfm"));
+  EXPECT_EQ(resolved.tone.exposure_ev, -2);
+  EXPECT_EQ(resolved.tone.curve, ToneCurve::linear);
+  EXPECT_EQ(resolved.machine.subspaces, std::nullopt);
+  EXPECT_EQ(resolved.machine.allocation, "modulo");
+  EXPECT_EQ(resolved.machine.columns, 3U);
+  EXPECT_EQ(resolved.machine.rows, 5U);
+  EXPECT_EQ(resolved.machine.pe_memory, 1U << 20U);
+  EXPECT_EQ(resolved.machine.threads, 2U);
+  EXPECT_EQ(resolved.camera.eye, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(resolved.camera.look_at, (Vec3d{0, 0, 0})) << "not given: the scene's";
+  EXPECT_EQ(resolved.camera.field_of_view_degrees, 33);
+  EXPECT_THAT(resolved.outputs, testing::ElementsAre("a.exr", "b.pfm"));
 }
 
 Quality quality_of(const Scene& scene, const char* preset) {
   RenderOptions options;
   options.preset = preset_named(preset);
-  return settle(options, scene).quality;
+  return resolve(options, scene).quality;
 }
 
-TEST(Settle, APresetIsAllThatABareSceneGets) {
+TEST(Resolve, APresetIsAllThatABareSceneGets) {
   for (const Preset& preset : kPresets) {
     Quality should;
     apply(preset, should);
@@ -213,7 +213,7 @@ TEST(Settle, APresetIsAllThatABareSceneGets) {
 }
 
 // A scene says what it needs at `normal`, or at the preset that it names.
-TEST(Settle, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
+TEST(Resolve, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   Scene scene = bare_scene();
   scene.defaults.given.set(&Quality::samples, 32);
   scene.defaults.given.set(&Quality::emission_records, 12'000'000);
@@ -241,7 +241,7 @@ TEST(Settle, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   EXPECT_EQ(quality_of(scene, "normal").samples, 8U);
 }
 
-TEST(Settle, PresetsSendNoShadowRaysToLargeEmitters) {
+TEST(Resolve, PresetsSendNoShadowRaysToLargeEmitters) {
   Scene scene = bare_scene();
   scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 3, 0}};
   scene.materials.resize(2);
@@ -254,7 +254,7 @@ TEST(Settle, PresetsSendNoShadowRaysToLargeEmitters) {
   RenderOptions options;
   options.preset = preset_named("fine");
   options.given.set(&Quality::shadow_rays, true);
-  EXPECT_TRUE(settle(options, scene).quality.shadow_rays) << "asked for";
+  EXPECT_TRUE(resolve(options, scene).quality.shadow_rays) << "asked for";
   scene.defaults.given.set(&Quality::shadow_rays, true);
   EXPECT_TRUE(quality_of(scene, "fine").shadow_rays) << "the scene asks for them";
   scene.defaults.given.forget(&Quality::shadow_rays);
@@ -263,46 +263,46 @@ TEST(Settle, PresetsSendNoShadowRaysToLargeEmitters) {
 }
 
 // Clusters are not refined, so they do not grow with elements that are; a length that is given is theirs, too.
-TEST(Settle, ClustersAreAsFineAsPatches) {
+TEST(Resolve, ClustersAreAsFineAsPatches) {
   EXPECT_EQ(quality_of(bare_scene(), "normal").cluster_factor, 1.0);
   EXPECT_EQ(quality_of(bare_scene(), "draft").cluster_factor, 1.0);
   EXPECT_EQ(quality_of(bare_scene(), "fine").cluster_factor, 0.25);
   RenderOptions options;
   options.preset = preset_named("fine");
   options.given.set(&Quality::element_length, 0.5);
-  EXPECT_EQ(settle(options, bare_scene()).quality.cluster_factor, 1.0);
+  EXPECT_EQ(resolve(options, bare_scene()).quality.cluster_factor, 1.0);
 }
 
-TEST(Settle, FaultsOfTheSceneNameTheirPlace) {
+TEST(Resolve, FaultsOfTheSceneNameTheirPlace) {
   Scene scene = scene_with_defaults();
   scene.defaults.subspaces = PlacedText{"2x3", "room/scene.toml:7"};
-  EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }),
+  EXPECT_THAT(message_of<InputError>([&] { resolve({}, scene); }),
               testing::StartsWith("room/scene.toml:7: [defaults] 'subspaces'"));
   scene = scene_with_defaults();
   scene.defaults.allocation = PlacedText{"heaps", "room/scene.toml:8"};
-  EXPECT_THAT(message_of<InputError>([&] { settle({}, scene); }), HasSubstr("heaps"));
+  EXPECT_THAT(message_of<InputError>([&] { resolve({}, scene); }), HasSubstr("heaps"));
   Scene fair = scene_with_defaults();
   fair.defaults.quality = PlacedText{"good", "room/scene.toml:9"};
-  EXPECT_THAT(message_of<InputError>([&] { settle({}, fair); }),
+  EXPECT_THAT(message_of<InputError>([&] { resolve({}, fair); }),
               testing::AllOf(testing::StartsWith("room/scene.toml:9: [defaults] 'quality'"), HasSubstr("good")));
   RenderOptions options;
   options.given.set(&MachineChoice::allocation, "block");
-  EXPECT_NO_THROW(settle(options, scene)) << "outweighed, so it does not matter";
+  EXPECT_NO_THROW(resolve(options, scene)) << "outweighed, so it does not matter";
 }
 
-TEST(Settle, ACameraThatLooksNowhereIsRefused) {
+TEST(Resolve, ACameraThatLooksNowhereIsRefused) {
   RenderOptions options;
   options.eye = {{0, 0, 0}};
-  EXPECT_THROW(settle(options, scene_with_defaults()), InputError);
+  EXPECT_THROW(resolve(options, scene_with_defaults()), InputError);
   options.look_at = {{0, 1, 0}};
-  EXPECT_THROW(settle(options, scene_with_defaults()), InputError) << "along up";
+  EXPECT_THROW(resolve(options, scene_with_defaults()), InputError) << "along up";
   EXPECT_THROW(scene_options(options), InputError);
 }
 
-TEST(Settle, MissingMachineFileIsRefused) {
+TEST(Resolve, MissingMachineFileIsRefused) {
   RenderOptions options;
   options.machine = "/nowhere/machine.toml";
-  EXPECT_THROW(settle(options, bare_scene()), InputError);
+  EXPECT_THROW(resolve(options, bare_scene()), InputError);
 }
 
 }  // namespace
