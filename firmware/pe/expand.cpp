@@ -6,6 +6,7 @@
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
+#include "firmware/protocol/record_key.hpp"
 #include "firmware/protocol/stratified.hpp"
 
 namespace torolux::pe {
@@ -63,7 +64,7 @@ bool begin_point(Pe& pe) {
     expansion = {};
     expansion.point = point;
     expansion.number = point.number_low | (std::uint32_t{point.number_high} << 8U);
-    expansion.key = protocol::hash_combine(point.key, expansion.number);
+    expansion.key = protocol::point_key(point.key, expansion.number);
     expansion.within = protocol::stratified_pair(expansion.number, point.key);
     expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
     begin_pixels(pe.scene, expansion);
@@ -82,7 +83,7 @@ void create_record(Pe& pe, Niu& niu) {
   // hemi-cube of so many times the pixels. In each pixel the points' places are shifted (by exclusive or) by numbers of
   // its own: they keep as far apart, and pixels have nothing to do with each other.
   const HemicubeGrid& grid = pe.scene.hemicube_grid;
-  const std::uint32_t shift = protocol::hash_combine(expansion.point.key, expansion.pixel);
+  const std::uint32_t shift = protocol::pixel_key(expansion.point.key, expansion.pixel);
   const HemicubePixel pixel = hemicube_pixel(grid, expansion.pixel);
   const glm::vec3 direction =
       pixel_direction(expansion.frame, grid, pixel, pe.scene.hemicube[entry_of(grid.n, pixel)],
@@ -95,7 +96,7 @@ void create_record(Pe& pe, Niu& niu) {
   record.flux = expansion.pixel_flux;
   record.place = expansion.point.place;
   record.polygon = expansion.point.polygon;
-  record.key = expansion.key ^ shift;
+  record.key = protocol::record_key(expansion.key, shift);
   record.kind = protocol::RecordKind::light;
   record.bounce = 0;
   record.flags = static_cast<std::uint8_t>(protocol::kFirst | (expansion.point.flags & protocol::kDirect));

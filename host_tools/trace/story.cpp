@@ -10,6 +10,7 @@
 #include "emulator/torus/block.hpp"
 #include "firmware/protocol/niu_window.hpp"
 #include "firmware/protocol/random.hpp"
+#include "firmware/protocol/record_key.hpp"
 #include "firmware/protocol/shot_grid.hpp"
 #include "host_tools/report/text.hpp"
 
@@ -214,11 +215,12 @@ void Story::shot(Cycles time, std::uint16_t owner, const protocol::Shoot& shoot)
   const auto& wanted = std::get<FollowedShot>(target_);
   if (shoot.number != wanted.shot) return;
   const std::uint32_t patch = setup_->placement.patches_of_pe[owner][shoot.patch];
-  // As firmware/pe/shoot.cpp and expand.cpp make it.
+  // As firmware/pe/shoot.cpp makes it.
   std::uint32_t key = protocol::hash_combine(setup_->parameters.seed, patch);
   key = protocol::hash_combine(key, shoot.side * 2U + static_cast<std::uint32_t>(shoot.kind));
   shot_key_ = protocol::hash_combine(key, shoot.number);
-  key_ = protocol::hash_combine(*shot_key_, wanted.point) ^ protocol::hash_combine(*shot_key_, wanted.direction);
+  key_ = protocol::record_key(protocol::point_key(*shot_key_, wanted.point),
+                              protocol::pixel_key(*shot_key_, wanted.direction));
   std::array<double, 3> flux{};
   for (std::size_t c = 0; c < 3; ++c) flux[c] = static_cast<double>(shoot.amount[c]) * setup_->units.watts_per_quantum;
   tell(time, pe_text(owner),
