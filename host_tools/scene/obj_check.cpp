@@ -144,7 +144,9 @@ class ObjChecker {
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size())
-      refuse(place_, in_quotes(word) + " in " + in_quotes(corner) + " is not an index");
+      refuse(place_, in_quotes(word) + (word == corner ? std::string() : " in " + in_quotes(corner)) +
+                         " is not an index" +
+                         (error == std::errc::result_out_of_range ? ": there are not that many" : ""));
     return value;
   }
 

@@ -69,6 +69,7 @@ class ElfReader {
 
 std::vector<std::byte> contents_of(const std::filesystem::path& file) {
   std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": there is no such file");
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   const std::streamoff bytes = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
   if (bytes < 0 || std::filesystem::is_directory(file, error)) {
