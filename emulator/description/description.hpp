@@ -122,6 +122,8 @@ struct MachineDescription {
 
   bool operator==(const MachineDescription&) const = default;
 
+  /// Of each of a NIU's copy engines, in a cycle; 0: copies take no time.
+  std::uint32_t copy_bytes() const { return ideal.niu ? 0 : niu.bytes_per_cycle; }
   std::uint32_t signal_cycles() const { return ideal.signals ? 0 : bus.signal_cycles; }
 };
 

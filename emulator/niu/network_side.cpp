@@ -20,7 +20,7 @@ constexpr std::chrono::microseconds kLongestSleep{20'000};
 NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, const MachineDescription& machine,
                                ProcessorWaker* waker)
     : receive_buffers_(machine.ideal.niu ? std::numeric_limits<std::uint32_t>::max() : machine.niu.receive_packets),
-      copy_bytes_(machine.ideal.niu ? 0 : machine.niu.bytes_per_cycle),
+      copy_bytes_(machine.copy_bytes()),
       channel_(&channel),
       waker_(waker),
       pe_(pe),

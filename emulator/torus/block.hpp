@@ -22,6 +22,10 @@ inline constexpr std::size_t kMostBlockBytes = protocol::kMostMessageBytes;
 static_assert(kMostBlockBytes >= protocol::kMostPacketBytes);
 /// What the torus carries beside the records [bytes]: destination, source, number of records, length, age, CRC-32.
 inline constexpr std::uint32_t kPacketHeaderBytes = 16;
+/// Flits of a packet with so many bytes of records.
+constexpr std::uint32_t flits_of(std::uint32_t bytes, std::uint32_t flit_bytes) {
+  return (bytes + kPacketHeaderBytes + flit_bytes - 1) / flit_bytes;
+}
 /// Destination of a broadcast over the bus.
 inline constexpr std::uint16_t kEveryPe = 0xFFFF;
 static_assert(kEveryPe > protocol::kFrameBuffer && kEveryPe > protocol::kHost && kEveryPe >= protocol::kMostPes);

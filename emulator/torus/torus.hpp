@@ -49,10 +49,7 @@ class Torus {
         TorusSources sources, BlockPool& pool, TorusClient& client);
 
   const TorusShape& shape() const { return shape_; }
-  /// Flits of a packet with so many bytes of records.
-  std::uint32_t flits(std::uint32_t bytes) const {
-    return (bytes + kPacketHeaderBytes + flit_bytes_ - 1) / flit_bytes_;
-  }
+  std::uint32_t flits(std::uint32_t bytes) const { return flits_of(bytes, flit_bytes_); }
   /// Appends a packet (destination, flits, number set) to the outgoing queue of a PE. The limit on it is the NIU's.
   void inject(unsigned pe, BlockIndex block, Cycles now);
   /// What the next packet of a PE, or its NIU's room, will need here, into the caches.

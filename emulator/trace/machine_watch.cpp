@@ -71,33 +71,43 @@ void MachineWatch::received(Cycles time, const Block& packet) {
   if (packet.source < nius_.size()) watcher_.received(time, name_of(packet));
 }
 
-void MachineWatch::bus_was_busy(Cycles begin, Cycles end, BusKind kind) {
-  const auto put = [this](Cycles time, std::size_t state) {
-    watcher_.bus_state(time, state);
+/// Takes the states of the bus: it is told each.
+auto MachineWatch::to_bus() {
+  return [this](Cycles begin, std::size_t state) {
+    watcher_.bus_state(begin, state);
     return true;
   };
-  bus_.account(begin, kBusIdle, put);
-  bus_.account(end, static_cast<std::size_t>(kind), put);
+}
+
+auto MachineWatch::to_host() {
+  return [this](Cycles begin, std::size_t state) {
+    watcher_.host_state(begin, state == kBusy);
+    return true;
+  };
+}
+
+auto MachineWatch::to_frame_buffer() {
+  return [this](Cycles begin, std::size_t state) {
+    watcher_.frame_buffer_state(begin, state == kBusy);
+    return true;
+  };
+}
+
+void MachineWatch::bus_was_busy(Cycles begin, Cycles end, BusKind kind) {
+  bus_.account(begin, kBusIdle, to_bus());
+  bus_.account(end, static_cast<std::size_t>(kind), to_bus());
   bus_busy_ += end - begin;
 }
 
 void MachineWatch::host_was_busy(Cycles begin, Cycles end) {
-  const auto put = [this](Cycles time, std::size_t state) {
-    watcher_.host_state(time, state == kBusy);
-    return true;
-  };
-  host_.account(begin, kIdle, put);
-  host_.account(end, kBusy, put);
+  host_.account(begin, kIdle, to_host());
+  host_.account(end, kBusy, to_host());
   host_busy_ += end - begin;
 }
 
 void MachineWatch::frame_buffer_was_busy(Cycles begin, Cycles end) {
-  const auto put = [this](Cycles time, std::size_t state) {
-    watcher_.frame_buffer_state(time, state == kBusy);
-    return true;
-  };
-  frame_buffer_.account(begin, kIdle, put);
-  frame_buffer_.account(end, kBusy, put);
+  frame_buffer_.account(begin, kIdle, to_frame_buffer());
+  frame_buffer_.account(end, kBusy, to_frame_buffer());
   frame_buffer_busy_ += end - begin;
 }
 
@@ -109,18 +119,9 @@ void MachineWatch::end(Cycles time) {
     tally.account(time, idle, put);
     tally.finish(put);
   };
-  finish(bus_, kBusIdle, [this](Cycles begin, std::size_t state) {
-    watcher_.bus_state(begin, state);
-    return true;
-  });
-  finish(host_, kIdle, [this](Cycles begin, std::size_t state) {
-    watcher_.host_state(begin, state == kBusy);
-    return true;
-  });
-  finish(frame_buffer_, kIdle, [this](Cycles begin, std::size_t state) {
-    watcher_.frame_buffer_state(begin, state == kBusy);
-    return true;
-  });
+  finish(bus_, kBusIdle, to_bus());
+  finish(host_, kIdle, to_host());
+  finish(frame_buffer_, kIdle, to_frame_buffer());
   watcher_.end(time);
 }
 

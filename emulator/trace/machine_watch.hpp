@@ -48,6 +48,9 @@ class MachineWatch {
     return {packet.number, packet.source, packet.destination, packet.records};
   }
   void catch_up(Cycles time);
+  auto to_bus();
+  auto to_host();
+  auto to_frame_buffer();
   void pass_on(Cycles time);
   void sample(Cycles time);
   static std::uint32_t percent(Cycles busy, Cycles& before, Cycles length);

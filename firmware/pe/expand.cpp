@@ -63,7 +63,7 @@ bool begin_point(Pe& pe) {
     --pe.points.waiting;
     expansion = {};
     expansion.point = point;
-    expansion.number = point.number_low | (std::uint32_t{point.number_high} << 8U);
+    expansion.number = protocol::point_number(point);
     expansion.key = protocol::point_key(point.key, expansion.number);
     expansion.within = protocol::stratified_pair(expansion.number, point.key);
     expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));

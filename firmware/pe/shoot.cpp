@@ -7,7 +7,7 @@
 #include "firmware/pe/shot_points.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/flux.hpp"
-#include "firmware/protocol/random.hpp"
+#include "firmware/protocol/record_key.hpp"
 #include "firmware/protocol/shot_grid.hpp"
 
 namespace torolux::pe {
@@ -52,12 +52,6 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
   return flux;
 }
 
-std::uint32_t key_of(const Scene& scene, const Shoot& shoot) {
-  std::uint32_t key = protocol::hash_combine(scene.layout.seed, scene.patches[shoot.patch].number);
-  key = protocol::hash_combine(key, shoot.side * 2U + static_cast<std::uint32_t>(shoot.kind));
-  return protocol::hash_combine(key, shoot.number);
-}
-
 /// To another PE at once: it may be waiting for work.
 void send_point(Pe& pe, Niu& niu, PeNumber destination, const protocol::PointRecord& point) {
   if (destination == niu.pe()) {
@@ -80,7 +74,7 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   const protocol::StageLayout& layout = pe.scene.layout;
   shot.points = protocol::points_of_shot(shoot.kind, shot.flux, layout.points_per_quantum, layout.shot_points,
                                          layout.emission_points);
-  shot.key = key_of(pe.scene, shot.command);
+  shot.key = protocol::shot_key(pe.scene.layout.seed, pe.scene.patches[shot.command.patch].number, shot.command);
   shot.active = true;
   shot.point = 0;
   shot.part = 0;

@@ -79,6 +79,11 @@ static_assert(sizeof(PointRecord) == sizeof(RadiosityRecord));
 static_assert(offsetof(PointRecord, kind) == offsetof(RadiosityRecord, kind));
 static_assert(offsetof(PointRecord, flags) == offsetof(RadiosityRecord, flags));
 
+/// Of the point in its shot.
+constexpr std::uint32_t point_number(const PointRecord& point) {
+  return point.number_low | (std::uint32_t{point.number_high} << 8U);
+}
+
 /// A second way of a ray (of refraction and reflection) that waits until the first has ended.
 struct Branch {
   Vec3f origin;

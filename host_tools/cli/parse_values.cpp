@@ -77,6 +77,27 @@ std::array<std::uint32_t, N> parse_sizes(const std::string& text, const std::str
   return result;
 }
 
+/// Of all of a text between separators; absent: one of them is no whole number of 32 bits.
+std::optional<std::vector<std::uint32_t>> numbers(std::string_view text, char separator) {
+  std::vector<std::uint32_t> all;
+  for (const std::string_view part : split(text, separator)) {
+    const auto number = whole(part);
+    if (!number || *number > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+    all.push_back(static_cast<std::uint32_t>(*number));
+  }
+  return all;
+}
+
+/// Takes K (2^10), M or G off the end of a size where it is among `units`; the power of two that it stands for.
+unsigned take_unit(std::string_view& size, std::string_view units) {
+  if (size.empty()) return 0;
+  const char unit = static_cast<char>(size.back() >= 'a' ? size.back() - 'a' + 'A' : size.back());
+  const std::size_t place = units.find(unit);
+  if (place == std::string_view::npos) return 0;
+  size.remove_suffix(1);
+  return 10 * (static_cast<unsigned>(place) + 1);
+}
+
 constexpr const char* kPeListForm = "a list of PEs like 0-3,7";
 
 /// A PE of the largest machine.
@@ -108,10 +129,7 @@ std::optional<std::array<std::uint32_t, 3>> parse_subspaces(const std::string& t
 
 std::uint32_t parse_memory(const std::string& text) {
   std::string_view digits = text;
-  unsigned shift = 0;
-  if (digits.ends_with('K') || digits.ends_with('k')) shift = 10;
-  if (digits.ends_with('M') || digits.ends_with('m')) shift = 20;
-  if (shift > 0) digits.remove_suffix(1);
+  const unsigned shift = take_unit(digits, "KM");
   const auto number = whole(digits);
   if (!number) wrong_form(text, "a size like 512K, 64M or a number of bytes");
   const bool huge = *number > protocol::kLargestLocalMemory;
@@ -156,15 +174,28 @@ std::array<std::uint64_t, 2> parse_window(const std::string& text) {
 
 std::uint64_t parse_file_size(const std::string& text, std::uint64_t least, std::uint64_t most) {
   std::string_view digits = text;
-  const std::size_t unit = text.empty() ? std::string_view::npos : std::string_view("KMGkmg").find(text.back());
-  const unsigned shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<unsigned>(unit % 3) + 1);
-  if (shift != 0) digits.remove_suffix(1);
+  const unsigned shift = take_unit(digits, "KMG");
   const auto number = whole(digits);
   if (!number) wrong_form(text, "a size like 512K, 64M, 1G or a number of bytes");
   if (*number > most >> shift || *number << shift < least)
     throw InputError(in_quotes(text) + " is out of range: " + bytes_text(least) + " to " + bytes_text(most) +
                      " are allowed");
   return *number << shift;
+}
+
+FollowTarget parse_follow(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos) {
+    const auto column = numbers(std::string_view(text).substr(0, comma), ':');
+    const auto rest = numbers(std::string_view(text).substr(comma + 1), ':');
+    if (column && rest && column->size() == 1 && rest->size() <= 2)
+      return FollowedPixel{column->front(), rest->front(), rest->size() == 2 ? rest->back() : 0};
+  } else if (const auto all = numbers(text, ':'); all && (all->size() == 2 || all->size() == 3)) {
+    return FollowedShot{(*all)[0], (*all)[1], all->size() == 3 ? (*all)[2] : 0};
+  }
+  wrong_form(text,
+             "a pixel (X,Y or X,Y:SAMPLE) or a point of a shot (SHOT:POINT or SHOT:POINT:DIRECTION), all counted "
+             "from 0");
 }
 
 GdbEndpoint parse_gdb_endpoint(const std::string& text) {

@@ -17,6 +17,7 @@
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/presets.hpp"
+#include "host_tools/trace/follow_target.hpp"
 
 namespace torolux {
 
@@ -51,6 +52,9 @@ std::vector<unsigned> parse_pe_list(const std::string& text);
 
 /// "FROM:TO", cycles, or one of the two alone with its colon: from the beginning, to the end. FROM < TO.
 std::array<std::uint64_t, 2> parse_window(const std::string& text);
+
+/// "X,Y", "X,Y:SAMPLE"; "SHOT:POINT", "SHOT:POINT:DIRECTION".
+FollowTarget parse_follow(const std::string& text);
 
 /// A file's size: bytes, with K (2^10), M or G: "64M". least..most.
 std::uint64_t parse_file_size(const std::string& text, std::uint64_t least, std::uint64_t most);

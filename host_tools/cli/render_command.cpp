@@ -62,8 +62,7 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
 }
 
-RenderResult run_machine(const Scene& scene, Resolved& resolved, const RenderOptions& options, TraceFile* trace) try {
-  if (trace != nullptr) resolved.machine.watcher = &trace->watcher();
+RenderResult run_machine(const Scene& scene, const Resolved& resolved, const RenderOptions& options) {
   ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
                     resolved.machine.description.processor.clock_hertz, options.verbose);
   return render(scene, resolved.camera, resolved.quality, resolved.machine, resolved.files, firmware_image(),
@@ -72,9 +71,6 @@ RenderResult run_machine(const Scene& scene, Resolved& resolved, const RenderOpt
                   line.show(progress);
                   return true;
                 });
-} catch (const MachineFailure&) {
-  if (trace != nullptr) trace->finish();
-  throw;
 }
 
 void finish_trace(TraceFile& trace, bool quiet) {
@@ -95,7 +91,8 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   const auto trace = trace_file(options.trace, TracedRun::render, resolved.machine.columns * resolved.machine.rows);
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
-  const RenderResult result = run_machine(prepared.scene, resolved, options, trace.get());
+  if (trace) resolved.machine.watcher = &trace->watcher();
+  const RenderResult result = run_traced(trace.get(), [&] { return run_machine(prepared.scene, resolved, options); });
   if (interrupted()) return {kInterrupted, ""};
   if (trace) finish_trace(*trace, options.quiet);
   if (story) {

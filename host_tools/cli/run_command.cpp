@@ -28,15 +28,6 @@ void print_summary(const MachineSetup& setup, const MachineFigures& figures, dou
             << " packets; " << duration(wall_seconds) << "\n";
 }
 
-/// What was told until then is in the trace of a run that has failed.
-MachineFigures run_traced(const MachineSetup& setup, const Image& image,
-                          const std::function<void(const PeText&)>& print, TraceFile* trace) try {
-  return run_image(setup, image, print, [](Cycles) { return !interrupted(); });
-} catch (const MachineFailure&) {
-  if (trace != nullptr) trace->finish();
-  throw;
-}
-
 /// Throws InputError where one result would be written over another, or over what is read.
 void check_results_distinct(const RunOptions& options) {
   std::vector<NamedFile> written;
@@ -70,7 +61,8 @@ RunEnd run_prepared(const RunOptions& options) {
   };
   const auto trace = trace_file(options.trace, TracedRun::image, setup.columns * setup.rows);
   if (trace) setup.watcher = &trace->watcher();
-  const MachineFigures figures = run_traced(setup, image, print, trace.get());
+  const MachineFigures figures =
+      run_traced(trace.get(), [&] { return run_image(setup, image, print, [](Cycles) { return !interrupted(); }); });
   if (interrupted()) {
     return {kInterrupted, ""};
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See table_options.hpp.
+// Entries of the table enter, options of CLI11 leave, whose texts become values by the kind of each.
 #include "host_tools/cli/table_options.hpp"
 
 #include "emulator/engines/engine_names.hpp"

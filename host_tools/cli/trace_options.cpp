@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
-#include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
+#include "host_tools/cli/table_options.hpp"
 #include "host_tools/report/text.hpp"
 
 namespace torolux {
@@ -23,6 +23,12 @@ constexpr std::uint64_t kGrainsOfWindow = 4096;
 
 /// Of a render, where nothing is said; every state and packet of what `torolux run` runs, which is mostly short.
 constexpr std::uint64_t kRenderGrain = 65536, kRenderArrows = 256;
+constexpr std::uint64_t grain_of(TracedRun run) {
+  return run == TracedRun::render ? kRenderGrain : 1;
+}
+constexpr std::uint64_t arrows_of(TracedRun run) {
+  return run == TracedRun::render ? kRenderArrows : 1;
+}
 
 std::uint32_t shift_of(std::uint64_t grain) {
   return static_cast<std::uint32_t>(std::bit_width(grain) - 1);
@@ -31,11 +37,8 @@ std::uint32_t shift_of(std::uint64_t grain) {
 }  // namespace
 
 void add_trace_options(CLI::App& command, TraceOptions& options, TracedRun run, const std::string& group) {
-  const bool render = run == TracedRun::render;
   const auto add = [&](const std::string& name, const std::string& form, const std::string& help, auto parse) {
-    const auto take = [name, parse](const std::string& text) { value_of(name, parse, text); };
-    CLI::Option* option = command.add_option_function<std::string>(name, take, help)->type_name(form);
-    option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    CLI::Option* option = add_value(command, name, form, help, parse);
     if (!group.empty()) option->group(group);
     return option;
   };
@@ -50,14 +53,14 @@ void add_trace_options(CLI::App& command, TraceOptions& options, TracedRun run, 
       [&options](const std::string& text) { options.pes = parse_pe_list(text); });
   add("--trace-grain", "CYCLES",
       std::string("Of the trace: so many cycles are shown as one state; a power of two; 1: every state as it was [") +
-          (render ? "65536" : "1") + "; of a window at most 1/4096]",
+          std::to_string(grain_of(run)) + "; of a window at most 1/4096]",
       [&options](const std::string& text) {
         options.grain = parse_count(text, 1, kMostGrain);
         if (!std::has_single_bit(*options.grain)) throw InputError("\"" + text + "\" is not a power of two");
       });
   add("--trace-arrows", "N", "Of the trace: one packet in N has an arrow from sender to receiver; 0: none",
       [&options](const std::string& text) { options.arrows = parse_count(text, 0, kMostArrows); })
-      ->default_str(render ? "256" : "1");
+      ->default_str(std::to_string(arrows_of(run)));
   add("--trace-limit", "SIZE", "Of the trace: its greatest size, K = 1024, M = 1024 K, G = 1024 M",
       [&options](const std::string& text) {
         options.most_bytes = parse_file_size(text, kLeastTraceBytes, kMostTraceBytes);
@@ -73,11 +76,11 @@ TraceChoice trace_choice(const TraceOptions& options, TracedRun run, unsigned pe
                      std::to_string(pes - 1));
   choice.pes = options.pes;
   choice.most_bytes = options.most_bytes.value_or(choice.most_bytes);
-  std::uint64_t grain = run == TracedRun::render ? kRenderGrain : 1;
+  std::uint64_t grain = grain_of(run);
   if (options.window && choice.to != ~Cycles{0})
     grain = std::min(grain, std::bit_floor(std::max<std::uint64_t>(1, (choice.to - choice.from) / kGrainsOfWindow)));
   choice.grain_shift = shift_of(options.grain.value_or(grain));
-  choice.arrows = options.arrows.value_or(run == TracedRun::render ? kRenderArrows : 1);
+  choice.arrows = options.arrows.value_or(arrows_of(run));
   return choice;
 }
 

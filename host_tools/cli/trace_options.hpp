@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/errors.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/trace/perfetto_trace.hpp"
 
@@ -50,6 +51,17 @@ class TraceFile {
   FileWriter file_;
   PerfettoTrace trace_;
 };
+
+/// What run() returns. Where the machine fails, the trace (null: none) is there with what was told until then.
+template <class Run>
+auto run_traced(TraceFile* trace, Run run) {
+  try {
+    return run();
+  } catch (const MachineFailure&) {
+    if (trace != nullptr) trace->finish();
+    throw;
+  }
+}
 
 /// Nothing where no trace is asked for. Throws UsageError, InputError.
 std::unique_ptr<TraceFile> trace_file(const TraceOptions& options, TracedRun run, unsigned pes);

@@ -15,6 +15,12 @@ Vec3d SceneSpace::to_normalised(const Vec3d& position) const {
   return vec::scale(vec::subtract(position, origin), scale);
 }
 
+Vec3d SceneSpace::to_user(const Vec3d& normalised) const {
+  Vec3d position{};
+  for (std::size_t i = 0; i < 3; ++i) position[i] = normalised[i] / scale + origin[i];
+  return position;
+}
+
 SceneSpace scene_space(const Scene& scene) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Vec3d low{infinite, infinite, infinite};

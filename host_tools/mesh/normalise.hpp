@@ -18,6 +18,7 @@ struct SceneSpace {
   Vec3d size{1, 1, 1};    ///< of the object space, normalised; the longest is 1
 
   Vec3d to_normalised(const Vec3d& position) const;
+  Vec3d to_user(const Vec3d& normalised) const;
 };
 
 /// Of all positions that triangles use. Throws InputError where there is no triangle or no extent.

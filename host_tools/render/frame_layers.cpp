@@ -20,11 +20,6 @@ using protocol::Plane;
 
 constexpr double kUnit = double{protocol::kLayerUnit};
 
-/// Scene's radiance for one quantum.
-double quantum(const RenderSetup& setup) {
-  return setup.units.unit_radiance / double{setup.parameters.pixel_scale};
-}
-
 std::array<float, 3> scaled(const PixelSums& sums, double unit) {
   return {static_cast<float>(static_cast<double>(sums[0]) * unit),
           static_cast<float>(static_cast<double>(sums[1]) * unit),
@@ -67,7 +62,7 @@ std::uint32_t number(std::int64_t value) {
 
 Layer layer_of(Plane plane, const std::vector<PixelSums>& sums, const RenderSetup& setup) {
   Layer layer{plane, {}, {}};
-  const double to_irradiance = quantum(setup) * std::numbers::pi;
+  const double to_irradiance = setup.radiance_per_quantum() * std::numbers::pi;
   const double edge = 1 / setup.mesh.space.scale;
   for (const PixelSums& pixel : sums) {
     switch (plane) {
@@ -102,7 +97,7 @@ Picture picture_of(const FrameBuffer& frame_buffer, const RenderSetup& setup) {
   Picture picture{frame_buffer.width, frame_buffer.height, {}};
   const std::vector<PixelSums>& sums = frame_buffer.plane(Plane::colour);
   picture.pixels.reserve(sums.size());
-  const double unit = quantum(setup);
+  const double unit = setup.radiance_per_quantum();
   for (const PixelSums& pixel : sums) picture.pixels.push_back(scaled(pixel, unit));
   return picture;
 }

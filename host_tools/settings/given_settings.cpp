@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See given_settings.hpp.
+// What was given, over other settings.
 #include "host_tools/settings/given_settings.hpp"
 
 namespace torolux {

@@ -2,9 +2,9 @@
 // An option and settings enter; its value leaves, copied, compared, as text, or checked.
 #include "host_tools/settings/options.hpp"
 
-#include <charconv>
 #include <stdexcept>
 
+#include "emulator/description/description.hpp"
 #include "host_tools/settings/overloaded.hpp"
 
 namespace torolux {
@@ -28,8 +28,7 @@ void copy(const option::NumberedMember& member, const AllSettings& from, AllSett
 
 /// As short as it can be read back.
 std::string shortest(double value) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  return text_of(MachineValue(value));
 }
 
 std::string text(const std::optional<double>& value) {

@@ -31,6 +31,8 @@ struct RenderSetup {
   std::uint64_t credits = 0;            ///< W
   std::vector<std::string> notes;
 
+  /// Scene's radiance for one quantum of a pixel.
+  double radiance_per_quantum() const { return units.unit_radiance / double{parameters.pixel_scale}; }
   const Placement& placement_of(protocol::Stage stage) const {
     return stage == protocol::Stage::radiosity ? placement : ray_placement;
   }

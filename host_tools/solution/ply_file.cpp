@@ -58,9 +58,7 @@ class PlyWriter {
       if (patch.side[side] == protocol::kNoSide) continue;
       for (const std::size_t c :
            side == 0 ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{2, 1, 0}) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          put(static_cast<float>(corners[c][axis] / mesh_.space.scale + mesh_.space.origin[axis]));
-        }
+        for (const double along : mesh_.space.to_user(corners[c])) put(static_cast<float>(along));
         for (std::size_t k = 0; k < 3; ++k) put(radiosity(patch, side, light->irradiance_over_pi[c][k], k));
         put(patch.first_element[side] + facet.element);
       }

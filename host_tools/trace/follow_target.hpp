@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Whom `--follow` follows: a text enters, a sample of a pixel or a direction of a shot's point leaves.
+// Whom `--follow` follows: a sample of a pixel, or a direction of a shot's point.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <variant>
 
 namespace torolux {
@@ -20,8 +19,5 @@ struct FollowedShot {
 };
 
 using FollowTarget = std::variant<FollowedPixel, FollowedShot>;
-
-/// "X,Y", "X,Y:SAMPLE"; "SHOT:POINT", "SHOT:POINT:DIRECTION". Throws UsageError.
-FollowTarget parse_follow(const std::string& text);
 
 }  // namespace torolux

@@ -122,20 +122,23 @@ void PerfettoPackets::slice(TrackId track, std::uint64_t begin, std::uint64_t en
   event(end);
 }
 
-void PerfettoPackets::instant(TrackId track, std::uint64_t time, std::string_view text,
-                              std::span<const Annotation> annotations) {
+/// Up to what an arrow's end has besides.
+void PerfettoPackets::begin_instant(TrackId track, std::string_view text) {
   const NameId number = name(text);
   event_.varint(track_event::kType, track_event::kInstant).varint(track_event::kTrack, track);
   event_.varint(track_event::kName, number);
+}
+
+void PerfettoPackets::instant(TrackId track, std::uint64_t time, std::string_view text,
+                              std::span<const Annotation> annotations) {
+  begin_instant(track, text);
   annotate(annotations);
   event(time);
 }
 
 void PerfettoPackets::arrow(TrackId track, std::uint64_t time, std::string_view text, ArrowId arrow, ArrowEnd end,
                             std::span<const Annotation> annotations) {
-  const NameId number = name(text);
-  event_.varint(track_event::kType, track_event::kInstant).varint(track_event::kTrack, track);
-  event_.varint(track_event::kName, number);
+  begin_instant(track, text);
   event_.fixed64(end == ArrowEnd::begins ? track_event::kFlow : track_event::kTerminatingFlow, arrow);
   annotate(annotations);
   event(time);

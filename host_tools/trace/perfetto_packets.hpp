@@ -56,6 +56,7 @@ class PerfettoPackets {
 
  private:
   void describe(TrackId track, TrackId parent, std::string_view name, std::uint32_t rank, const ProtoMessage* counter);
+  void begin_instant(TrackId track, std::string_view text);
   void event(std::uint64_t time);
   void add();
   void annotate(std::span<const Annotation> annotations);

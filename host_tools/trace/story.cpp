@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "emulator/errors.hpp"
+#include "emulator/niu/channel.hpp"
 #include "emulator/torus/block.hpp"
 #include "firmware/protocol/niu_window.hpp"
 #include "firmware/protocol/random.hpp"
@@ -49,7 +50,7 @@ void Story::begin(const Scene& scene, const RenderSetup& setup, const Quality& q
   scene_ = &scene;
   setup_ = &setup;
   quality_ = &quality;
-  machine_ = machine.description;
+  machine_ = &machine.description;
   torus_.emplace(machine.columns, machine.rows);
   if (const auto* pixel = std::get_if<FollowedPixel>(&target_)) {
     if (pixel->column >= quality.width || pixel->row >= quality.height || pixel->sample >= quality.samples)
@@ -68,10 +69,13 @@ void Story::tell(Cycles time, const std::string& who, const std::string& what) {
 }
 
 std::string Story::at(const protocol::Vec3f& place) const {
-  const SceneSpace& space = setup_->mesh.space;
-  std::array<double, 3> user{};
-  for (std::size_t i = 0; i < 3; ++i) user[i] = space.origin[i] + place[i] / space.scale;
-  return triple(user, 4);
+  return triple(setup_->mesh.space.to_user(to_double(place)), 4);
+}
+
+std::string Story::watts(const protocol::Flux& flux) const {
+  std::array<double, 3> watts{};
+  for (std::size_t c = 0; c < 3; ++c) watts[c] = static_cast<double>(flux[c]) * setup_->units.watts_per_quantum;
+  return triple(watts, 3) + " W";
 }
 
 std::string Story::surface(std::uint32_t polygon) const {
@@ -94,11 +98,9 @@ std::string Story::route(const RecordPacket& packet) const {
 /// From the outgoing queue into the record slots with nothing in the way (docs/machine.md, "The torus").
 Cycles Story::unhindered(const RecordPacket& packet) const {
   const auto bytes = static_cast<std::uint32_t>(packet.records.size());
-  const auto parts = [](std::uint32_t of, std::uint32_t size) { return (of + size - 1) / size; };
-  const auto& torus = machine_.torus;
-  const std::uint32_t flits = parts(bytes + kPacketHeaderBytes, torus.flit_bytes);
+  const auto& torus = machine_->torus;
   return Cycles{torus_->hops(packet.source, packet.destination) + 1} * (torus.router_cycles + torus.link_cycles) +
-         flits - 1 + (machine_.ideal.niu ? 0 : parts(bytes, machine_.niu.bytes_per_cycle));
+         flits_of(bytes, torus.flit_bytes) - 1 + copy_cycles(bytes, machine_->copy_bytes());
 }
 
 void Story::leaves(Cycles time, const RecordPacket& packet, const std::string& what) {
@@ -169,10 +171,6 @@ void Story::meets_ray(Cycles time, const RecordPacket& packet, const protocol::R
   leaves(time, packet, text);
 }
 
-bool Story::is_followed(const protocol::RadiosityRecord& light) const {
-  return shot_key_ && light.key == key_;
-}
-
 void Story::meets_light(Cycles time, const RecordPacket& packet, const protocol::RadiosityRecord& light, bool comes) {
   if (!shot_key_) return;
   // At a mirror or glass the key is made anew; where it happened within a PE, only the packet behind it tells.
@@ -182,17 +180,14 @@ void Story::meets_light(Cycles time, const RecordPacket& packet, const protocol:
   if (comes) return arrives(time, packet);
   key_ = key;
   bounces_ = light.bounce;
-  const double watts = setup_->units.watts_per_quantum;
-  std::array<double, 3> flux{};
-  for (std::size_t c = 0; c < 3; ++c) flux[c] = static_cast<double>(light.flux[c]) * watts;
   std::string text;
   if (light.kind == RecordKind::deposit) {
-    text = "it has met its surface: a deposit of " + triple(flux, 3) + " W" +
+    text = "it has met its surface: a deposit of " + watts(light.flux) +
            ((light.flags & protocol::kBackSide) != 0 ? " on the back" : "") + " goes to the element's owner";
   } else {
     if (left_ != light.polygon)
       text = (left_ ? "it has met " : "it leaves ") + surface(light.polygon) + " at " + at(light.origin) + "; ";
-    text += "towards " + triple(light.direction, 3) + ", " + triple(flux, 3) + " W, enters " + subspace(light.place);
+    text += "towards " + triple(light.direction, 3) + ", " + watts(light.flux) + ", enters " + subspace(light.place);
     left_ = light.polygon;
   }
   leaves(time, packet, text);
@@ -200,7 +195,7 @@ void Story::meets_light(Cycles time, const RecordPacket& packet, const protocol:
 
 void Story::meets_point(Cycles time, const RecordPacket& packet, const protocol::PointRecord& point, bool comes) {
   const auto& wanted = std::get<FollowedShot>(target_);
-  const std::uint32_t number = point.number_low | (std::uint32_t{point.number_high} << 8U);
+  const std::uint32_t number = protocol::point_number(point);
   if (!shot_key_ || point.key != *shot_key_ || number != wanted.point) return;
   if (comes) return arrives(time, packet);
   const std::uint32_t part = (point.flags & protocol::kPartMask) >> protocol::kPartShift;
@@ -215,24 +210,19 @@ void Story::shot(Cycles time, std::uint16_t owner, const protocol::Shoot& shoot)
   const auto& wanted = std::get<FollowedShot>(target_);
   if (shoot.number != wanted.shot) return;
   const std::uint32_t patch = setup_->placement.patches_of_pe[owner][shoot.patch];
-  // As firmware/pe/shoot.cpp makes it.
-  std::uint32_t key = protocol::hash_combine(setup_->parameters.seed, patch);
-  key = protocol::hash_combine(key, shoot.side * 2U + static_cast<std::uint32_t>(shoot.kind));
-  shot_key_ = protocol::hash_combine(key, shoot.number);
+  shot_key_ = protocol::shot_key(setup_->parameters.seed, patch, shoot);
   key_ = protocol::record_key(protocol::point_key(*shot_key_, wanted.point),
                               protocol::pixel_key(*shot_key_, wanted.direction));
-  std::array<double, 3> flux{};
-  for (std::size_t c = 0; c < 3; ++c) flux[c] = static_cast<double>(shoot.amount[c]) * setup_->units.watts_per_quantum;
   tell(time, pe_text(owner),
        "shot " + std::to_string(shoot.number) + ": patch " + std::to_string(patch) + " of '" +
            scene_->materials[setup_->mesh.patches[patch].material].name + "', " + (shoot.side == 0 ? "front" : "back") +
            ", " + (shoot.kind == protocol::ShotKind::emitted ? "emits " : "reflects what has come, ") +
-           triple(flux, 3) + " W");
+           watts(shoot.amount));
 }
 
 void Story::pixels(Cycles time, std::uint16_t source, std::span<const std::byte> contents) {
   const auto& wanted = std::get<FollowedPixel>(target_);
-  const double radiance = setup_->units.unit_radiance / double{setup_->parameters.pixel_scale};
+  const double radiance = setup_->radiance_per_quantum();
   for (std::size_t first = 0; first + sizeof(protocol::PixelAdd) <= contents.size();
        first += sizeof(protocol::PixelAdd)) {
     const auto add = read<protocol::PixelAdd>(contents, first);

@@ -50,7 +50,7 @@ class Story final : public RecordFollower {
   void pixels(Cycles time, std::uint16_t source, std::span<const std::byte> contents);
 
   bool is_followed(const protocol::RayRecord& ray) const;
-  bool is_followed(const protocol::RadiosityRecord& light) const;
+  std::string watts(const protocol::Flux& flux) const;
   std::string at(const protocol::Vec3f& place) const;
   std::string surface(std::uint32_t polygon) const;
   std::string route(const RecordPacket& packet) const;
@@ -60,7 +60,7 @@ class Story final : public RecordFollower {
   const Scene* scene_ = nullptr;
   const RenderSetup* setup_ = nullptr;
   const Quality* quality_ = nullptr;
-  MachineDescription machine_;
+  const MachineDescription* machine_ = nullptr;
   std::optional<TorusShape> torus_;
   std::vector<std::string> lines_;
   std::vector<Leg> legs_;
@@ -69,7 +69,7 @@ class Story final : public RecordFollower {
   std::uint32_t key_ = 0;      ///< of the light that is followed
   std::uint32_t bounces_ = 0;  ///< of which its key tells
   std::uint64_t legs_told_ = 0;
-  std::array<double, 3> sum_{};  ///< of the pixel [quanta]
+  std::array<double, 3> sum_{};  ///< of the pixel [W/(m^2 sr)]
   std::uint64_t adds_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See trace_reader.hpp.
+// Bytes of a trace enter, read by the format's public description alone; tracks, slices, counters and arrows leave.
 #include "tests/support/trace_reader.hpp"
 
 #include <bit>

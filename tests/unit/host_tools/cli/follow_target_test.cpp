@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "emulator/errors.hpp"
-#include "host_tools/trace/follow_target.hpp"
+#include "host_tools/cli/parse_values.hpp"
 
 namespace torolux::test {
 namespace {
