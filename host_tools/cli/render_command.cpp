@@ -62,14 +62,22 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
 }
 
-RenderResult run_machine(const Scene& scene, const Resolved& resolved, const RenderOptions& options) {
+std::unique_ptr<Display> display_of(const PreparedRender& prepared, const RenderOptions& options) {
+  const Resolved& resolved = prepared.resolved;
+  return open_display(options.display, {"render", prepared.run.scene, resolved.machine.columns, resolved.machine.rows,
+                                        resolved.machine.description.processor.clock_hertz, resolved.quality.width,
+                                        resolved.quality.height, resolved.tone});
+}
+
+/// display: null where there is none.
+RenderResult run_machine(const Scene& scene, const Resolved& resolved, const RenderOptions& options, Display* display) {
   ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
                     resolved.machine.description.processor.clock_hertz, options.verbose);
   return render(scene, resolved.camera, resolved.quality, resolved.machine, resolved.files, firmware_image(),
-                [&line](const RenderProgress& progress) {
+                [&line, display](const RenderProgress& progress) {
                   if (interrupted()) return false;
                   line.show(progress);
-                  return true;
+                  return display == nullptr || display->show(progress);
                 });
 }
 
@@ -92,8 +100,13 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
-  const RenderResult result = run_traced(trace.get(), [&] { return run_machine(prepared.scene, resolved, options); });
+  const auto display = display_of(prepared, options);
+  if (display) resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
+  const RenderResult result = run_displayed(display.get(), [&] {
+    return run_traced(trace.get(), [&] { return run_machine(prepared.scene, resolved, options, display.get()); });
+  });
   if (interrupted()) return {kInterrupted, ""};
+  if (display) display->finish(&result.picture);
   if (trace) finish_trace(*trace, options.quiet);
   if (story) {
     for (const std::string& line : story->lines()) std::cout << line << "\n";
@@ -111,6 +124,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
                report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+  keep_display(display.get(), options.quiet);
   return {0, std::move(statistics)};
 }
 

@@ -12,6 +12,7 @@
 #include "host_tools/irradiance/refine.hpp"
 #include "host_tools/render/course.hpp"
 #include "host_tools/render/frame_layers.hpp"
+#include "host_tools/render/running_render.hpp"
 #include "host_tools/setup/advice.hpp"
 #include "host_tools/setup/record_follower.hpp"
 #include "host_tools/setup/setup.hpp"
@@ -34,6 +35,7 @@ MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, con
   machine.frame_width = quality.width;
   machine.frame_height = quality.height;
   machine.frame_layers = quality.layers;
+  machine.progress_seconds = choice.progress_seconds;
   return machine;
 }
 
@@ -95,11 +97,13 @@ struct Watch {
   Course& course;
   const std::function<bool(const RenderProgress&)>& progress;
 
-  void run(Machine& machine, RenderProgram& program) const {
+  void run(Machine& machine, RenderProgram& program, const RenderSetup& setup, bool draft) const {
     course.begin_machine();
+    const RunningRender running{machine, program, setup, draft};
     machine.run(program, [&](Cycles now) {
       if (!progress) return true;
       RenderProgress present = program.progress(now);
+      present.running = &running;
       present.overall = course.share(present);
       return progress(present);
     });
@@ -120,7 +124,7 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
       setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
       RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
       Machine torolux(machine_setup(setup, quality, choice), image);
-      watch.run(torolux, program);
+      watch.run(torolux, program, setup, true);
       if (!program.finished()) return std::nullopt;
       figures.draft_cycles += program.times().read;
       figures.draft_records += program.solution()->tally.rays;
@@ -172,7 +176,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   if (machine.follower != nullptr) machine.follower->begin(scene, setup, quality, machine);
   Machine torolux(of_picture, image);
   const auto run_begin = std::chrono::steady_clock::now();
-  watch.run(torolux, program);
+  watch.run(torolux, program, setup, false);
   result.figures.run_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - run_begin).count();
 
   result.notes = setup.notes;
