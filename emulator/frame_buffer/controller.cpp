@@ -27,6 +27,7 @@ FrameBufferController::FrameBufferController(const MachineDescription::FrameBuff
 void FrameBufferController::begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers) {
   frame_buffer_.width = width;
   frame_buffer_.height = height;
+  changes_.resize(std::size_t{width} * height);
   const std::uint32_t planes = layers | protocol::plane_bit(protocol::Plane::colour);
   for (std::uint32_t plane = 0; plane < protocol::kPlanes; ++plane) {
     const bool there = (planes >> plane & 1U) != 0;
@@ -73,7 +74,7 @@ void FrameBufferController::add_pixels(BlockIndex index) {
       sums[c] =
           static_cast<std::int64_t>(static_cast<std::uint64_t>(sums[c]) + static_cast<std::uint64_t>(pixel.value[c]));
     }
-    ++pixels_added_;
+    changes_.note(pixel.pixel, ++pixels_added_);
   }
   --places_used_;
   pool_.give_back(index);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "emulator/description/description.hpp"
+#include "emulator/frame_buffer/frame_changes.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/block.hpp"
@@ -29,6 +30,7 @@ class FrameBufferController {
 
   std::uint32_t waiting() const { return places_used_; }
   const FrameBuffer& frame_buffer() const { return frame_buffer_; }
+  const FrameChanges& changes() const { return changes_; }
   std::uint32_t high_water() const { return high_water_; }   ///< messages that waited or were being added
   Cycles message_cycles() const { return message_cycles_; }  ///< that messages spent here, in all
   Cycles busy_cycles() const { return busy_cycles_; }
@@ -40,6 +42,7 @@ class FrameBufferController {
   std::uint32_t source_;
   BlockPool& pool_;
   FrameBuffer frame_buffer_;
+  FrameChanges changes_;
   std::uint32_t places_used_ = 0;
   std::uint32_t high_water_ = 0;
   Cycles free_at_ = 0;

@@ -25,7 +25,8 @@ namespace torolux {
 
 namespace {
 
-constexpr double kProgressSeconds = 0.1;
+/// The calls of `progress` need not be further apart than asked for because one came a little early.
+constexpr double kEarly = 0.95;
 /// Of a computer's caches. Which set of a cache a line goes to hangs on where in its page it lies: were it the same
 /// place for all PEs, a thousand of them would share a few lines of the cache.
 constexpr std::size_t kCacheColours = protocol::kPageBytes / kCacheLine;
@@ -127,6 +128,7 @@ struct Machine::Parts {
   std::optional<Emulation> emulation;
   MachineFigures figures;  // of the end of the run
   FrameBuffer frame_buffer;
+  FrameChanges frame_changes;
   bool running = false;
   double begin_wall = 0, begin_scheduler = 0, begin_process = 0, begin_children = 0;
 
@@ -205,7 +207,7 @@ void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progr
   const auto attend = [&](Cycles now) {
     p.engine->check();
     const double seconds = clock_seconds(CLOCK_MONOTONIC);
-    if (!progress || seconds - last_progress < kProgressSeconds) return;
+    if (!progress || seconds - last_progress < kEarly * p.setup.progress_seconds) return;
     last_progress = seconds;
     if (!progress(now)) throw Interrupted("the run was interrupted");
   };
@@ -234,8 +236,16 @@ void Machine::begin_picture(std::uint32_t width, std::uint32_t height, std::uint
   parts_->emulation->begin_picture(width, height, layers);
 }
 
+void Machine::sample(LiveFigures& figures) const {
+  if (parts_->emulation) parts_->emulation->sample(figures);
+}
+
 const FrameBuffer& Machine::frame_buffer() const {
   return parts_->emulation ? parts_->emulation->frame_buffer() : parts_->frame_buffer;
+}
+
+const FrameChanges& Machine::frame_changes() const {
+  return parts_->emulation ? parts_->emulation->frame_changes() : parts_->frame_changes;
 }
 
 MachineFigures Machine::figures() const {

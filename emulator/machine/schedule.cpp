@@ -12,8 +12,7 @@ namespace torolux {
 
 namespace {
 
-/// Attention at least this often, by wall time [s] and by events.
-constexpr double kAttendSeconds = 0.05;
+/// Attention at least this often, by events.
 constexpr std::uint32_t kAttendEvents = 4096;
 /// Running a PE, a millisecond at most, counts as so many.
 constexpr std::uint32_t kHelpEvents = 256;
@@ -37,7 +36,7 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
 void Emulation::attend_now_and_then() {
   until_attend_ = kAttendEvents;
   const double seconds = wall_seconds();
-  if (seconds - last_attended_ < kAttendSeconds) return;
+  if (seconds - last_attended_ < attend_seconds_) return;
   last_attended_ = seconds;
   if (attend_) attend_(now_);
 }

@@ -77,26 +77,47 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
 }
 
+std::unique_ptr<Display> display_of(const PreparedRender& prepared, const RenderOptions& options) {
+  const Resolved& resolved = prepared.resolved;
+  return open_display(options.display, {"render", prepared.run.scene, resolved.machine.columns, resolved.machine.rows,
+                                        resolved.machine.description.processor.clock_hertz, resolved.quality.width,
+                                        resolved.quality.height, resolved.tone});
+}
+
+/// A render while it goes on, as terminal and display (null: none) show it. False: it is to end.
+class Shown {
+ public:
+  Shown(const Resolved& resolved, const RenderOptions& options, Display* display)
+      : line_(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
+              resolved.machine.description.processor.clock_hertz, options.verbose),
+        display_(display) {}
+
+  bool show(const RenderProgress& progress) {
+    if (interrupted()) return false;
+    line_.show(progress);
+    return display_ == nullptr || display_->show(progress);
+  }
+  /// Of a path.
+  bool show(std::size_t picture, std::size_t of) {
+    if (interrupted()) return false;
+    line_.show("picture " + std::to_string(picture) + " of " + std::to_string(of));
+    return true;
+  }
+  void wipe() { line_.wipe(); }
+
+ private:
+  ProgressLine line_;
+  Display* display_;
+};
+
 /// The first picture, and those of a path behind it.
-RenderResult run_machine(const Scene& scene, const Resolved& resolved, const RenderOptions& options) {
-  const bool shown = !options.quiet && ::isatty(STDERR_FILENO) == 1;
-  ProgressLine line(std::cerr, shown, resolved.machine.description.processor.clock_hertz, options.verbose);
-  const std::function<bool(const RenderProgress&)> tell = [&line](const RenderProgress& progress) {
-    if (interrupted()) return false;
-    line.show(progress);
-    return true;
-  };
-  RenderSession session(scene, resolved.camera, resolved.quality, resolved.machine, resolved.files, firmware_image(),
-                        tell);
-  const bool stays = resolved.path.size() > 1;
+RenderResult run_session(RenderSession& session, const Resolved& resolved, Shown& shown, bool stays) {
   RenderResult result = session.run(stays ? Machine::Then::stay : Machine::Then::end);
+  shown.wipe();
   if (interrupted() || resolved.path.empty()) return result;
-  line.wipe();
-  render_path(session, resolved, result, [&line](std::size_t number, std::size_t count) {
-    if (interrupted()) return false;
-    line.show("picture " + std::to_string(number) + " of " + std::to_string(count));
-    return true;
-  });
+  render_path(session, resolved, result,
+              [&shown](std::size_t number, std::size_t count) { return shown.show(number, count); });
+  shown.wipe();
   return result;
 }
 
@@ -119,8 +140,18 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
-  const RenderResult result = run_traced(trace.get(), [&] { return run_machine(prepared.scene, resolved, options); });
+  const auto display = display_of(prepared, options);
+  if (display) resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
+  Shown shown(resolved, options, display.get());
+  const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
+  RenderSession session(prepared.scene, resolved.camera, resolved.quality, resolved.machine, resolved.files,
+                        firmware_image(), show);
+  const bool stays = resolved.path.size() > 1;
+  const RenderResult result = run_displayed(display.get(), [&] {
+    return run_traced(trace.get(), [&] { return run_session(session, resolved, shown, stays); });
+  });
   if (interrupted()) return {kInterrupted, ""};
+  if (display) display->finish(&result.picture);
   if (trace) finish_trace(*trace, options.quiet);
   if (story) {
     for (const std::string& line : story->lines()) std::cout << line << "\n";
@@ -140,6 +171,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
                report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+  keep_display(display.get(), options.quiet);
   return {0, std::move(statistics)};
 }
 

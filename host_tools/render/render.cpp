@@ -12,6 +12,7 @@
 #include "host_tools/irradiance/refine.hpp"
 #include "host_tools/render/course.hpp"
 #include "host_tools/render/frame_layers.hpp"
+#include "host_tools/render/running_render.hpp"
 #include "host_tools/render/session.hpp"
 #include "host_tools/setup/advice.hpp"
 #include "host_tools/setup/record_follower.hpp"
@@ -36,6 +37,7 @@ MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, con
   machine.frame_width = quality.width;
   machine.frame_height = quality.height;
   machine.frame_layers = quality.layers;
+  machine.progress_seconds = choice.progress_seconds;
   return machine;
 }
 
@@ -102,11 +104,14 @@ struct Watch {
   Course& course;
   const std::function<bool(const RenderProgress&)>& progress;
 
-  void run(Machine& machine, RenderProgram& program, Machine::Then then = Machine::Then::end) const {
+  void run(Machine& machine, RenderProgram& program, const RenderSetup& setup, bool draft,
+           Machine::Then then = Machine::Then::end) const {
     course.begin_machine();
+    const RunningRender running{machine, program, setup, draft};
     const auto tell = [&](Cycles now) {
       if (!progress) return true;
       RenderProgress present = program.progress(now);
+      present.running = &running;
       present.overall = course.share(present);
       return progress(present);
     };
@@ -128,7 +133,7 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
       setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
       RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
       Machine torolux(machine_setup(setup, quality, choice), image);
-      watch.run(torolux, program);
+      watch.run(torolux, program, setup, true);
       if (!program.finished()) return std::nullopt;
       figures.draft_cycles += program.times().read;
       figures.draft_records += program.solution()->tally.rays;
@@ -225,7 +230,7 @@ RenderResult RenderSession::run(Machine::Then then) {
   if (p.choice.follower != nullptr) p.choice.follower->begin(p.scene, setup, p.quality, p.choice);
   Machine& machine = p.machine.emplace(p.of_picture(), p.image);
   const auto run_begin = Clock::now();
-  watch.run(machine, program, then);
+  watch.run(machine, program, setup, false, then);
   result.figures.run_seconds = seconds_since(run_begin);
 
   result.notes = setup.notes;
@@ -276,6 +281,14 @@ std::vector<Layer> RenderSession::layers() const {
 
 const FrameBuffer& RenderSession::frame_buffer() const {
   return parts_->machine->frame_buffer();
+}
+
+const Machine& RenderSession::machine() const {
+  return *parts_->machine;
+}
+
+double RenderSession::radiance_per_quantum() const {
+  return parts_->setup->radiance_per_quantum();
 }
 
 Cycles RenderSession::now() const {

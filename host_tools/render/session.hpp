@@ -40,6 +40,8 @@ class RenderSession {
   std::vector<Layer> layers() const;  ///< once all samples are taken
   const FrameBuffer& frame_buffer() const;
   Cycles now() const;  ///< virtual time at the end of the last run or view
+  const Machine& machine() const;
+  double radiance_per_quantum() const;  ///< of the frame buffer's sums, where all samples are taken
 
  private:
   struct Parts;
