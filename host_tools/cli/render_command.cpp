@@ -14,6 +14,7 @@
 #include "host_tools/cli/measured_speed.hpp"
 #include "host_tools/cli/path_frames.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/display/walk.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/render/session.hpp"
@@ -146,7 +147,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
   RenderSession session(prepared.scene, resolved.camera, resolved.quality, resolved.machine, resolved.files,
                         firmware_image(), show);
-  const bool stays = resolved.path.size() > 1;
+  const bool stays = resolved.path.size() > 1 || display;
   const RenderResult result = run_displayed(display.get(), [&] {
     return run_traced(trace.get(), [&] { return run_session(session, resolved, shown, stays); });
   });
@@ -171,7 +172,11 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
                report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
-  keep_display(display.get(), options.quiet);
+  if (display) {
+    keep_display(options.quiet, [&](const std::function<bool()>& stop) {
+      Walk(session, *display, resolved.camera, resolved.quality).go(stop);
+    });
+  }
   return {0, std::move(statistics)};
 }
 

@@ -93,7 +93,9 @@ RunEnd run_prepared(const RunOptions& options) {
   if (!options.quiet) {
     print_summary(setup, figures, wall_seconds);
   }
-  keep_display(display.get(), options.quiet);
+  if (display) {
+    keep_display(options.quiet, [&display](const std::function<bool()>& stop) { display->wait(stop); });
+  }
   return {0, std::move(statistics)};
 }
 
