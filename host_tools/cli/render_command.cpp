@@ -106,7 +106,6 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
     return run_traced(trace.get(), [&] { return run_machine(prepared.scene, resolved, options, display.get()); });
   });
   if (interrupted()) return {kInterrupted, ""};
-  if (display) display->finish(&result.picture);
   if (trace) finish_trace(*trace, options.quiet);
   if (story) {
     for (const std::string& line : story->lines()) std::cout << line << "\n";
@@ -124,6 +123,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
                report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+  if (display) display->finish(&result.picture);
   keep_display(display.get(), options.quiet);
   return {0, std::move(statistics)};
 }
