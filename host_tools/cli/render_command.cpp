@@ -152,7 +152,6 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
     return run_traced(trace.get(), [&] { return run_session(session, resolved, shown, stays); });
   });
   if (interrupted()) return {kInterrupted, ""};
-  if (display) display->finish(&result.picture);
   if (trace) finish_trace(*trace, options.quiet);
   if (story) {
     for (const std::string& line : story->lines()) std::cout << line << "\n";
@@ -173,6 +172,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
   if (display) {
+    display->finish(&result.picture);
     keep_display(options.quiet, [&](const std::function<bool()>& stop) {
       Walk(session, *display, resolved.camera, resolved.quality).go(stop);
     });

@@ -74,7 +74,6 @@ RunEnd run_prepared(const RunOptions& options) {
   if (interrupted()) {
     return {kInterrupted, ""};
   }
-  if (display) display->finish(nullptr);
   if (trace) {
     trace->finish();
     if (!trace->note().empty() && !options.quiet) std::cerr << "torolux: note: " << trace->note() << "\n";
@@ -94,6 +93,7 @@ RunEnd run_prepared(const RunOptions& options) {
     print_summary(setup, figures, wall_seconds);
   }
   if (display) {
+    display->finish(nullptr);
     keep_display(options.quiet, [&display](const std::function<bool()>& stop) { display->wait(stop); });
   }
   return {0, std::move(statistics)};

@@ -105,6 +105,7 @@ void Display::say(const PeText& text) {
 
 void Display::finish(const Picture* picture) {
   if (picture != nullptr) feed_.show(*picture);
+  feed_.rest();
   nlohmann::json progress = progress_;
   progress["state"] = "done";
   progress["fraction"] = progress["overall"] = 1;

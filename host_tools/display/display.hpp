@@ -46,7 +46,7 @@ class Display {
   bool show(const Machine& machine, Cycles now);
   /// What a PE has said.
   void say(const PeText& text);
-  /// The run is over. picture: null where there is none.
+  /// The run is over, its results are written. picture: null where there is none.
   void finish(const Picture* picture);
   void fail(const std::string& why);
   /// A command that is nobody else's.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -18,10 +19,12 @@ std::uint64_t difference(std::uint64_t after, std::uint64_t before) {
   return after > before ? after - before : 0;
 }
 
-std::uint8_t share(std::uint64_t part, std::uint64_t whole) {
+/// 0..the greatest Number.
+template <class Number>
+Number share(std::uint64_t part, std::uint64_t whole) {
   if (whole == 0) return 0;
-  return static_cast<std::uint8_t>(
-      std::lround(255.0 * static_cast<double>(std::min(part, whole)) / static_cast<double>(whole)));
+  const double value = static_cast<double>(std::min(part, whole)) / static_cast<double>(whole);
+  return static_cast<Number>(std::lround(value * double{std::numeric_limits<Number>::max()}));
 }
 
 /// A PE that waits tells nothing: up to the network's time it has done so.
@@ -60,8 +63,9 @@ void DisplayFeed::put(MessageType type, std::string contents) {
 }
 
 void DisplayFeed::begin_picture(std::uint32_t width, std::uint32_t height, std::string_view kind) {
+  if (std::uint64_t{width} * height > LivePicture::kMostPixels) width = height = 0;
   const nlohmann::json description = {{"width", width}, {"height", height}, {"kind", kind}};
-  picture_.assign(std::size_t{width} * height <= LivePicture::kMostPixels ? std::size_t{width} * height : 0, {});
+  picture_.assign(std::size_t{width} * height, {});
   seen_ = 0;
   state_.update().begin_picture(width, height, description.dump());
 }
@@ -93,7 +97,7 @@ void DisplayFeed::update(const Machine& machine, double radiance_per_quantum, st
 void DisplayFeed::put_loads(LiveState::Update& update) {
   const std::size_t pes = now_.pes.size();
   std::string contents;
-  contents.reserve(sizeof(LoadsHeader) + (2 + kLinks) * pes);
+  contents.reserve(sizeof(LoadsHeader) + (2 + 2 * kLinks) * pes);
   append_bytes(contents, LoadsHeader{now_.now, now_.pixels_added, static_cast<std::uint32_t>(now_.torus_packets),
                                      static_cast<std::uint32_t>(pes)});
   std::string phases;
@@ -103,16 +107,25 @@ void DisplayFeed::put_loads(LiveState::Update& update) {
     const LivePe& now = now_.pes[pe];
     const LivePe& before = before_.pes[pe];
     const std::uint64_t busy = difference(now.clock - now.waited, before.clock - before.waited);
-    const std::uint8_t load = share(busy, difference(end_of(now, now_), end_of(before, before_)));
+    const auto load = share<std::uint8_t>(busy, difference(end_of(now, now_), end_of(before, before_)));
     phases_[pe] = phase_of(now, before, phases_[pe]);
     contents += static_cast<char>(load);
     phases += static_cast<char>(busy > 0 ? phases_[pe] : kNoPhase);
     for (std::size_t i = 0; i < kLinks; ++i)
-      links[i] += static_cast<char>(share(difference(now.link_flits[i], before.link_flits[i]), time));
+      append_bytes(links[i], share<std::uint16_t>(difference(now.link_flits[i], before.link_flits[i]), time));
   }
   contents += phases;
   for (const std::string& direction : links) contents += direction;
   update.put(MessageType::loads, std::move(contents));
+}
+
+void DisplayFeed::rest() {
+  std::string contents;
+  append_bytes(contents, LoadsHeader{before_.now, before_.pixels_added, 0, static_cast<std::uint32_t>(phases_.size())});
+  contents.append(phases_.size(), '\0');
+  contents.append(phases_.size(), static_cast<char>(kNoPhase));
+  contents.append(2 * kLinks * phases_.size(), '\0');
+  put(MessageType::loads, std::move(contents));
 }
 
 void DisplayFeed::put_changes(LiveState::Update& update, const Machine& machine, double radiance_per_quantum) {

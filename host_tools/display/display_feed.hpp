@@ -33,6 +33,8 @@ class DisplayFeed {
   void update(const Machine& machine, double radiance_per_quantum, std::string progress);
   /// Another machine than in the last update.
   void begin_machine();
+  /// The machine has come to its end: nothing is busy any more.
+  void rest();
   void put(MessageType type, std::string contents);
   /// All of the picture, of the size begun; what is as it was is not sent again.
   void show(const Picture& picture);

@@ -23,6 +23,8 @@ namespace {
 constexpr int kMostViewers = 16;
 constexpr std::chrono::milliseconds kAlive{1000};
 constexpr std::chrono::seconds kAnswerPatience{10};
+constexpr std::chrono::milliseconds kLookAtEnd{5};
+constexpr int kMostLooksAtEnd = 100;
 
 /// Sockets become connections of bounded patience, one request each.
 class Server final : public httplib::Server {
@@ -127,7 +129,10 @@ struct DisplayServer::Parts {
                                                                                        httplib::DataSink& sink) {
           out->clear();
           state.take_news(*seen, *out, kAlive);
-          if (server.stopping && out->empty()) return false;
+          if (server.stopping && out->empty()) {
+            sink.done();
+            return true;
+          }
           if (out->empty()) append_message(*out, MessageType::alive, "");
           return sink.write(out->data(), out->size());
         },
@@ -190,6 +195,8 @@ struct DisplayServer::Parts {
   void end() {
     server.stopping = true;
     state.wake();
+    // Once httplib stops, it cuts streams off, what they still had to tell included.
+    for (int i = 0; i < kMostLooksAtEnd && viewers > 0; ++i) std::this_thread::sleep_for(kLookAtEnd);
     server.stop();
     listener.join();
   }

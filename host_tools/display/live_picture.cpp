@@ -9,10 +9,9 @@
 namespace torolux {
 
 void LivePicture::begin(std::uint32_t width, std::uint32_t height, std::string description, std::uint64_t version) {
-  const std::uint64_t count = std::uint64_t{width} * height;
   description_ = std::move(description);
   begun_ = version;
-  pixels_.assign(count <= kMostPixels ? count : 0, Pixel{});
+  pixels_.assign(std::size_t{width} * height, Pixel{});
   versions_.assign((pixels_.size() + kRunPixels - 1) / kRunPixels, 0);
 }
 

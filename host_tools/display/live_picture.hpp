@@ -19,7 +19,7 @@ struct PictureSeen {
 
 class LivePicture {
  public:
-  /// Pictures of more pixels are not shown: pages and this computer would be busy with nothing else.
+  /// More are not shown: pages and this computer would be busy with nothing else.
   static constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 23U;
   static constexpr std::size_t kRunPixels = 64;
   /// In one message: what is copied while the machine may have to wait.
@@ -27,12 +27,10 @@ class LivePicture {
 
   using Pixel = std::array<float, 3>;  ///< linear radiance [W/(m^2 sr)]
 
-  /// Another picture, black; nothing is shown of one that is too large, or has no pixel. description: JSON.
+  /// Another picture, black. width * height: at most kMostPixels. description: JSON.
   void begin(std::uint32_t width, std::uint32_t height, std::string description, std::uint64_t version);
   /// first: a multiple of kRunPixels.
   void put(std::size_t first, std::span<const Pixel> pixels, std::uint64_t version);
-  bool shown() const { return !pixels_.empty(); }
-  std::size_t size() const { return pixels_.size(); }
 
   /// Appends messages to `out`; false: there is more that `seen` has not.
   bool append_news(PictureSeen& seen, std::string& out) const;
