@@ -43,6 +43,7 @@ class Pace final : public Pacer, public HopWatcher {
   /// {"speed": cycles in a second, 0 stands} or {"speed": "free"} or {"step": "event", "packet" or "round"}. Throws
   /// InputError.
   void obey(const nlohmann::json& values, Clock::time_point now = Clock::now());
+  void stand() { free_ = false; }  ///< before the run's first event
   bool is_free() const { return free_; }
 
   bool lets(Cycles next) override {
