@@ -21,12 +21,17 @@ FrameBufferController::FrameBufferController(const MachineDescription::FrameBuff
       events_(events),
       source_(source),
       pool_(pool) {
+  begin_picture(width, height, layers);
+}
+
+void FrameBufferController::begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers) {
   frame_buffer_.width = width;
   frame_buffer_.height = height;
   changes_.resize(std::size_t{width} * height);
   const std::uint32_t planes = layers | protocol::plane_bit(protocol::Plane::colour);
   for (std::uint32_t plane = 0; plane < protocol::kPlanes; ++plane) {
-    if ((planes >> plane & 1U) != 0) frame_buffer_.planes[plane].resize(std::size_t{width} * height);
+    const bool there = (planes >> plane & 1U) != 0;
+    frame_buffer_.planes[plane].assign(there ? std::size_t{width} * height : 0, PixelSums{});
   }
 }
 

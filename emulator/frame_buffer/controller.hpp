@@ -19,6 +19,9 @@ class FrameBufferController {
   FrameBufferController(const MachineDescription::FrameBuffer& parameters, std::uint32_t width, std::uint32_t height,
                         std::uint32_t layers, EventQueue& events, std::uint32_t source, BlockPool& pool);
 
+  /// While it has nothing to do: its sums become those of an empty picture.
+  void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
+
   /// A message has come over the bus. Throws MachineFailure: not of pixels, a pixel or a plane that is not in the
   /// frame buffer; no place for it.
   void arrive(BlockIndex block, Cycles now);

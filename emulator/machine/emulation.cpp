@@ -39,7 +39,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
     : pes_(static_cast<std::uint32_t>(channels.size())),
       image_(image),
       engine_(engine),
-      program_(program),
+      program_(&program),
       events_(3 * std::size_t{pes_} + 4),
       times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},
       channels_(channels),

@@ -34,6 +34,10 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   /// Runs until the program has finished and the machine is empty. attend: called at least some ten times a second,
   /// or as often as the setup's progress asks for; may throw to end the run. Throws MachineFailure.
   void run(const std::function<void(Cycles)>& attend);
+  /// The run has ended: time goes on with another program, which has the same kinds of records, and the same picture.
+  void go_on_with(HostProgram& program);
+  /// While nothing runs: the picture begins anew.
+  void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
   void tell_to_stop();
   /// The run has ended: whoever watches is told the rest.
   void end_watch(Cycles end);
@@ -113,7 +117,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   std::uint32_t pes_;
   const Image& image_;
   Engine& engine_;
-  HostProgram& program_;
+  HostProgram* program_;
   EventQueue events_;
   BlockPool pool_;
   PeTimes times_;

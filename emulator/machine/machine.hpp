@@ -117,10 +117,16 @@ class Machine {
   Machine(const MachineSetup& setup, const Image& image);
   ~Machine();
 
-  /// Runs until the program has finished and the machine is empty. Once per machine.
+  /// Runs until the program has finished and the machine is empty. Again, if the last time it was to stay: then virtual
+  /// time goes on where it had ended, the PEs are where they were, and the program has the same kinds of records.
   /// progress: called every setup.progress_seconds, about, from the calling thread; returning false ends the run.
   /// Throws MachineFailure: trap, dead or silent PE, deadlock (with what each actor waits for), fault of the program.
-  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {});
+  enum class Then : std::uint8_t { end, stay };
+  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {}, Then then = Then::end);
+  /// Of a machine that has stayed: no more runs. The same figures as if it had not stayed.
+  void end();
+  /// Of a machine that has stayed: the frame buffer is that of an empty picture. layers: as in MachineSetup.
+  void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
 
   /// What can be known at once of a machine that runs; for `progress` alone. Waits for nobody and changes nothing.
   /// figures: overwritten; given again, nothing is allocated.

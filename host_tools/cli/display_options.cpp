@@ -88,10 +88,9 @@ std::unique_ptr<Display> open_display(const DisplayOptions& options, const Displ
   return display;
 }
 
-void keep_display(Display* display, bool quiet) {
-  if (display == nullptr) return;
+void keep_display(bool quiet, const std::function<void(const std::function<bool()>&)>& keep) {
   if (!quiet) std::cerr << "torolux: the display stays until Ctrl-C, or End in its page" << std::endl;
-  display->wait([] { return interrupted(); });
+  keep([] { return interrupted(); });
   forget_interruption();  // all results are there
 }
 

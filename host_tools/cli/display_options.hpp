@@ -2,6 +2,7 @@
 // --display and what belongs to it: options enter; the display of a run leaves, and is kept up after it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ auto run_displayed(Display* display, Run run) {
   }
 }
 
-/// Until a page asks to end, or Ctrl-C.
-void keep_display(Display* display, bool quiet);
+/// keep: serves on until a page asks to end, or what it is given says so, which is at Ctrl-C.
+void keep_display(bool quiet, const std::function<void(const std::function<bool()>&)>& keep);
 
 }  // namespace torolux

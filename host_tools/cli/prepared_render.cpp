@@ -46,6 +46,7 @@ PreparedRender prepare_render(const RenderOptions& options) {
   std::vector<InputFile> files = recorded.files();
   if (options.radiosity)
     files.push_back({"radiosity", options.radiosity->string(), sha256_of_file(*options.radiosity)});
+  if (options.path) files.push_back({"path", options.path->string(), sha256_of_file(*options.path)});
   files.push_back({"firmware", "pe.elf", sha256_of_file(firmware_image())});
   prepared.run = describe(options, prepared.resolved, prepared.scene.name, std::move(files));
   return prepared;

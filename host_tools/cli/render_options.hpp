@@ -45,6 +45,7 @@ struct RenderOptions {
   // The view.
   std::optional<std::array<double, 3>> eye, look_at, up;
   std::optional<double> field_of_view_degrees;
+  std::optional<std::filesystem::path> path;  ///< cameras of an animation
 
   // The light.
   std::optional<Preset> preset;

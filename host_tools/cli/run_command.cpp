@@ -92,8 +92,10 @@ RunEnd run_prepared(const RunOptions& options) {
   if (!options.quiet) {
     print_summary(setup, figures, wall_seconds);
   }
-  if (display) display->finish(nullptr);
-  keep_display(display.get(), options.quiet);
+  if (display) {
+    display->finish(nullptr);
+    keep_display(options.quiet, [&display](const std::function<bool()>& stop) { display->wait(stop); });
+  }
   return {0, std::move(statistics)};
 }
 

@@ -35,7 +35,8 @@ struct CommandName {
   bool answered;  ///< the page waits for what the run's thread says to it
 };
 inline constexpr std::array kCommandNames = {
-    CommandName{"end", false},  ///< no more display: the run is stopped, or once it is over the command ends
+    CommandName{"end", false},   ///< no more display: the run is stopped, or once it is over the command ends
+    CommandName{"view", false},  ///< after the run: the scene from elsewhere
 };
 
 struct DisplayCommand {

@@ -53,9 +53,17 @@ bool Display::obey() {
   while (!ended_) {
     const auto command = commands_.take();
     if (!command) return true;
-    if (command->name == "end") ended_ = true;
+    obey(*command);
   }
   return false;
+}
+
+void Display::obey(const DisplayCommand& command) {
+  if (command.name == "end") ended_ = true;
+}
+
+void Display::put_camera(const nlohmann::json& camera) {
+  feed_.put(MessageType::camera, text_of(camera));
 }
 
 bool Display::show(const RenderProgress& progress) {
@@ -113,7 +121,7 @@ void Display::fail(const std::string& why) {
 
 void Display::wait(const std::function<bool()>& stop) {
   while (!ended_ && !stop()) {
-    if (const auto command = commands_.take(kPatience); command && command->name == "end") ended_ = true;
+    if (const auto command = commands_.take(kPatience)) obey(*command);
   }
 }
 

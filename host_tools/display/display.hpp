@@ -49,6 +49,12 @@ class Display {
   /// The run is over, its results are written. picture: null where there is none.
   void finish(const Picture* picture);
   void fail(const std::string& why);
+  /// A command that is nobody else's.
+  void obey(const DisplayCommand& command);
+  bool ended() const { return ended_; }  ///< as a page has asked
+  /// Progress of what comes after the run.
+  void tell(nlohmann::json progress) { put_progress(std::move(progress)); }
+  void put_camera(const nlohmann::json& camera);
   /// Serves on until a page asks to end, or `stop` says so (asked some times a second).
   void wait(const std::function<bool()>& stop);
 

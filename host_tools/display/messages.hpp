@@ -19,6 +19,7 @@ enum class MessageType : std::uint32_t {
   texts,     ///< JSON: lines that PEs have said
   progress,  ///< JSON
   bye,       ///< JSON: the server ends, and why
+  camera,    ///< JSON: from where the picture is seen
   count
 };
 

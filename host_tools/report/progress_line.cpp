@@ -78,6 +78,12 @@ void ProgressLine::show(const RenderProgress& progress) {
   visible_ = true;
 }
 
+void ProgressLine::show(const std::string& text) {
+  if (!shown_) return;
+  out_ << "\r\x1b[K" << text << std::flush;
+  visible_ = true;
+}
+
 void ProgressLine::wipe() {
   if (visible_) out_ << "\r\x1b[K" << std::flush;
   visible_ = false;

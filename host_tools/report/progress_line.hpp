@@ -31,6 +31,7 @@ class ProgressLine {
   ~ProgressLine() { wipe(); }
 
   void show(const RenderProgress& progress);
+  void show(const std::string& text);
   void wipe();
 
  private:

@@ -107,7 +107,7 @@ async function checkKeys(page) {
     assert.notEqual(outline, "none", `the focus on ${name} is seen`);
     reached.add(name.startsWith("torus canvas") ? "torus canvas" : name);
   }
-  for (const one of ["exposure", "curve", "picture button As the .png", "pe-figure", "torus canvas", "end button End the display"]) {
+  for (const one of ["exposure", "curve", "picture button As the .png", "picture canvas ", "picture button Bookmark", "pe-figure", "torus canvas", "end button End the display"]) {
     const key = one.replace("end button", "progress button");
     assert.ok(reached.has(key), `${key} among ${[...reached].join(", ")}`);
   }
@@ -124,6 +124,35 @@ async function checkKeys(page) {
   await page.selectOption("#pe-figure", "phase");
 }
 
+/** By keys and mouse elsewhere, and back: the picture is the first one to the byte, but for the page's own rounding. */
+async function checkWalk(page, file) {
+  const done = async (what) => {
+    await until(what, () => page.textContent("#progress h2"), (text) => text === "Done", 30);
+    await page.waitForTimeout(500);  // the exposure of all of it comes with the next painting
+  };
+  const start = await canvasOf(page, "#picture canvas");
+  await page.focus("#picture canvas");
+  for (const key of ["ArrowRight", "w", "W", "d", "r", "ArrowUp"]) await page.keyboard.press(key);
+  await until("another view", () => canvasOf(page, "#picture canvas"), ({ hash }) => hash !== start.hash, 10);
+  await done("a view by keys");
+  const keys = await canvasOf(page, "#picture canvas");
+  await page.getByText("Bookmark", { exact: true }).press("Enter");
+  assert.match(await page.inputValue("#marks"), /^\[\[camera\]\]\neye = \[.*\]\nlook_at = \[.*\]\nup = \[0, 1, 0\]\nfov = [0-9.]+\n$/);
+  const box = await page.locator("#picture canvas").boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 200);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 260, box.y + 230, { steps: 4 });
+  await page.mouse.up();
+  await until("a third view", () => canvasOf(page, "#picture canvas"), ({ hash }) => ![start.hash, keys.hash].includes(hash), 10);
+  await done("a view by mouse");
+  await page.getByText("Bookmark 1").press("Enter");
+  await until("the bookmark's", () => canvasOf(page, "#picture canvas"), ({ hash }) => hash === keys.hash, 30);
+  await page.getByText("Back to the start").press("Enter");
+  await until("the start's", () => canvasOf(page, "#picture canvas"), ({ hash }) => hash === start.hash, 30);
+  await done("the first view");
+  await checkPicture(page, file);
+}
+
 async function checkRender(browser) {
   const run = await start([...kRender, "--size", "640x480", "--samples", "16", "--output", "box.png", "--display", "0"]);
   const { page, faults, close } = await open(browser, run.url);
@@ -133,6 +162,7 @@ async function checkRender(browser) {
   await checkKeys(page);
   await checkLooks(page, kTexts);
   await takeScreenshots(browser, run.url, "display_done");
+  await checkWalk(page, join(folder, "box.png"));
   await page.getByText("End the display").press("Enter");
   await until("the page says that it is over", () => page.textContent("#connection"), (text) => /has ended/.test(text), 5);
   assert.equal(await run.ended, 0);

@@ -3,7 +3,7 @@
 // told of changes. Connects again when the connection is lost.
 
 /** As MessageType in host_tools/display/messages.hpp. */
-const kTypes = ["alive", "machine", "picture", "pixels", "loads", "texts", "progress", "bye"];
+const kTypes = ["alive", "machine", "picture", "pixels", "loads", "texts", "progress", "bye", "camera"];
 const kHeader = 8;
 const kMostBytes = 1 << 26; // of a message
 const kLeastPause = 500; // before connecting again [ms]
@@ -95,7 +95,7 @@ class LivePicture {
 
 /**
  * State: connection ("connecting", "open", "lost", "ended", "refused"), reason; machine, progress: as sent; picture,
- * loads; texts: lines.
+ * loads; texts: lines; camera, start: of the picture, once it can be walked from there, and the first one.
  */
 export class Feed {
   constructor() {
@@ -126,7 +126,7 @@ export class Feed {
       this.machine = json(bytes);
       this.loads = new Loads(this.machine.columns * this.machine.rows);
       this.texts = [];
-      this.picture = undefined;
+      this.picture = this.camera = this.start = undefined;
     } else if (type === "picture") {
       const picture = json(bytes);
       this.picture = picture.width * picture.height > 0 ? new LivePicture(picture) : undefined;
@@ -134,7 +134,10 @@ export class Feed {
     else if (type === "loads") this.loads.take(bytes);
     else if (type === "texts") this.texts = json(bytes);
     else if (type === "progress") this.progress = json(bytes);
-    else if (type === "bye") this.connection = "ended";
+    else if (type === "camera") {
+      this.camera = json(bytes);
+      this.start ??= this.camera;
+    } else if (type === "bye") this.connection = "ended";
     this.changed();
   }
 

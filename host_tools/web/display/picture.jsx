@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { significant } from "../shared/format.js";
 import { exposureFactor, middleLuminance, paint } from "./tone.js";
 import { useFeed } from "./use_feed.js";
+import { WalkControls, useWalk } from "./walk.jsx";
 
 const kInterval = 66; // of repainting [ms]
 const kExposureInterval = 500; // of looking for the middle luminance anew
@@ -57,7 +58,7 @@ class Painter {
 
 /**
  * onPick: called with [x, y] of a pixel that was clicked on, where there is a use for it. children: what else belongs
- * to the picture.
+ * to the picture. It can be walked through once the run is over.
  */
 export function Picture({ feed, onPick, children }) {
   useFeed(feed, kInterval);
@@ -71,16 +72,19 @@ export function Picture({ feed, onPick, children }) {
   useEffect(() => {
     if (picture && canvas.current) painter.current.paint(canvas.current, picture, exposure, chosen, progress?.state === "done");
   });
+  const pickAt = useRef(undefined);
+  const walk = useWalk(feed, onPick && ((event) => pickAt.current(event)));
   if (!picture) return machine.what === "render" ? <section id="picture"><h2>Picture</h2><p>The picture is too large to be shown here.</p></section> : null;
-  const click = (event) => {
+  const pick = (event) => {
     const box = canvas.current.getBoundingClientRect();
     const at = (value, size, count) => Math.min(count - 1, Math.max(0, Math.floor((value / size) * count)));
     onPick([at(event.clientX - box.left, box.width, picture.width), at(event.clientY - box.top, box.height, picture.height)]);
   };
+  pickAt.current = pick;
   return (
     <section id="picture">
       <h2>Picture</h2>
-      <canvas ref={canvas} role="img" onClick={onPick ? click : undefined}
+      <canvas ref={canvas} role="img" {...(walk.handlers ?? { onClick: onPick && pick })}
         aria-label={`${machine.title}: ${kKinds[picture.kind] ?? picture.kind}, ${picture.width} by ${picture.height} pixels`} />
       <div class="choices">
         <label class="choice">
@@ -98,6 +102,7 @@ export function Picture({ feed, onPick, children }) {
         </label>
         <button onClick={() => (setEv(null), setCurve(null))}>As the .png</button>
       </div>
+      <WalkControls walk={walk} start={feed.start} />
       {children}
     </section>
   );

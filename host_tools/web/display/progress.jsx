@@ -13,9 +13,10 @@ const kConnections = {
   ended: "Torolux has ended. What is shown is the last that it told.",
 };
 
-function stateText({ state, stage, fraction, draft, error }) {
+function stateText({ state, stage, fraction, draft, error, samples, of_samples }) {
   if (state === "preparing") return "Preparing: the scene is cut up and shared out";
   if (state === "done") return "Done";
+  if (state === "walking") return samples === 0 ? "A view, coarse" : `A view, ${samples} of ${of_samples} samples`;
   if (state === "failed") return `Failed: ${error}`;
   if (stage === undefined) return "Running";
   return `${draft ? "Draft: " : ""}${stage}, ${percent(fraction)}`;
@@ -60,7 +61,7 @@ export function Progress({ feed, children }) {
   useFeed(feed, kInterval);
   const { progress, connection } = feed;
   if (!progress) return null;
-  const over = progress.state === "done" || progress.state === "failed";
+  const over = ["done", "failed", "walking"].includes(progress.state);
   return (
     <section id="progress">
       <h2>{stateText(progress)}</h2>
