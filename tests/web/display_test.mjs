@@ -11,9 +11,12 @@ import { checkLooks, launch, openPage } from "./browser.mjs";
 const [, , torolux, root, folder] = process.argv;
 const kTexts = [".soft", "h2", "dt"];
 
-/** A run with a display; `end` waits for its exit code. */
+const children = [];
+
+/** A run with a display; `ended` gives its exit code. */
 async function start(words) {
   const child = spawn(torolux, words, { cwd: folder });
+  children.push(child);
   let told = "";
   child.stderr.on("data", (text) => (told += text));
   child.stdout.on("data", () => {});
@@ -254,6 +257,7 @@ try {
   await checkPace(browser);
   await checkReconnecting(browser);
 } finally {
+  for (const child of children) child.kill("SIGKILL"); // those that a fault has left behind
   await browser.close();
 }
 console.log("display: passed");
