@@ -21,11 +21,17 @@ FrameBufferController::FrameBufferController(const MachineDescription::FrameBuff
       events_(events),
       source_(source),
       pool_(pool) {
+  begin_picture(width, height, layers);
+}
+
+void FrameBufferController::begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers) {
   frame_buffer_.width = width;
   frame_buffer_.height = height;
+  changes_.resize(std::size_t{width} * height);
   const std::uint32_t planes = layers | protocol::plane_bit(protocol::Plane::colour);
   for (std::uint32_t plane = 0; plane < protocol::kPlanes; ++plane) {
-    if ((planes >> plane & 1U) != 0) frame_buffer_.planes[plane].resize(std::size_t{width} * height);
+    const bool there = (planes >> plane & 1U) != 0;
+    frame_buffer_.planes[plane].assign(there ? std::size_t{width} * height : 0, PixelSums{});
   }
 }
 
@@ -68,7 +74,7 @@ void FrameBufferController::add_pixels(BlockIndex index) {
       sums[c] =
           static_cast<std::int64_t>(static_cast<std::uint64_t>(sums[c]) + static_cast<std::uint64_t>(pixel.value[c]));
     }
-    ++pixels_added_;
+    changes_.note(pixel.pixel, ++pixels_added_);
   }
   --places_used_;
   pool_.give_back(index);

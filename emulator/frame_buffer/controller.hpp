@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "emulator/description/description.hpp"
+#include "emulator/frame_buffer/frame_changes.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/block.hpp"
@@ -18,6 +19,9 @@ class FrameBufferController {
   FrameBufferController(const MachineDescription::FrameBuffer& parameters, std::uint32_t width, std::uint32_t height,
                         std::uint32_t layers, EventQueue& events, std::uint32_t source, BlockPool& pool);
 
+  /// While it has nothing to do: its sums become those of an empty picture.
+  void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
+
   /// A message has come over the bus. Throws MachineFailure: not of pixels, a pixel or a plane that is not in the
   /// frame buffer; no place for it.
   void arrive(BlockIndex block, Cycles now);
@@ -26,6 +30,7 @@ class FrameBufferController {
 
   std::uint32_t waiting() const { return places_used_; }
   const FrameBuffer& frame_buffer() const { return frame_buffer_; }
+  const FrameChanges& changes() const { return changes_; }
   std::uint32_t high_water() const { return high_water_; }   ///< messages that waited or were being added
   Cycles message_cycles() const { return message_cycles_; }  ///< that messages spent here, in all
   Cycles busy_cycles() const { return busy_cycles_; }
@@ -37,6 +42,7 @@ class FrameBufferController {
   std::uint32_t source_;
   BlockPool& pool_;
   FrameBuffer frame_buffer_;
+  FrameChanges changes_;
   std::uint32_t places_used_ = 0;
   std::uint32_t high_water_ = 0;
   Cycles free_at_ = 0;

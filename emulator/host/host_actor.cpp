@@ -18,7 +18,7 @@ constexpr std::size_t index_of(HostQueue queue) {
 
 HostActor::HostActor(const MachineDescription& machine, HostProgram& program, unsigned pes, EventQueue& events,
                      std::uint32_t source, BlockPool& pool)
-    : clock_(machine), program_(program), events_(events), source_(source), pool_(pool), lines_(pes), ready_(pes) {
+    : clock_(machine), program_(&program), events_(events), source_(source), pool_(pool), lines_(pes), ready_(pes) {
   for (Line& line : lines_) line.control_buffers = machine.bus.control_buffers;
 }
 
@@ -77,7 +77,12 @@ void HostActor::queue_for(std::uint16_t destination, BlockIndex index) {
 
 void HostActor::start(HostClient& client) {
   client_ = &client;
-  program_.start(*this);
+  program_->start(*this);
+}
+
+void HostActor::go_on_with(HostProgram& program, Cycles now) {
+  program_ = &program;
+  clock_.wait_until(now);
 }
 
 void HostActor::arrive(BlockIndex block, Cycles now) {
@@ -105,7 +110,7 @@ void HostActor::step() {
     lines_[block.destination].diverted += block.records;
     events_.push(clock_.now(), source_, EventKind::host_queue, block.destination, 1, index);
   } else {
-    program_.on_message(*this, block.source, block.message_kind, block.payload());
+    program_->on_message(*this, block.source, block.message_kind, block.payload());
     ++messages_read_;
     pool_.give_back(index);
   }

@@ -47,6 +47,8 @@ class HostActor final : public HostPort {
 
   // ---- The machine's side ----
   void start(HostClient& client);
+  /// The program has finished, and the machine is empty: from now on another one, which is still to be started.
+  void go_on_with(HostProgram& program, Cycles now);
   /// A message or diverted records have come over the bus.
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
@@ -104,7 +106,7 @@ class HostActor final : public HostPort {
 
   HostClient* client_ = nullptr;
   HostClock clock_;
-  HostProgram& program_;
+  HostProgram* program_;
   EventQueue& events_;
   std::uint32_t source_;
   BlockPool& pool_;

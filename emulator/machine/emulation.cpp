@@ -2,6 +2,7 @@
 // What each event does: commands of PEs, deliveries, transfers over the bus.
 #include "emulator/machine/emulation.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "emulator/errors.hpp"
@@ -23,6 +24,9 @@ std::vector<NiuNetworkSide> make_nius(const std::vector<NiuChannel*>& channels, 
 
 namespace {
 
+/// Attention at least this often, by wall time [s].
+constexpr double kAttendSeconds = 0.05;
+
 RecordPacket packet_of(const Block& block) {
   return {block.number, block.source, block.destination, block.bytes / std::max<std::size_t>(1, block.records),
           block.payload()};
@@ -35,7 +39,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
     : pes_(static_cast<std::uint32_t>(channels.size())),
       image_(image),
       engine_(engine),
-      program_(program),
+      program_(&program),
       events_(3 * std::size_t{pes_} + 4),
       times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},
       channels_(channels),
@@ -49,7 +53,8 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
                   2 * pes_ + 2, pool_),
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
       signal_cycles_(setup.description.signal_cycles()),
-      record_watcher_(setup.record_watcher) {
+      record_watcher_(setup.record_watcher),
+      attend_seconds_(std::min(kAttendSeconds, setup.progress_seconds)) {
   cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
   events_.watch(this);
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});

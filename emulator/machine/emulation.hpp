@@ -12,6 +12,7 @@
 #include "emulator/engines/image/image.hpp"
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
+#include "emulator/machine/live_figures.hpp"
 #include "emulator/machine/machine.hpp"
 #include "emulator/machine/time_line.hpp"
 #include "emulator/niu/network_side.hpp"
@@ -31,15 +32,22 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
             HostProgram& program);
 
   /// Runs until the program has finished and the machine is empty. attend: called at least some ten times a second,
-  /// may throw to end the run. Throws MachineFailure.
+  /// or as often as the setup's progress asks for; may throw to end the run. Throws MachineFailure.
   void run(const std::function<void(Cycles)>& attend);
+  /// The run has ended: time goes on with another program, which has the same kinds of records, and the same picture.
+  void go_on_with(HostProgram& program);
+  /// While nothing runs: the picture begins anew.
+  void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
   void tell_to_stop();
   /// The run has ended: whoever watches is told the rest.
   void end_watch(Cycles end);
 
   /// Waits until no PE can do more before something else happens, so that the figures are exact.
   void fill_in(MachineFigures& figures);
+  /// What is known now, without waiting for anybody.
+  void sample(LiveFigures& figures) const;
   const FrameBuffer& frame_buffer() const { return controller_.frame_buffer(); }
+  const FrameChanges& frame_changes() const { return controller_.changes(); }
   Cycles now() const { return now_; }
   /// Time that the calling thread has slept for PEs [s of wall time].
   double slept_seconds() const { return slept_; }
@@ -109,7 +117,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   std::uint32_t pes_;
   const Image& image_;
   Engine& engine_;
-  HostProgram& program_;
+  HostProgram* program_;
   EventQueue events_;
   BlockPool pool_;
   PeTimes times_;
@@ -125,6 +133,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   RecordWatcher* record_watcher_;  // null: nobody
   std::function<void(Cycles)> attend_;
   std::uint32_t until_attend_ = 0;
+  double attend_seconds_;  // of wall time, from one to the next
   double last_attended_ = 0;
   double slept_ = 0;
   Cycles now_ = 0;

@@ -25,7 +25,8 @@ namespace torolux {
 
 namespace {
 
-constexpr double kProgressSeconds = 0.1;
+/// The calls of `progress` need not be further apart than asked for because one came a little early.
+constexpr double kEarly = 0.95;
 /// Of a computer's caches. Which set of a cache a line goes to hangs on where in its page it lies: were it the same
 /// place for all PEs, a thousand of them would share a few lines of the cache.
 constexpr std::size_t kCacheColours = protocol::kPageBytes / kCacheLine;
@@ -127,6 +128,7 @@ struct Machine::Parts {
   std::optional<Emulation> emulation;
   MachineFigures figures;  // of the end of the run
   FrameBuffer frame_buffer;
+  FrameChanges frame_changes;
   bool running = false;
   double begin_wall = 0, begin_scheduler = 0, begin_process = 0, begin_children = 0;
 
@@ -140,9 +142,17 @@ struct Machine::Parts {
     out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
                          children_seconds() - begin_children;
   }
+  void begin(HostProgram& program) {
+    emulation.emplace(setup, channels, image, *engine, program);
+    begin_wall = clock_seconds(CLOCK_MONOTONIC);
+    begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+    begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    begin_children = children_seconds();
+  }
   void stop_engine() {
     emulation->tell_to_stop();
     engine->stop();
+    running = false;
   }
 };
 
@@ -166,7 +176,9 @@ Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::ma
   p.engine = make_engine(setup.engine, {p.setup.description, p.image, p.pes, threads}, setup.debugging);
 }
 
-Machine::~Machine() = default;
+Machine::~Machine() {
+  if (parts_->running) parts_->stop_engine();
+}
 
 Cycles PeFigures::idle_cycles() const {
   return std::accumulate(waits.begin(), waits.end(), idle_at_end);
@@ -182,40 +194,58 @@ std::uint64_t MachineFigures::instructions() const {
   return sum;
 }
 
-void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress) {
+void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress, Then then) {
   Parts& p = *parts_;
-  if (p.emulation) throw MachineFailure("a machine runs once");
-  p.emulation.emplace(p.setup, p.channels, p.image, *p.engine, program);
-  p.begin_wall = clock_seconds(CLOCK_MONOTONIC);
-  p.begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-  p.begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
-  p.begin_children = children_seconds();
+  const bool again = p.running;
+  if (p.emulation && !again) throw MachineFailure("the machine's last run has ended");
+  if (again) {
+    p.emulation->go_on_with(program);
+  } else {
+    p.begin(program);
+  }
   double last_progress = 0;
   const auto attend = [&](Cycles now) {
     p.engine->check();
     const double seconds = clock_seconds(CLOCK_MONOTONIC);
-    if (!progress || seconds - last_progress < kProgressSeconds) return;
+    if (!progress || seconds - last_progress < kEarly * p.setup.progress_seconds) return;
     last_progress = seconds;
     if (!progress(now)) throw Interrupted("the run was interrupted");
   };
   try {
-    p.engine->start();
+    if (!again) p.engine->start();
     p.running = true;
     p.emulation->run(attend);
   } catch (...) {
     p.stop_engine();
-    p.running = false;
     throw;
   }
   p.fill_in_figures();
+  if (then == Then::end) end();
+}
+
+void Machine::end() {
+  Parts& p = *parts_;
+  if (!p.running) return;
   p.emulation->end_watch(p.figures.now);
   p.stop_engine();
-  p.running = false;
   p.measure(p.figures);
+}
+
+void Machine::begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers) {
+  if (!parts_->running) throw MachineFailure("a picture begins while the machine does not run");
+  parts_->emulation->begin_picture(width, height, layers);
+}
+
+void Machine::sample(LiveFigures& figures) const {
+  if (parts_->emulation) parts_->emulation->sample(figures);
 }
 
 const FrameBuffer& Machine::frame_buffer() const {
   return parts_->emulation ? parts_->emulation->frame_buffer() : parts_->frame_buffer;
+}
+
+const FrameChanges& Machine::frame_changes() const {
+  return parts_->emulation ? parts_->emulation->frame_changes() : parts_->frame_changes;
 }
 
 MachineFigures Machine::figures() const {

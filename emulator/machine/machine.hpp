@@ -14,7 +14,9 @@
 #include "emulator/engines/engine/debugging.hpp"
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/engines/image/image.hpp"
+#include "emulator/frame_buffer/frame_changes.hpp"
 #include "emulator/host/host_program.hpp"
+#include "emulator/machine/live_figures.hpp"
 #include "emulator/machine/time_line.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/torus/figures.hpp"
@@ -35,6 +37,7 @@ struct MachineSetup {
   unsigned threads = 0;  ///< 0: all cores
   std::uint32_t frame_width = 0;
   std::uint32_t frame_height = 0;
+  double progress_seconds = 0.1;      ///< from one call of `progress` to the next [s of wall time], about
   std::uint32_t frame_layers = 0;     ///< planes of the frame buffer besides the colours, as bits (protocol::plane_bit)
   MachineWatcher* watcher = nullptr;  ///< told what happens; outlives the machine. Changes nothing of the run
   RecordWatcher* record_watcher = nullptr;  ///< shown what packets and messages hold; likewise
@@ -114,12 +117,22 @@ class Machine {
   Machine(const MachineSetup& setup, const Image& image);
   ~Machine();
 
-  /// Runs until the program has finished and the machine is empty. Once per machine.
-  /// progress: called about ten times a second of wall time, from the calling thread; returning false ends the run.
+  /// Runs until the program has finished and the machine is empty. Again, if the last time it was to stay: then virtual
+  /// time goes on where it had ended, the PEs are where they were, and the program has the same kinds of records.
+  /// progress: called every setup.progress_seconds, about, from the calling thread; returning false ends the run.
   /// Throws MachineFailure: trap, dead or silent PE, deadlock (with what each actor waits for), fault of the program.
-  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {});
+  enum class Then : std::uint8_t { end, stay };
+  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {}, Then then = Then::end);
+  /// Of a machine that has stayed: no more runs. The same figures as if it had not stayed.
+  void end();
+  /// Of a machine that has stayed: the frame buffer is that of an empty picture. layers: as in MachineSetup.
+  void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
 
+  /// What can be known at once of a machine that runs; for `progress` alone. Waits for nobody and changes nothing.
+  /// figures: overwritten; given again, nothing is allocated.
+  void sample(LiveFigures& figures) const;
   const FrameBuffer& frame_buffer() const;
+  const FrameChanges& frame_changes() const;
   /// Exact at a moment when nothing is in flight (between stages, at the end): a host program may ask in on_message.
   MachineFigures figures() const;
 

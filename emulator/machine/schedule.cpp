@@ -12,8 +12,7 @@ namespace torolux {
 
 namespace {
 
-/// Attention at least this often, by wall time [s] and by events.
-constexpr double kAttendSeconds = 0.05;
+/// Attention at least this often, by events.
 constexpr std::uint32_t kAttendEvents = 4096;
 /// Running a PE, a millisecond at most, counts as so many.
 constexpr std::uint32_t kHelpEvents = 256;
@@ -37,7 +36,7 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
 void Emulation::attend_now_and_then() {
   until_attend_ = kAttendEvents;
   const double seconds = wall_seconds();
-  if (seconds - last_attended_ < kAttendSeconds) return;
+  if (seconds - last_attended_ < attend_seconds_) return;
   last_attended_ = seconds;
   if (attend_) attend_(now_);
 }
@@ -114,7 +113,16 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
   }
   if (!failure_.empty()) throw MachineFailure(failure_);
   torus_.check_slots();
-  if (!empty() || !program_.finished()) throw MachineFailure(deadlock_report());
+  if (!empty() || !program_->finished()) throw MachineFailure(deadlock_report());
+}
+
+void Emulation::go_on_with(HostProgram& program) {
+  program_ = &program;
+  host_.go_on_with(program, now_);
+}
+
+void Emulation::begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers) {
+  controller_.begin_picture(width, height, layers);
 }
 
 void Emulation::tell_to_stop() {
@@ -160,7 +168,7 @@ std::string Emulation::report_of(unsigned pe) const {
 std::string Emulation::deadlock_report() const {
   std::string text = "deadlock at cycle " + std::to_string(now_) +
                      ": nothing can happen any more, and work is outstanding\n  host program: " +
-                     (program_.finished() ? "finished" : std::string("waits for ") + program_.waiting_for()) + "; " +
+                     (program_->finished() ? "finished" : std::string("waits for ") + program_->waiting_for()) + "; " +
                      std::to_string(host_.inbox()) + " messages not yet read, " +
                      std::to_string(host_.waiting_for_all()) +
                      " broadcasts and what waits for them\n  bus: " + (bus_.busy() ? "busy" : "idle") +

@@ -142,7 +142,7 @@ void Emulation::count_kinds(const Block& block) {
   const std::size_t bytes = block.bytes / block.records;
   std::uint64_t met = 0;  // a bit for each kind
   for (std::size_t at = 0; at + bytes <= block.bytes; at += bytes) {
-    const std::size_t kind = program_.record_kind(block.payload().subspan(at, bytes));
+    const std::size_t kind = program_->record_kind(block.payload().subspan(at, bytes));
     KindFigures& figures = kinds_.at(kind);
     ++figures.records;
     figures.bytes += bytes;

@@ -72,6 +72,8 @@ class Torus {
     const Cycles ahead = out.free_at > now ? out.free_at - now : 0;
     return out.flits + routers_[router].seldom[port].busy_beyond - ahead;
   }
+  /// Granted to an outgoing link so far, as in LinkFigures.
+  std::uint64_t link_flits(unsigned router, std::size_t port) const { return routers_[router].outputs[port].flits; }
   /// Of each router; what lasts still counts up to `now`.
   std::vector<RouterFigures> router_figures(Cycles now) const;
   const PacketFigures& packet_figures() const { return packet_figures_; }

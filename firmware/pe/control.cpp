@@ -163,6 +163,10 @@ bool handle_message(Pe& pe, Niu& niu) {
       require(pe, niu, makes_rays(pe));
       take_tile(pe, niu, niu.message_as<protocol::Tile>());
       return true;
+    case MessageKind::view:
+      require(pe, niu, makes_rays(pe) && pe.tiles.held == 0);
+      take_view(pe, niu, niu.message_as<protocol::View>());
+      return true;
     case MessageKind::grant:
       require(pe, niu, pe.state == State::running);
       pe.credits.in_hand += niu.message_as<protocol::Grant>().credits;

@@ -60,7 +60,8 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
           static_cast<std::uint32_t>(bits(l.points_per_quantum)));
 }
 
-/// Of the camera rays that the PE makes.
+}  // namespace
+
 void check_view(Niu& niu, const StageLayout& l) {
   const protocol::CameraView& view = l.view;
   require(niu, view.samples == l.sample_places.count && view.samples <= protocol::kMostPixelSamples,
@@ -74,8 +75,6 @@ void check_view(Niu& niu, const StageLayout& l) {
             protocol::kMostPictureEdge);
   }
 }
-
-}  // namespace
 
 void check_layout(Niu& niu, const StageLayout& l) {
   const bool known = l.stage == Stage::radiosity || l.stage == Stage::ray_tracing;

@@ -58,6 +58,8 @@ void run_pe(Pe& pe, Niu& niu);
 
 // ---- Layout (layout.cpp, verify.cpp): fail the run where something does not hold ----
 void check_layout(Niu& niu, const protocol::StageLayout& layout);
+/// Of the camera rays that the PE makes.
+void check_view(Niu& niu, const protocol::StageLayout& layout);
 void verify_stores(Niu& niu, const Scene& scene);
 
 // ---- Records ----
@@ -82,6 +84,8 @@ void end_record(Pe& pe, Niu& niu, Slot slot);
 void follow_ray(Pe& pe, Niu& niu, Slot slot);
 
 // ---- Tiles (tile.cpp) ----
+/// Tiles from now on are of another pass.
+void take_view(Pe& pe, Niu& niu, const protocol::View& view);
 /// A tile has been dealt, whose rays are to be made here.
 void take_tile(Pe& pe, Niu& niu, const protocol::Tile& tile);
 /// Makes up to `most` rays, as far as there are credits in hand.

@@ -23,21 +23,25 @@ void require(Niu& niu, bool holds, StoreIndex index, std::uint32_t value, std::u
 
 void begin_pixel(const Scene& scene, Tiles& tiles) {
   const Tile& tile = tiles.place[tiles.first];
+  tiles.sample = tiles.first_sample;
+  tiles.made = 0;
   tiles.pixel = protocol::camera_pixel(scene.layout.view, tile.column + tiles.column, tile.row + tiles.row);
 }
 
 void begin_tile(const Scene& scene, Tiles& tiles) {
   tiles.column = 0;
   tiles.row = 0;
-  tiles.sample = 0;
   begin_pixel(scene, tiles);
 }
 
 /// On to the next sample, pixel, tile.
 void advance(Pe& pe) {
   Tiles& tiles = pe.tiles;
-  if (++tiles.sample < pe.scene.layout.view.samples) return;
-  tiles.sample = 0;
+  if (++tiles.made < tiles.count) {
+    tiles.sample += tiles.step;
+    if (tiles.sample >= pe.scene.layout.view.samples) tiles.sample -= pe.scene.layout.view.samples;
+    return;
+  }
   const Tile& tile = tiles.place[tiles.first];
   if (++tiles.column == tile.columns) {
     tiles.column = 0;
@@ -100,9 +104,25 @@ void make_ray(Pe& pe, Niu& niu) {
 void Tiles::set(const protocol::StageLayout& layout) {
   *this = {};
   if (layout.sample_places.count == 0) return;
+  count = layout.view.samples;
+  step = 1;
   weight = 1.0F / static_cast<float>(layout.view.samples);
   eye_inside = protocol::lies_inside(grid_of(layout), layout.view.eye);
   eye_cell = cell_of(layout, to_vector(layout.view.eye));
+}
+
+void take_view(Pe& pe, Niu& niu, const protocol::View& view) {
+  protocol::StageLayout& layout = pe.scene.layout;
+  layout.view = view.camera;
+  check_view(niu, layout);
+  const std::uint32_t samples = view.camera.samples;
+  require(niu, view.count > 0 && view.first < samples && view.count <= samples - view.first, StoreIndex::view_first,
+          view.first, samples);
+  require(niu, view.step < samples || view.step == 1, StoreIndex::view_step, view.step, samples);
+  pe.tiles.set(layout);
+  pe.tiles.first_sample = view.first * view.step % samples;
+  pe.tiles.count = view.count;
+  pe.tiles.step = view.step;
 }
 
 void take_tile(Pe& pe, Niu& niu, const Tile& tile) {

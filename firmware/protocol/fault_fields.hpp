@@ -69,6 +69,8 @@ enum class StoreIndex : std::uint32_t {
   tile_places,
   tile_columns,
   tile_rows,
+  view_first,
+  view_step,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreIndex::count)> kStoreIndexWords = {
@@ -126,6 +128,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreInde
     "tiles held at once = %, limit %",
     "tile empty or outside the picture: first column %, picture's width %",
     "tile empty or outside the picture: first row %, picture's height %",
+    "pass over a picture without samples, or beyond a pixel's: first %, of %",
+    "step between the samples of a pass = %, limit %",
 };
 
 /// FaultCode::bad_record: which field; no third detail.

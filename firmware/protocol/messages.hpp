@@ -21,6 +21,7 @@ enum class MessageKind : std::uint16_t {
   shoot,                             ///< Shoot: what the points that are dealt next are of
   deal,                              ///< Deal: who gets the shot's next points
   tile,                              ///< Tile: pixels whose rays this PE makes; answer, when it has: work_done
+  view,                              ///< View: tiles from now on are of another camera, or take other samples
   grant,                             ///< Grant: credits for the records that this PE makes
   recall,                            ///< nothing follows: credits without work come home, until the next `select`
   read,                              ///< Read; answer: data
@@ -112,6 +113,17 @@ struct Tile {
   std::uint16_t columns, rows;  ///< 1 or more
 };
 static_assert(sizeof(Tile) == 8);
+
+/// One pass over a picture, to all PEs while none has a tile: which of its pixels' samples the tiles take. The i-th of
+/// the pass is sample (first + i) * step modulo camera.samples.
+struct View {
+  CameraView camera;    ///< samples: as in StageLayout::view, whose sample places and filter hold for it
+  std::uint32_t first;  ///< below camera.samples
+  std::uint32_t count;  ///< 1 or more; first + count is at most camera.samples
+  std::uint32_t step;   ///< 1, or below camera.samples and without a common divisor with it: spreads few samples over
+                        ///< the pixel
+};
+static_assert(sizeof(View) == 80);
 
 struct Grant {
   std::uint32_t credits;

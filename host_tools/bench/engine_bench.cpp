@@ -73,7 +73,7 @@ BareSpeeds bench_image(const std::filesystem::path& image, unsigned repetitions,
   Recording recording = record(loaded, setup.description, 1, [&](const std::string& engine) {
     setup.engine = engine;
     const MachineFigures figures = run_image(
-        setup, loaded, [](const PeText&) {}, progress);
+        setup, loaded, [](const PeText&) {}, [&](const Machine&, Cycles now) { return !progress || progress(now); });
     return RecordedFigures{setup.local_memory_bytes, figures.instructions()};
   });
   BareSpeeds result;

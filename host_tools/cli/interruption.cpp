@@ -19,6 +19,10 @@ bool interrupted() {
   return flag != 0;
 }
 
+void forget_interruption() {
+  flag = 0;
+}
+
 InterruptionGuard::InterruptionGuard() {
   flag = 0;
   for (std::size_t i = 0; i < kSignals.size(); ++i) {

@@ -55,7 +55,7 @@ void run_image_in_lock_step(const RenderOptions& options) {
   const auto print = [&](const PeText& text) {
     if (!options.quiet) std::cout << "PE " << text.pe << " @ " << text.time << ": " << text.text << std::endl;
   };
-  run_image(setup, load_image(options.scene), print, [](Cycles) { return !interrupted(); });
+  run_image(setup, load_image(options.scene), print, [](const Machine&, Cycles) { return !interrupted(); });
 }
 
 void render_in_lock_step(const RenderOptions& options) {

@@ -25,6 +25,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_engine_option(command, options);
   add_debugging_options(command, options.debugging, heading(OptionGroup::machine));
   add_trace_options(command, options.trace, TracedRun::render, "Trace");
+  add_display_options(command, options.display, "Display");
 }
 
 RenderOptions parse_render_options(const std::vector<std::string>& words) {
@@ -46,6 +47,7 @@ PreparedRender prepare_render(const RenderOptions& options) {
   std::vector<InputFile> files = recorded.files();
   if (options.radiosity)
     files.push_back({"radiosity", options.radiosity->string(), sha256_of_file(*options.radiosity)});
+  if (options.path) files.push_back({"path", options.path->string(), sha256_of_file(*options.path)});
   files.push_back({"firmware", "pe.elf", sha256_of_file(firmware_image())});
   prepared.run = describe(options, prepared.resolved, prepared.scene.name, std::move(files));
   return prepared;

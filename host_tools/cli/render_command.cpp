@@ -12,9 +12,12 @@
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/measured_speed.hpp"
+#include "host_tools/cli/path_frames.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/display/walk.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
+#include "host_tools/render/session.hpp"
 #include "host_tools/report/csv.hpp"
 #include "host_tools/report/figures.hpp"
 #include "host_tools/report/html_report.hpp"
@@ -24,10 +27,20 @@
 namespace torolux {
 namespace {
 
+/// Of a path, one for each camera.
+std::vector<std::filesystem::path> picture_files(const Resolved& resolved) {
+  if (resolved.path.empty()) return resolved.outputs;
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : resolved.outputs) {
+    for (std::size_t i = 1; i <= resolved.path.size(); ++i) files.push_back(frame_file(file, i, resolved.path.size()));
+  }
+  return files;
+}
+
 /// Throws InputError where one result would be written over another, or over what is read.
 void check_results_distinct(const PreparedRender& prepared, const RenderOptions& options) {
   std::vector<NamedFile> written;
-  for (const auto& file : prepared.resolved.outputs) {
+  for (const auto& file : picture_files(prepared.resolved)) {
     written.push_back({"--output", file});
     if (holds_radiance(file)) continue;
     for (const LayerName& layer : layers_in(prepared.resolved.quality.layers))
@@ -49,7 +62,10 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
 
 /// What cannot be written is better known before the work than after it.
 void check_results_writable(const Resolved& resolved, const RenderOptions& options) {
-  for (const auto& file : resolved.outputs) check_layers_writable(file, resolved.quality.layers);
+  for (const auto& file : resolved.outputs) {
+    const std::size_t frames = resolved.path.size();
+    check_layers_writable(frames == 0 ? file : frame_file(file, 1, frames), resolved.quality.layers);
+  }
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
   if (options.report) check_file_writable(*options.report);
@@ -62,15 +78,48 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
 }
 
-RenderResult run_machine(const Scene& scene, const Resolved& resolved, const RenderOptions& options) {
-  ProgressLine line(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
-                    resolved.machine.description.processor.clock_hertz, options.verbose);
-  return render(scene, resolved.camera, resolved.quality, resolved.machine, resolved.files, firmware_image(),
-                [&line](const RenderProgress& progress) {
-                  if (interrupted()) return false;
-                  line.show(progress);
-                  return true;
-                });
+std::unique_ptr<Display> display_of(const PreparedRender& prepared, const RenderOptions& options) {
+  const Resolved& resolved = prepared.resolved;
+  return open_display(options.display, {"render", prepared.run.scene, resolved.machine.columns, resolved.machine.rows,
+                                        resolved.machine.description.processor.clock_hertz, resolved.quality.width,
+                                        resolved.quality.height, resolved.tone});
+}
+
+/// A render while it goes on, as terminal and display (null: none) show it. False: it is to end.
+class Shown {
+ public:
+  Shown(const Resolved& resolved, const RenderOptions& options, Display* display)
+      : line_(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
+              resolved.machine.description.processor.clock_hertz, options.verbose),
+        display_(display) {}
+
+  bool show(const RenderProgress& progress) {
+    if (interrupted()) return false;
+    line_.show(progress);
+    return display_ == nullptr || display_->show(progress);
+  }
+  /// Of a path.
+  bool show(std::size_t picture, std::size_t of) {
+    if (interrupted()) return false;
+    line_.show("picture " + std::to_string(picture) + " of " + std::to_string(of));
+    return true;
+  }
+  void wipe() { line_.wipe(); }
+
+ private:
+  ProgressLine line_;
+  Display* display_;
+};
+
+/// The first picture, and those of a path behind it.
+RenderResult run_session(RenderSession& session, const Resolved& resolved, Shown& shown, bool stays) {
+  RenderResult result = session.run(stays ? Machine::Then::stay : Machine::Then::end);
+  shown.wipe();
+  if (interrupted() || resolved.path.empty()) return result;
+  render_path(session, resolved, result,
+              [&shown](std::size_t number, std::size_t count) { return shown.show(number, count); });
+  shown.wipe();
+  return result;
 }
 
 void finish_trace(TraceFile& trace, bool quiet) {
@@ -92,7 +141,16 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
-  const RenderResult result = run_traced(trace.get(), [&] { return run_machine(prepared.scene, resolved, options); });
+  const auto display = display_of(prepared, options);
+  if (display) resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
+  Shown shown(resolved, options, display.get());
+  const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
+  RenderSession session(prepared.scene, resolved.camera, resolved.quality, resolved.machine, resolved.files,
+                        firmware_image(), show);
+  const bool stays = resolved.path.size() > 1 || display;
+  const RenderResult result = run_displayed(display.get(), [&] {
+    return run_traced(trace.get(), [&] { return run_session(session, resolved, shown, stays); });
+  });
   if (interrupted()) return {kInterrupted, ""};
   if (trace) finish_trace(*trace, options.quiet);
   if (story) {
@@ -102,7 +160,9 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
 
-  for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
+  if (resolved.path.empty()) {
+    for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
+  }
   std::string statistics = stats_json(prepared.run, result.figures);
   if (options.stats) write_file(*options.stats, statistics);
   if (options.stats_csv) write_stats_tables(*options.stats_csv, stats_tables(result.figures));
@@ -111,6 +171,12 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
                report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+  if (display) {
+    display->finish(&result.picture);
+    keep_display(options.quiet, [&](const std::function<bool()>& stop) {
+      Walk(session, *display, resolved.camera, resolved.quality).go(stop);
+    });
+  }
   return {0, std::move(statistics)};
 }
 

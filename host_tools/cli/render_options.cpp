@@ -104,6 +104,12 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--fov", "DEGREES", "Vertical field of view, degrees [the scene's, else 40]",
             [&options](const std::string& text) { options.field_of_view_degrees = parse_number(text, 0.01, 179); })
       ->group(group);
+  command
+      .add_option(
+          "--path", options.path,
+          "A picture from each camera of this file, numbered (NAME.0001.png, ...): an animation of one solved scene")
+      ->type_name("FILE")
+      ->group(group);
 }
 
 void add_light_options(CLI::App& command, RenderOptions& options) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/engines/engine/debugging.hpp"
+#include "host_tools/cli/display_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/trace_options.hpp"
@@ -37,12 +38,14 @@ struct RenderOptions {
   bool no_picture = false;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
   TraceOptions trace;
+  DisplayOptions display;
   std::optional<FollowTarget> follow;
   bool quiet = false, verbose = false;
 
   // The view.
   std::optional<std::array<double, 3>> eye, look_at, up;
   std::optional<double> field_of_view_degrees;
+  std::optional<std::filesystem::path> path;  ///< cameras of an animation
 
   // The light.
   std::optional<Preset> preset;

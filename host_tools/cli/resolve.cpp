@@ -7,6 +7,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/parse_values.hpp"
+#include "host_tools/cli/path_frames.hpp"
 #include "host_tools/cli/table_options.hpp"
 #include "host_tools/scene/load_scene.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -26,6 +27,15 @@ void from_scene(const PlacedText& text, const char* key, Take take) {
   } catch (const std::runtime_error& error) {
     throw InputError(text.place + ": [defaults] '" + key + "': " + error.what());
   }
+}
+
+/// A path's cameras; none where there is no path.
+std::vector<Camera> resolve_path(const RenderOptions& options, const Scene& scene) {
+  if (!options.path) return {};
+  if (options.eye || options.look_at || options.up || options.field_of_view_degrees) {
+    throw UsageError("--path says where the camera is: leave out --eye, --look-at, --up and --fov");
+  }
+  return load_camera_path(*options.path, scene.camera.value_or(Camera{}));
 }
 
 Camera resolve_camera(const RenderOptions& options, const Scene& scene) {
@@ -135,7 +145,8 @@ SceneOptions scene_options(const RenderOptions& options) {
 
 Resolved resolve(const RenderOptions& options, const Scene& scene) {
   Resolved resolved;
-  resolved.camera = resolve_camera(options, scene);
+  resolved.path = resolve_path(options, scene);
+  resolved.camera = resolved.path.empty() ? resolve_camera(options, scene) : resolved.path.front();
   AllSettings settings;
   resolved.preset = resolve_settings(options, scene, settings);
   resolved.quality = settings.quality;

@@ -11,7 +11,8 @@
 namespace torolux {
 
 struct Resolved {
-  Camera camera;
+  Camera camera;             ///< the first one of a path
+  std::vector<Camera> path;  ///< empty: one picture
   Quality quality;
   std::string preset;  ///< in force, on top of which the rest was given
   MachineChoice machine;

@@ -56,13 +56,21 @@ RunEnd run_prepared(const RunOptions& options) {
   }
   const InputFile image_file{"image", options.image, sha256_of_file(options.image)};
   const auto begin = std::chrono::steady_clock::now();
-  const auto print = [](const PeText& text) {
+  const auto display = open_display(
+      options.display,
+      {"run", options.image, setup.columns, setup.rows, setup.description.processor.clock_hertz, 0, 0, {}});
+  if (display) setup.progress_seconds = DisplayFeed::kUpdateSeconds;
+  const auto print = [&display](const PeText& text) {
     std::cout << "PE " << text.pe << " @ " << text.time << ": " << text.text << std::endl;
+    if (display) display->say(text);
+  };
+  const auto progress = [&display](const Machine& machine, Cycles now) {
+    return !interrupted() && (!display || display->show(machine, now));
   };
   const auto trace = trace_file(options.trace, TracedRun::image, setup.columns * setup.rows);
   if (trace) setup.watcher = &trace->watcher();
-  const MachineFigures figures =
-      run_traced(trace.get(), [&] { return run_image(setup, image, print, [](Cycles) { return !interrupted(); }); });
+  const MachineFigures figures = run_displayed(
+      display.get(), [&] { return run_traced(trace.get(), [&] { return run_image(setup, image, print, progress); }); });
   if (interrupted()) {
     return {kInterrupted, ""};
   }
@@ -83,6 +91,10 @@ RunEnd run_prepared(const RunOptions& options) {
   }
   if (!options.quiet) {
     print_summary(setup, figures, wall_seconds);
+  }
+  if (display) {
+    display->finish(nullptr);
+    keep_display(options.quiet, [&display](const std::function<bool()>& stop) { display->wait(stop); });
   }
   return {0, std::move(statistics)};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/cli/display_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/cli/trace_options.hpp"
@@ -29,6 +30,7 @@ struct RunOptions {
   MachineDescription::Ideal ideal;
   unsigned threads = 0;
   TraceOptions trace;
+  DisplayOptions display;
   bool quiet = false;
 };
 

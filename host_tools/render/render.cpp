@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One render from scene to picture. See render.hpp.
+// One render from scene to picture, and views of the solved scene after it.
 #include "host_tools/render/render.hpp"
 
 #include <algorithm>
@@ -12,12 +12,15 @@
 #include "host_tools/irradiance/refine.hpp"
 #include "host_tools/render/course.hpp"
 #include "host_tools/render/frame_layers.hpp"
+#include "host_tools/render/running_render.hpp"
+#include "host_tools/render/session.hpp"
 #include "host_tools/setup/advice.hpp"
 #include "host_tools/setup/record_follower.hpp"
 #include "host_tools/setup/setup.hpp"
 #include "host_tools/solution/ply_file.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
 #include "host_tools/stages/render_program.hpp"
+#include "host_tools/stages/view_program.hpp"
 
 namespace torolux {
 namespace {
@@ -34,6 +37,7 @@ MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, con
   machine.frame_width = quality.width;
   machine.frame_height = quality.height;
   machine.frame_layers = quality.layers;
+  machine.progress_seconds = choice.progress_seconds;
   return machine;
 }
 
@@ -75,7 +79,12 @@ RenderJob job_of(const Scene& scene, const Camera& camera, const Quality& qualit
           radiosity_settings(scene, setup, quality),
           CameraRays(camera, setup.mesh.space, quality.width, quality.height,
                      PixelSamples(quality.filter, quality.samples, setup.parameters.seed), setup.parameters.seed),
-          {setup.credits, quality.width, quality.height, quality.samples, machine.skip_empty_subspaces},
+          {setup.credits,
+           quality.width,
+           quality.height,
+           quality.samples,
+           {0, quality.samples, 1},
+           machine.skip_empty_subspaces},
           std::nullopt,
           radiosity_only};
 }
@@ -95,14 +104,18 @@ struct Watch {
   Course& course;
   const std::function<bool(const RenderProgress&)>& progress;
 
-  void run(Machine& machine, RenderProgram& program) const {
+  void run(Machine& machine, RenderProgram& program, const RenderSetup& setup, bool draft,
+           Machine::Then then = Machine::Then::end) const {
     course.begin_machine();
-    machine.run(program, [&](Cycles now) {
+    const RunningRender running{machine, program, setup, draft};
+    const auto tell = [&](Cycles now) {
       if (!progress) return true;
       RenderProgress present = program.progress(now);
+      present.running = &running;
       present.overall = course.share(present);
       return progress(present);
-    });
+    };
+    machine.run(program, tell, then);
   }
 };
 
@@ -120,7 +133,7 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
       setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
       RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
       Machine torolux(machine_setup(setup, quality, choice), image);
-      watch.run(torolux, program);
+      watch.run(torolux, program, setup, true);
       if (!program.finished()) return std::nullopt;
       figures.draft_cycles += program.times().read;
       figures.draft_records += program.solution()->tally.rays;
@@ -138,64 +151,154 @@ std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera&
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
-                    const RenderFiles& files, const std::filesystem::path& pe_image,
-                    const std::function<bool(const RenderProgress&)>& progress) {
-  const Image image = load_image(pe_image);
-  const auto begin = std::chrono::steady_clock::now();
-  RenderResult result;
-  Course course(quality, files.radiosity.has_value());
-  const Watch watch{course, progress};
-  std::optional<SavedRadiosity> saved;
-  std::vector<Split> splits;
-  if (files.radiosity) {
-    saved = read_radiosity(*files.radiosity);
-    check_radiosity(*saved, scene, quality);
-    splits = saved->splits;
-  } else if (quality.refine > 0) {
-    auto chosen = draft_splits(scene, camera, quality, machine, image, watch, result.figures);
-    if (!chosen) return result;
-    splits = std::move(*chosen);
+struct RenderSession::Parts {
+  const Scene& scene;
+  const Camera& camera;
+  const Quality& quality;
+  const MachineChoice& choice;
+  const RenderFiles& files;
+  const std::function<bool(const RenderProgress&)>& progress;
+  Image image;
+  std::optional<RenderSetup> setup;
+  std::optional<Machine> machine;
+
+  std::optional<std::vector<Split>> splits_for(const std::optional<SavedRadiosity>& saved, const Watch& watch,
+                                               RenderFigures& figures) const {
+    if (saved) return saved->splits;
+    if (quality.refine <= 0) return std::vector<Split>{};
+    return draft_splits(scene, camera, quality, choice, image, watch, figures);
   }
-  const RenderSetup setup = fitting_setup(scene, camera, quality, machine, image, splits);
-  RenderJob job = job_of(scene, camera, quality, machine, setup, false);
-  const RadiosityOrigin origin = radiosity_origin(scene, quality, setup.mesh);
+
+  MachineSetup of_picture() const {
+    MachineSetup machine_setup = torolux::machine_setup(*setup, quality, choice);
+    machine_setup.watcher = choice.watcher;
+    machine_setup.record_watcher = choice.follower;
+    return machine_setup;
+  }
+
+  void write_files(const RadiosityOrigin& origin, const std::vector<Split>& splits, const Solution& solution) const {
+    if (files.save_radiosity) save_radiosity(*files.save_radiosity, origin, splits, solution);
+    if (!files.save_mesh) return;
+    const VertexIrradiance irradiance = make_vertex_irradiance(
+        setup->mesh, incident_flux(solution, false), setup->units.watts_per_quantum, setup->units.unit_radiance);
+    save_ply(*files.save_mesh, scene, setup->mesh, setup->units, irradiance);
+  }
+
+  void take_picture(RenderResult& result) const {
+    const FrameBuffer& sums = machine->frame_buffer();
+    result.figures.picture_sha256 = digest_of(sums, protocol::Plane::colour);
+    for (const LayerName& layer : layers_in(quality.layers))
+      result.figures.layers_sha256.push_back(digest_of(sums, layer.plane));
+    result.picture = picture_of(sums, *setup);
+    result.layers = layers_of(sums, *setup);
+  }
+};
+
+RenderSession::RenderSession(const Scene& scene, const Camera& camera, const Quality& quality,
+                             const MachineChoice& machine, const RenderFiles& files,
+                             const std::filesystem::path& pe_image,
+                             const std::function<bool(const RenderProgress&)>& progress)
+    : parts_(new Parts{scene, camera, quality, machine, files, progress, load_image(pe_image), {}, {}}) {}
+RenderSession::~RenderSession() = default;
+
+RenderResult RenderSession::run(Machine::Then then) {
+  Parts& p = *parts_;
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  const auto begin = Clock::now();
+  RenderResult result;
+  Course course(p.quality, p.files.radiosity.has_value());
+  const Watch watch{course, p.progress};
+  std::optional<SavedRadiosity> saved;
+  if (p.files.radiosity) {
+    saved = read_radiosity(*p.files.radiosity);
+    check_radiosity(*saved, p.scene, p.quality);
+  }
+  const auto splits = p.splits_for(saved, watch, result.figures);
+  if (!splits) return result;
+  const RenderSetup& setup = p.setup.emplace(fitting_setup(p.scene, p.camera, p.quality, p.choice, p.image, *splits));
+  RenderJob job = job_of(p.scene, p.camera, p.quality, p.choice, setup, false);
+  const RadiosityOrigin origin = radiosity_origin(p.scene, p.quality, setup.mesh);
   if (saved) {
     job.solution = unpack_radiosity(*saved, origin, setup.mesh);
-    check_balance(*files.radiosity, scene, setup, *job.solution);
+    check_balance(*p.files.radiosity, p.scene, setup, *job.solution);
   }
 
   RenderProgram program(std::move(job));
-  MachineSetup of_picture = machine_setup(setup, quality, machine);
-  of_picture.watcher = machine.watcher;
-  of_picture.record_watcher = machine.follower;
-  if (machine.follower != nullptr) machine.follower->begin(scene, setup, quality, machine);
-  Machine torolux(of_picture, image);
-  const auto run_begin = std::chrono::steady_clock::now();
-  watch.run(torolux, program);
-  result.figures.run_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - run_begin).count();
+  if (p.choice.follower != nullptr) p.choice.follower->begin(p.scene, setup, p.quality, p.choice);
+  Machine& machine = p.machine.emplace(p.of_picture(), p.image);
+  const auto run_begin = Clock::now();
+  watch.run(machine, program, setup, false, then);
+  result.figures.run_seconds = seconds_since(run_begin);
 
   result.notes = setup.notes;
-  add_figures(program, torolux, setup, result.figures);
-  result.figures.splits = splits.size();
-  result.figures.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  add_figures(program, machine, setup, result.figures);
+  result.figures.splits = splits->size();
+  result.figures.wall_seconds = seconds_since(begin);
   if (!program.finished()) return result;  // stopped by `progress`
-  result.figures.energy = balance(scene, setup.mesh, setup.units, *program.solution());
-  if (!files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
-  if (files.save_radiosity) save_radiosity(*files.save_radiosity, origin, splits, *program.solution());
-  if (files.save_mesh) {
-    const VertexIrradiance irradiance =
-        make_vertex_irradiance(setup.mesh, incident_flux(*program.solution(), false), setup.units.watts_per_quantum,
-                               setup.units.unit_radiance);
-    save_ply(*files.save_mesh, scene, setup.mesh, setup.units, irradiance);
-  }
-  const FrameBuffer& sums = torolux.frame_buffer();
-  result.figures.picture_sha256 = digest_of(sums, protocol::Plane::colour);
-  for (const LayerName& layer : layers_in(quality.layers))
-    result.figures.layers_sha256.push_back(digest_of(sums, layer.plane));
-  result.picture = picture_of(torolux.frame_buffer(), setup);
-  result.layers = layers_of(torolux.frame_buffer(), setup);
+  result.figures.energy = balance(p.scene, setup.mesh, setup.units, *program.solution());
+  if (!p.files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
+  p.write_files(origin, *splits, *program.solution());
+  p.take_picture(result);
   return result;
+}
+
+bool RenderSession::view(const View& view, const std::function<bool()>& wanted) {
+  Parts& p = *parts_;
+  const RenderSetup& setup = p.setup.value();
+  const CameraRays rays(view.camera, setup.mesh.space, view.width, view.height,
+                        PixelSamples(p.quality.filter, p.quality.samples, setup.parameters.seed),
+                        setup.parameters.seed);
+  const RayTracingSettings settings{setup.credits,     view.width, view.height,
+                                    p.quality.samples, view.pass,  p.choice.skip_empty_subspaces};
+  ViewProgram program(setup, rays, settings);
+  if (!view.adds) p.machine->begin_picture(view.width, view.height, p.quality.layers);
+  if (!wanted()) return false;
+  p.machine->run(
+      program,
+      [&](Cycles) {
+        if (!wanted()) program.give_up();
+        return true;
+      },
+      Machine::Then::stay);
+  return !program.was_given_up();
+}
+
+Picture RenderSession::picture(std::uint32_t taken) const {
+  Picture picture = picture_of(frame_buffer(), *parts_->setup);
+  if (taken == parts_->quality.samples) return picture;
+  const float share = static_cast<float>(parts_->quality.samples) / static_cast<float>(taken);
+  for (auto& pixel : picture.pixels)
+    for (float& channel : pixel) channel *= share;
+  return picture;
+}
+
+std::vector<Layer> RenderSession::layers() const {
+  return layers_of(frame_buffer(), *parts_->setup);
+}
+
+const FrameBuffer& RenderSession::frame_buffer() const {
+  return parts_->machine->frame_buffer();
+}
+
+const Machine& RenderSession::machine() const {
+  return *parts_->machine;
+}
+
+double RenderSession::radiance_per_quantum() const {
+  return parts_->setup->radiance_per_quantum();
+}
+
+Cycles RenderSession::now() const {
+  return parts_->machine->figures().now;
+}
+
+RenderResult render(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+                    const RenderFiles& files, const std::filesystem::path& pe_image,
+                    const std::function<bool(const RenderProgress&)>& progress) {
+  return RenderSession(scene, camera, quality, machine, files, pe_image, progress).run(Machine::Then::end);
 }
 
 }  // namespace torolux

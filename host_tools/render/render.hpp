@@ -23,6 +23,12 @@
 
 namespace torolux {
 
+/// One of a path's pictures.
+struct PathFrame {
+  Cycles cycles = 0;   ///< of virtual time; the first: all stages before it, too
+  std::string sha256;  ///< as picture_sha256
+};
+
 struct RenderFigures {
   Cycles load_cycles = 0, radiosity_cycles = 0, ray_tracing_cycles = 0;  ///< of each stage
   MachineFigures machine;
@@ -46,6 +52,7 @@ struct RenderFigures {
   StageCopies radiosity_copies, ray_tracing_copies;  ///< of those
   std::string picture_sha256;              ///< of the colours' sums in the frame buffer, as digest_of makes it
   std::vector<std::string> layers_sha256;  ///< likewise of the layers, in the order of kLayerNames
+  std::vector<PathFrame> path;             ///< of --path; all other figures are of its first picture alone
 };
 
 struct RenderResult {

@@ -132,10 +132,14 @@ Words render_words(const Json& settings) {
   Words words = {"render", text(settings.at("scene_path"))};
   if (settings.at("studio").get<bool>()) words.emplace_back("--studio");
   if (settings.contains("missing_materials")) add(words, "--missing-materials", text(settings.at("missing_materials")));
+  bool has_path = false;
   for (const Json& input : settings.at("inputs")) {
     if (input.at("role") == "radiosity") add(words, "--radiosity", text(input.at("path")));
+    if (input.at("role") != "path") continue;
+    has_path = true;
+    add(words, "--path", text(input.at("path")));
   }
-  add_camera(words, settings.at("camera"));
+  if (!has_path) add_camera(words, settings.at("camera"));
   add_picture(words, settings);
   add(words, "--pes", joined(settings.at("pes"), 'x'));
   if (!automatic(settings, "pe_memory")) add(words, "--pe-memory", text(settings.at("pe_memory")));

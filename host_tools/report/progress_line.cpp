@@ -38,6 +38,11 @@ std::string_view name_of(RenderStage stage) {
   return "";
 }
 
+double estimated_seconds_left(double spent, double overall) {
+  const double done = std::min(overall, 1.0);
+  return done >= kLeastFraction && spent >= kLeastSeconds ? spent * (1 - done) / done : -1;
+}
+
 std::string progress_text(const RenderProgress& progress, double clock_hertz, double seconds_left, std::size_t width,
                           bool verbose) {
   std::vector<std::string> parts = {right(percent(std::clamp(progress.overall, 0.0, 1.0), 0), 5)};
@@ -68,11 +73,14 @@ void ProgressLine::show(const RenderProgress& progress) {
     return;
   }
   last_ = now;
-  const double spent = std::chrono::duration<double>(now - begin_).count();
-  const double done = std::min(progress.overall, 1.0);
-  const double seconds_left = done >= kLeastFraction && spent >= kLeastSeconds ? spent * (1 - done) / done : -1;
-  out_ << "\r\x1b[K" << progress_text(progress, hertz_, seconds_left, columns_of_terminal() - 1, verbose_)
-       << std::flush;
+  const double left = estimated_seconds_left(std::chrono::duration<double>(now - begin_).count(), progress.overall);
+  out_ << "\r\x1b[K" << progress_text(progress, hertz_, left, columns_of_terminal() - 1, verbose_) << std::flush;
+  visible_ = true;
+}
+
+void ProgressLine::show(const std::string& text) {
+  if (!shown_) return;
+  out_ << "\r\x1b[K" << text << std::flush;
   visible_ = true;
 }
 

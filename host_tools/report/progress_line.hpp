@@ -12,6 +12,9 @@ namespace torolux {
 
 std::string_view name_of(RenderStage stage);
 
+/// Of all stages, after so many: negative: not known yet. overall: done, 0..1.
+double estimated_seconds_left(double spent, double overall);
+
 /// One line of at most so many characters, without a line end: what matters most first, and what does not fit left out.
 /// seconds_left: of all stages; negative: not known yet. verbose: credits at home, too.
 std::string progress_text(const RenderProgress& progress, double clock_hertz, double seconds_left, std::size_t width,
@@ -28,6 +31,7 @@ class ProgressLine {
   ~ProgressLine() { wipe(); }
 
   void show(const RenderProgress& progress);
+  void show(const std::string& text);
   void wipe();
 
  private:

@@ -66,6 +66,9 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["shots"] = figures.shots;
   json["rays"] = figures.rays;
   json["picture"] = picture_json(run, figures);
+  for (const PathFrame& frame : figures.path) {
+    json["path"].push_back({{"virtual_cycles", frame.cycles}, {"sha256", frame.sha256}});
+  }
   json["trace_hash"] = hexadecimal(machine.trace_hash);
   json["settings"] = settings_json(run, &figures);
   json["command_line"] = command_line_of(json["settings"]);

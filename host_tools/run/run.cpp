@@ -66,10 +66,10 @@ void check_halted(const MachineFigures& figures) {
 
 MachineFigures run_image(const MachineSetup& setup, const Image& image,
                          const std::function<void(const PeText&)>& on_text,
-                         const std::function<bool(Cycles)>& progress) {
+                         const std::function<bool(const Machine&, Cycles)>& progress) {
   Machine machine(setup, image);
   Listener listener(on_text);
-  machine.run(listener, progress);
+  machine.run(listener, [&](Cycles now) { return !progress || progress(machine, now); });
   MachineFigures figures = machine.figures();
   check_halted(figures);
   return figures;

@@ -17,11 +17,12 @@ struct PeText {
   std::string text;  ///< UTF-8; control characters replaced by '?'
 };
 
-/// Runs the image until every PE has halted. on_text is called for each message, progress as by Machine::run.
+/// Runs the image until every PE has halted. on_text is called for each message, progress as by Machine::run, with
+/// the machine to look at.
 /// Throws InputError (the image does not fit), MachineFailure (trap, dead PE, PEs that wait for ever, ...).
 MachineFigures run_image(const MachineSetup& setup, const Image& image,
                          const std::function<void(const PeText&)>& on_text,
-                         const std::function<bool(Cycles)>& progress);
+                         const std::function<bool(const Machine&, Cycles)>& progress);
 
 /// The figures as one JSON object, ended by a line end; the keys are those of `torolux render --stats`.
 std::string run_stats_json(const MachineSetup& setup, const InputFile& image, const MachineFigures& figures,

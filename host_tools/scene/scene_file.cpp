@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "emulator/nearest_name.hpp"
-#include "host_tools/scene/camera.hpp"
+#include "host_tools/scene/camera_entry.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/toml_table.hpp"
 
@@ -100,17 +100,6 @@ LightEntry read_light(TomlTable table) {
   return light;
 }
 
-Camera read_camera(TomlTable table) {
-  Camera camera;
-  camera.eye = table.required(table.triple("eye", -kMost, kMost, false), "eye");
-  camera.look_at = table.required(table.triple("look_at", -kMost, kMost, false), "look_at");
-  if (const auto up = table.triple("up", -kMost, kMost, false)) camera.up = *up;
-  camera.field_of_view_degrees = table.number("fov", 0.01, 179).value_or(camera.field_of_view_degrees);
-  table.finish();
-  if (const auto wrong = camera_fault(camera)) refuse(table.place(), "[camera] " + *wrong);
-  return camera;
-}
-
 /// Reads an option's key of [defaults] into settings, in which it is then given.
 class DefaultReader {
  public:
@@ -195,7 +184,11 @@ SceneFile read_scene_file(std::string_view text, const std::string& file) {
   }
   for (const toml::table* light : table.tables("light"))
     scene.lights.push_back(read_light({*light, file, "[[light]]"}));
-  if (const toml::table* camera = table.table("camera")) scene.camera = read_camera({*camera, file, "[camera]"});
+  if (const toml::table* camera = table.table("camera")) {
+    TomlTable entry(*camera, file, "[camera]");
+    scene.camera = read_camera(entry, "[camera]");
+    entry.finish();
+  }
   if (const toml::table* defaults = table.table("defaults"))
     scene.defaults = read_defaults({*defaults, file, "[defaults]"});
   table.finish();

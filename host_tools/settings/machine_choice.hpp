@@ -36,6 +36,7 @@ struct MachineChoice {
   unsigned threads = 0;
   MachineWatcher* watcher = nullptr;   ///< of the machine that makes the picture, not of drafts'; outlives the render
   RecordFollower* follower = nullptr;  ///< likewise
+  double progress_seconds = 0.1;       ///< from one call of a render's `progress` to the next, about [s of wall time]
 };
 
 /// The scheme, and all that it has where nothing else is said.

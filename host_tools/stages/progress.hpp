@@ -8,6 +8,8 @@
 
 namespace torolux {
 
+struct RunningRender;  // host_tools/render/running_render.hpp
+
 enum class RenderStage { load, radiosity, ray_tracing };
 
 struct RenderProgress {
@@ -16,7 +18,8 @@ struct RenderProgress {
   double unshot_fraction;  ///< of the emitted flux
   std::uint64_t credits_home, credits_total;
   Cycles virtual_time;
-  double overall = 0;  ///< of all stages together, drafts' included, 0..1; rough
+  double overall = 0;                      ///< of all stages together, drafts' included, 0..1; rough
+  const RunningRender* running = nullptr;  ///< for whoever looks closer; valid during the call
 };
 
 }  // namespace torolux

@@ -10,9 +10,15 @@
 
 namespace torolux {
 
+/// Some of each pixel's samples: the i-th is (first + i) * step modulo their number (protocol::View).
+struct SamplePass {
+  std::uint32_t first = 0, count = 1, step = 1;
+};
+
 struct RayTracingSettings {
   std::uint64_t credits = 256;  ///< W, > 0
   std::uint32_t width = 1, height = 1, samples = 1;
+  SamplePass pass;                   ///< those that are taken; each weighs 1 / samples, whatever the pass
   bool skip_empty_subspaces = true;  ///< where the host makes the rays
 };
 
@@ -22,6 +28,8 @@ class RayPhase : public Phase {
   virtual std::uint64_t count() const = 0;  ///< in all
   virtual std::uint64_t sent() const = 0;   ///< that met the object space
   virtual std::uint64_t credits_home() const = 0;
+  /// No more rays are handed out: it is done when those on their way have ended.
+  virtual void give_up() = 0;
 };
 
 }  // namespace torolux

@@ -22,6 +22,8 @@ RayTracingPhase::RayTracingPhase(const Placement& placement, CameraRays rays, co
       packet_(placement.torus.pes()),
       // Neighbours in time see different parts of the scene: so the load spreads over the PEs.
       stride_(golden_step(std::uint64_t{settings.width} * settings.height)),
+      count_(std::uint64_t{settings.width} * settings.height * settings.pass.count),
+      end_(count_),
       credits_(settings.credits, placement.torus.pes()) {
   filled_.reserve(placement.polygons_of_cell.size());
   for (const auto& polygons : placement.polygons_of_cell) filled_.push_back(!polygons.empty());
@@ -39,7 +41,7 @@ void RayTracingPhase::on_message(HostPort& port, PeNumber source, MessageKind ki
 }
 
 void RayTracingPhase::make_rays(HostPort& port) {
-  while (credits_.home() > 0 && next_ < rays_.count()) make_ray(port);
+  while (credits_.home() > 0 && next_ < end_) make_ray(port);
   for (const PeNumber pe : std::exchange(open_, {})) flush(port, pe);
   credits_.note(port);
 }
@@ -52,7 +54,9 @@ PeNumber RayTracingPhase::follower_of(CellIndex cell) {
 
 void RayTracingPhase::make_ray(HostPort& port) {
   const std::uint64_t pixels = std::uint64_t{settings_.width} * settings_.height;
-  const auto sample = static_cast<std::uint32_t>(next_ / pixels);
+  const SamplePass& pass = settings_.pass;
+  const auto sample =
+      static_cast<std::uint32_t>((pass.first + next_ / pixels) * pass.step % std::uint64_t{settings_.samples});
   const auto pixel = static_cast<std::uint32_t>(next_ % pixels * stride_ % pixels);
   ++next_;
   const CameraRay ray = rays_.ray(pixel, sample);

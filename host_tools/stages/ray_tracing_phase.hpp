@@ -18,13 +18,14 @@ class RayTracingPhase : public RayPhase {
   void start(HostPort& port) override;
   void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
                   std::span<const std::byte> contents) override;
-  bool done() const override { return next_ == rays_.count() && credits_.all_home(); }
+  bool done() const override { return next_ == end_ && credits_.all_home(); }
   const char* waiting_for() const override { return "credits of camera rays"; }
 
   std::uint64_t made() const override { return next_; }
-  std::uint64_t count() const override { return rays_.count(); }
+  std::uint64_t count() const override { return count_; }
   std::uint64_t sent() const override { return sent_; }
   std::uint64_t credits_home() const override { return credits_.home(); }
+  void give_up() override { end_ = next_; }
 
  private:
   void make_rays(HostPort& port);
@@ -39,6 +40,8 @@ class RayTracingPhase : public RayPhase {
   std::vector<std::vector<protocol::RayRecord>> packet_;  ///< being filled, by PE
   std::vector<PeNumber> open_;                            ///< PEs with a packet being filled
   std::uint64_t stride_;                                  ///< of the order in which pixels are taken
+  std::uint64_t count_;
+  std::uint64_t end_;  ///< the first that is not made
   std::uint64_t next_ = 0;
   std::uint64_t sent_ = 0;
   std::uint64_t turn_ = 0;

@@ -4,7 +4,6 @@
 #include "host_tools/stages/render_program.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -178,23 +177,6 @@ void RenderProgram::leave(HostPort& port) {
     case Step::finished:
       break;
   }
-}
-
-/// In the order of record_kind: those of the radiosity stage, then those of the ray tracing stage.
-std::span<const std::string_view> RenderProgram::record_kinds() const {
-  static constexpr std::array<std::string_view, 5> kNames = {"light", "point", "deposit", "ray", "shadow_ray"};
-  return kNames;
-}
-
-std::size_t RenderProgram::record_kind(std::span<const std::byte> record) const {
-  using protocol::RecordKind;
-  if (record.size() == sizeof(protocol::RadiosityRecord)) {
-    const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RadiosityRecord, kind)]);
-    return kind == RecordKind::deposit ? 2 : kind == RecordKind::point ? 1 : 0;
-  }
-  if (record.size() != sizeof(protocol::RayRecord)) throw MachineFailure("a PE sends records of another size");
-  const auto flags = std::to_integer<std::uint8_t>(record[offsetof(protocol::RayRecord, flags)]);
-  return (flags & protocol::kShadow) != 0 ? 4 : 3;
 }
 
 const char* RenderProgram::waiting_for() const {

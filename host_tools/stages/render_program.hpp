@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "emulator/host/host_program.hpp"
 #include "host_tools/camera/camera_rays.hpp"
 #include "host_tools/irradiance/vertex_irradiance.hpp"
 #include "host_tools/setup/setup.hpp"
 #include "host_tools/solution/solution.hpp"
+#include "host_tools/stages/light_program.hpp"
 #include "host_tools/stages/phase.hpp"
 #include "host_tools/stages/progress.hpp"
 #include "host_tools/stages/radiosity_settings.hpp"
@@ -34,7 +34,7 @@ struct StageTimes {
   Cycles loaded = 0, radiosity = 0, read = 0, loaded_again = 0, ray_tracing = 0;
 };
 
-class RenderProgram : public HostProgram {
+class RenderProgram : public LightProgram {
  public:
   explicit RenderProgram(RenderJob job);
   ~RenderProgram() override;
@@ -43,8 +43,6 @@ class RenderProgram : public HostProgram {
   void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) override;
   bool finished() const override { return step_ == Step::finished; }
   const char* waiting_for() const override;
-  std::span<const std::string_view> record_kinds() const override;
-  std::size_t record_kind(std::span<const std::byte> record) const override;
 
   RenderProgress progress(Cycles now) const;
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given

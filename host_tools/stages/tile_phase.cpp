@@ -43,15 +43,18 @@ TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t samp
   return {width, height, static_cast<std::uint32_t>(edge)};
 }
 
-TilePhase::TilePhase(unsigned pes, const RayTracingSettings& settings)
+TilePhase::TilePhase(unsigned pes, const RayTracingSettings& settings, const std::optional<protocol::View>& view)
     : pes_(pes),
       settings_(settings),
-      grid_(tile_grid(settings.width, settings.height, settings.samples, pes)),
+      view_(view),
+      grid_(tile_grid(settings.width, settings.height, settings.pass.count, pes)),
       step_(golden_step(grid_.count())),
+      end_(grid_.count()),
       rays_held_(pes),
       credits_(settings.credits, pes) {}
 
 void TilePhase::start(HostPort& port) {
+  if (view_) port.broadcast(static_cast<std::uint16_t>(MessageKind::view), std::as_bytes(std::span(&*view_, 1)));
   for (std::uint32_t i = 0; i < kSupply; ++i) {
     for (unsigned pe = 0; pe < pes_; ++pe) deal(port, static_cast<PeNumber>(pe));
   }
@@ -76,10 +79,10 @@ void TilePhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
 
 /// The next tile, if there is one.
 void TilePhase::deal(HostPort& port, PeNumber pe) {
-  if (next_ == grid_.count()) return;
+  if (next_ == end_) return;
   port.work(HostWork::entry, 1);
   const protocol::Tile tile = grid_.tile(next_++ * step_ % grid_.count());
-  rays_held_[pe].push_back(std::uint64_t{tile.columns} * tile.rows * settings_.samples);
+  rays_held_[pe].push_back(std::uint64_t{tile.columns} * tile.rows * settings_.pass.count);
   ++under_way_;
   torolux::send(port, pe, MessageKind::tile, tile);
 }

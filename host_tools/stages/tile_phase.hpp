@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "host_tools/stages/credit_pool.hpp"
@@ -26,18 +27,22 @@ TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t samp
 
 class TilePhase : public RayPhase {
  public:
-  TilePhase(unsigned pes, const RayTracingSettings& settings);
+  /// view: the PEs are told of it first. Without: they make the rays that their stores say.
+  TilePhase(unsigned pes, const RayTracingSettings& settings, const std::optional<protocol::View>& view = {});
 
   void start(HostPort& port) override;
   void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
                   std::span<const std::byte> contents) override;
-  bool done() const override { return next_ == grid_.count() && under_way_ == 0 && credits_.all_home(); }
+  bool done() const override { return next_ == end_ && under_way_ == 0 && credits_.all_home(); }
   const char* waiting_for() const override { return "tiles and credits"; }
 
   std::uint64_t made() const override { return made_; }
-  std::uint64_t count() const override { return std::uint64_t{settings_.width} * settings_.height * settings_.samples; }
+  std::uint64_t count() const override {
+    return std::uint64_t{settings_.width} * settings_.height * settings_.pass.count;
+  }
   std::uint64_t sent() const override { return sent_; }
   std::uint64_t credits_home() const override { return credits_.home(); }
+  void give_up() override { end_ = next_; }
 
  private:
   void deal(HostPort& port, PeNumber pe);
@@ -45,9 +50,11 @@ class TilePhase : public RayPhase {
 
   unsigned pes_;
   RayTracingSettings settings_;
+  std::optional<protocol::View> view_;
   TileGrid grid_;
   std::uint64_t step_;                                ///< of the order in which tiles are dealt
   std::uint64_t next_ = 0;                            ///< in that order
+  std::uint64_t end_;                                 ///< in that order: the first that is not dealt
   std::vector<std::deque<std::uint64_t>> rays_held_;  ///< of the tiles that a PE has been dealt and not finished
   std::uint64_t under_way_ = 0;                       ///< of those tiles, in all
   CreditPool credits_;

@@ -10,4 +10,8 @@ namespace torolux {
 std::string_view report_script();
 std::string_view report_style();
 
+/// Of the display, likewise.
+std::string_view display_script();
+std::string_view display_style();
+
 }  // namespace torolux

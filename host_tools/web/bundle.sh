@@ -6,7 +6,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 out=$(realpath -m "${1:-$here/bundle}")
 modules=$("$here/modules.sh")
-for page in report; do
+for page in report display; do
   NODE_PATH=$modules "$modules/.bin/esbuild" "$here/$page/main.jsx" --bundle --minify --format=iife --target=es2020 \
     --jsx-factory=h --jsx-fragment=Fragment --inject:"$here/shared/jsx.js" --charset=utf8 --legal-comments=none --log-level=warning \
     --banner:js='/*! With preact (c) 2015 Jason Miller, uPlot (c) 2022 Leon Sorokin: MIT licence */' \

@@ -2,7 +2,7 @@
 # Files enter, a C++ source that holds their bytes leaves: cmake -D FOLDER=bundle -D OUTPUT=bundle.cpp -P embed.cmake
 set(text "// Made by host_tools/web/embed.cmake.\n#include \"host_tools/web/bundle.hpp\"\n\nnamespace torolux {\nnamespace {\n")
 set(functions "")
-foreach(pair IN ITEMS report_script:report.js report_style:report.css)
+foreach(pair IN ITEMS report_script:report.js report_style:report.css display_script:display.js display_style:display.css)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 name)
   list(GET pair 1 file)

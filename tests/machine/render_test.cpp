@@ -55,6 +55,33 @@ TEST(Render, WritesAllThatWasAskedFor) {
   EXPECT_THAT(compared.output, testing::ContainsRegex("differing pixels +0\n"));
 }
 
+TEST(Render, APathsPicturesAreThoseOfRendersFromThere) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  std::ofstream(file("walk.toml")) << "[[camera]]\neye = [278, 273, -800]\nlook_at = [278, 273, 0]\n"
+                                      "[[camera]]\neye = [178, 373, -700]\nlook_at = [278, 273, 0]\n";
+  const Finished walk = run_torolux(small_render(
+      {"--path", file("walk.toml"), "--output", file("w.exr"), "--output", file("w.png"), "--stats", file("w.json")}));
+  ASSERT_EQ(walk.exit_code, 0) << walk.errors;
+  const Finished second =
+      run_torolux(small_render({"--eye", "178,373,-700", "--look-at", "278,273,0", "--output", file("b.exr"),
+                                "--output", file("b.png"), "--stats", file("b.json")}));
+  ASSERT_EQ(second.exit_code, 0) << second.errors;
+  EXPECT_EQ(contents(file("w.0002.exr")), contents(file("b.exr")));
+  EXPECT_EQ(contents(file("w.0002.png")), contents(file("b.png")));
+  EXPECT_NE(contents(file("w.0001.exr")), contents(file("b.exr")));
+  EXPECT_FALSE(std::filesystem::exists(file("w.exr")));
+  const nlohmann::json stats = statistics(file("w.json"));
+  EXPECT_EQ(stats["path"].at(1)["sha256"], statistics(file("b.json"))["picture"]["sha256"]);
+  EXPECT_EQ(stats["path"].at(0)["sha256"], stats["picture"]["sha256"]);
+
+  EXPECT_EQ(run_torolux({"rerun", file("w.json")}).exit_code, 0);
+
+  const Finished both = run_torolux(small_render({"--path", file("walk.toml"), "--eye", "1,2,3"}));
+  EXPECT_EQ(both.exit_code, 1);
+  EXPECT_THAT(both.errors, HasSubstr("--path"));
+}
+
 // A room of 6 x 3 x 6 m, fronts inwards, or outwards; its lamp, 2 x 2 m; a box in it; another skin around the room.
 struct Room {
   const char* name;

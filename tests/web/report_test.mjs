@@ -3,45 +3,20 @@
 // are there; tabs, map, brush and copying work by pointer and by keys: report_test.mjs FOLDER, with render.html and
 // run.html in it. MODULES names where playwright-core is.
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
 import { join } from "node:path";
+import { checkLooks, launch, openPage } from "./browser.mjs";
 
-const { chromium } = createRequire(`${process.env.MODULES}/`)("playwright-core");
 const folder = process.argv[2];
-const kFlags = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update",
-  "--disable-sync", "--no-first-run", "--disable-quic"];
 const kSections = ["overview", "limits", "map", "time-line", "histograms", "traffic", "rounds", "energy", "copies", "settings"];
 const kStages = ["load", "radiosity", "read", "load_again", "ray_tracing"];
 
-/** Opens a report; whatever is told on the console, thrown or asked of a network makes `faults` longer. */
-async function open(browser, file, { colorScheme = "light", width = 1280 } = {}) {
-  const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 } });
-  const page = await context.newPage();
-  const faults = [];
-  page.on("console", (message) => faults.push(`console: ${message.text()}`));
-  page.on("pageerror", (error) => faults.push(`thrown: ${error.stack}`));
-  page.on("request", (request) => /^(file|data):/.test(request.url()) || faults.push(`request: ${request.url()}`));
-  await page.goto(`file://${join(folder, file)}`);
-  await page.waitForSelector("#settings");
-  return { page, faults, close: () => context.close() };
+async function open(browser, file, look) {
+  const report = await openPage(browser, `file://${join(folder, file)}`, /^(file|data):/, look);
+  await report.page.waitForSelector("#settings");
+  return report;
 }
 
-/** Text can be told from its ground (WCAG AA: 4.5), and nothing is wider than the window. */
-async function checkLooks(page) {
-  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "the page is wider than the window");
-  const contrast = await page.evaluate(() => {
-    const light = (colour) => {
-      const parts = colour.match(/[\d.]+/g).slice(0, 3).map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
-      return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2] + 0.05;
-    };
-    const ground = light(getComputedStyle(document.body).backgroundColor);
-    return [".soft", "h2", "th", ".verdict"].map((one) => {
-      const ink = light(getComputedStyle(document.querySelector(one)).color);
-      return Math.max(ink, ground) / Math.min(ink, ground);
-    });
-  });
-  assert.ok(Math.min(...contrast) >= 4.5, `contrast ${contrast}`);
-}
+const kTexts = [".soft", "h2", "th", ".verdict"];
 
 async function checkTabs(page) {
   for (const stage of kStages) {
@@ -114,13 +89,13 @@ async function checkRender(browser) {
   assert.ok(await report.page.evaluate(() => document.querySelector(".picture img").naturalWidth === 96), "the picture");
   assert.ok((await report.page.locator(".uplot").count()) >= 8, "charts");
   assert.ok((await report.page.locator("rect.column").count()) > 20, "histograms");
-  await checkLooks(report.page);
+  await checkLooks(report.page, kTexts);
   await checkTabs(report.page);
   await checkMap(report.page);
   await checkBrush(report.page);
   await checkCopying(report.page);
   await report.page.emulateMedia({ colorScheme: "dark" }); // changes while it is open
-  await checkLooks(report.page);
+  await checkLooks(report.page, kTexts);
   assert.deepEqual(report.faults, []);
   await report.close();
 }
@@ -129,7 +104,7 @@ async function checkRun(browser) {
   const report = await open(browser, "run.html");
   assert.equal(await report.page.locator("#map canvas").count(), 1);
   assert.equal(await report.page.locator("#energy, #rounds, #copies, .picture, .tabs").count(), 0);
-  await checkLooks(report.page);
+  await checkLooks(report.page, kTexts);
   assert.deepEqual(report.faults, []);
   await report.close();
 }
@@ -140,7 +115,7 @@ async function takeScreenshots(browser) {
       const report = await open(browser, "render.html", { colorScheme, width });
       await report.page.click("#tab-radiosity");
       await report.page.waitForTimeout(300);
-      await checkLooks(report.page);
+      await checkLooks(report.page, kTexts);
       await report.page.screenshot({ path: join(folder, `report_${colorScheme}_${width}.png`), fullPage: true });
       assert.deepEqual(report.faults, []);
       await report.close();
@@ -148,7 +123,7 @@ async function takeScreenshots(browser) {
   }
 }
 
-const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: kFlags });
+const browser = await launch();
 try {
   await checkRender(browser);
   await checkRun(browser);

@@ -119,12 +119,20 @@ export function LineChart(props) {
   const brushed = useRef(null);
   brushed.current = props.onWindow;
   const { x, series, window: shown } = props;
+  const data = [x, ...series.map((one) => one.values)];
   useEffect(() => {
     if (width === 0) return undefined;
     const select = props.onWindow ? (range) => brushed.current(range) : null;
-    plot.current = new uPlot(options(props, width, select), [x, ...series.map((one) => one.values)], box.current);
+    plot.current = new uPlot(options(props, width, select), data, box.current);
+    return () => {
+      plot.current.destroy();
+      plot.current = null;
+    };
+  }, [dark, width > 0, props.title, series.map((one) => one.name).join()]);
+  useEffect(() => {
+    if (!plot.current) return;
+    plot.current.setData(data);
     if (shown) plot.current.setScale("x", { min: shown[0], max: shown[1] });
-    return () => plot.current.destroy();
   }, [dark, width > 0, x, series]);
   useEffect(() => {
     if (plot.current && width > 0) plot.current.setSize({ width, height: props.height ?? 150 });

@@ -27,6 +27,11 @@ export function inkOn([r, g, b]) {
   return 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b) > 0.18 ? "#000" : "#fff";
 }
 
+/** "#rrggbb" -> [r, g, b]. */
+export function hexColour(text) {
+  return [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16));
+}
+
 /** A colour of theme.css, as it is now. */
 export function themeColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

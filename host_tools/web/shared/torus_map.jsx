@@ -43,10 +43,10 @@ function drawLinks(context, { columns, links, linkMost }, pe, step, dark) {
   }
 }
 
-function drawPe(context, { columns, values, most, chosen }, pe, step, dark) {
+function drawPe(context, { columns, values, most, chosen, peColour }, pe, step, dark) {
   const [x, y] = place(pe, columns, step);
   const size = kSquare * step;
-  const colour = scaleColour(most > 0 ? values[pe] / most : 0, dark);
+  const colour = peColour ? peColour(pe) : scaleColour(most > 0 ? values[pe] / most : 0, dark);
   context.fillStyle = css(colour);
   context.fillRect(x - size / 2, y - size / 2, size, size);
   context.lineWidth = pe === chosen ? 3 : 1;
@@ -63,24 +63,29 @@ function draw(canvas, props, step, dark) {
   const edge = (2 * kStub + kSquare - 1) * step;
   const width = Math.ceil(props.columns * step + edge);
   const height = Math.ceil(props.rows * step + edge);
-  canvas.width = width * ratio;
-  canvas.height = height * ratio;
-  canvas.style.width = `${width}px`;
-  canvas.style.height = `${height}px`;
   const context = canvas.getContext("2d");
-  context.scale(ratio, ratio);
+  if (canvas.width !== Math.floor(width * ratio) || canvas.height !== Math.floor(height * ratio)) {
+    canvas.width = width * ratio;
+    canvas.height = height * ratio;
+    canvas.style.width = `${width}px`;
+    canvas.style.height = `${height}px`;
+  }
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
   context.textAlign = "center";
   context.textBaseline = "middle";
   context.font = `${Math.min(12, step * 0.28)}px system-ui, sans-serif`;
   for (let pe = 0; pe < props.values.length; ++pe) drawLinks(context, props, pe, step, dark);
   for (let pe = 0; pe < props.values.length; ++pe) drawPe(context, props, pe, step, dark);
+  props.overlay?.(context, (pe) => place(pe, props.columns, step), step);
 }
 
 const kMoves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /**
  * columns, rows; values: by PE, most: what has the scale's last colour; links: {east: [by PE], ...}, linkMost likewise;
- * chosen: a PE; onChoose; label: what is seen, in words.
+ * chosen: a PE; onChoose; label: what is seen, in words. peColour: of a PE, [r, g, b], in place of its value's;
+ * overlay: draws on top, with the canvas's context, the place of a PE [pixels], and how far PEs are apart.
  */
 export function TorusMap(props) {
   const { columns, rows, chosen, onChoose, label } = props;

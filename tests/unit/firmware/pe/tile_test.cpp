@@ -218,5 +218,52 @@ TEST(Tiles, CamerasThatCannotBeAreRefused) {
   }
 }
 
+void send_view(FakeMachine& machine, const protocol::View& view) {
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) machine.message(p, MessageKind::view, view);
+}
+
+TEST(Views, PassesAddUpToThePictureOfAllSamples) {
+  const auto first = view_from({0.45F, 0.5F, -0.7F}, 1);
+  const auto other = view_from({0.45F, 0.5F, 0.05F}, 1);
+  FakeMachine wanted(2);
+  begin(wanted, open_scene(2), other);
+  const Made all = trace_tiles(wanted, 5);
+  for (const std::uint32_t step : {1U, 2U}) {
+    FakeMachine machine(2);
+    begin(machine, open_scene(2), first);
+    trace_tiles(machine, 5);
+    machine.pixels.clear();
+    std::uint32_t rays = 0;
+    for (const auto& [begin_at, count] : {std::pair{0U, 1U}, std::pair{1U, 2U}}) {
+      send_view(machine, {other, begin_at, count, step});
+      rays += trace_tiles(machine, 5).rays;
+    }
+    EXPECT_EQ(rays, all.rays);
+    EXPECT_EQ(machine.pixels, wanted.pixels) << step;
+  }
+}
+
+TEST(Views, ThatCannotBeAreRefused) {
+  const auto view = view_from({0.45F, 0.5F, 0.05F}, 1);
+  auto samples = view;
+  samples.samples = 4;
+  auto width = view;
+  width.width = 0;
+  for (const protocol::View& bad :
+       {protocol::View{view, 0, 0, 1}, protocol::View{view, 3, 1, 1}, protocol::View{view, 1, 3, 1},
+        protocol::View{view, 0, 0xFFFF'FFFF, 1}, protocol::View{view, 0, 1, 3}, protocol::View{samples, 0, 1, 1},
+        protocol::View{width, 0, 1, 1}}) {
+    FakeMachine machine(1);
+    begin(machine, open_scene(1), view);
+    send_view(machine, bad);
+    EXPECT_THROW(machine.run(), PeFailed) << bad.first << " " << bad.count << " " << bad.step;
+  }
+  FakeMachine machine(1);
+  begin(machine, open_scene(1), view);
+  machine.message(0, MessageKind::tile, Tile{0, 0, 2, 2});
+  send_view(machine, {view, 0, 1, 1});
+  EXPECT_THROW(machine.run(), PeFailed) << "it has a tile";
+}
+
 }  // namespace
 }  // namespace torolux::test

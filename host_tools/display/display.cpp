@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Progress as JSON; commands that are the display's own are obeyed.
+#include "host_tools/display/display.hpp"
+
+#include <utility>
+
+#include "firmware/protocol/hints.hpp"
+#include "host_tools/render/running_render.hpp"
+#include "host_tools/report/progress_line.hpp"
+
+namespace torolux {
+namespace {
+
+constexpr std::size_t kMostTexts = 200;
+constexpr std::chrono::milliseconds kPatience{100};
+
+std::string text_of(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+nlohmann::json json_of(const DisplayedRun& run) {
+  return {{"protocol", 1},
+          {"what", run.what},
+          {"title", run.title},
+          {"columns", run.columns},
+          {"rows", run.rows},
+          {"clock_hertz", run.clock_hertz},
+          {"phases", protocol::kPhaseNames},
+          {"exposure_ev", run.tone.exposure_ev},
+          {"tone_curve", run.tone.curve == ToneCurve::filmic ? "filmic" : "linear"}};
+}
+
+}  // namespace
+
+Display::Display(const DisplayAddress& where, const DisplayedRun& run) : server_(where, state_, commands_) {
+  feed_.describe(json_of(run));
+  if (run.width > 0) feed_.begin_picture(run.width, run.height, "frame_buffer");
+  put_progress({{"state", "preparing"}});
+}
+
+Display::~Display() {
+  feed_.put(MessageType::bye, "{}");
+}
+
+void Display::put_progress(nlohmann::json progress) {
+  progress["elapsed"] = elapsed();
+  progress_ = std::move(progress);
+  feed_.put(MessageType::progress, text_of(progress_));
+}
+
+/// Commands are taken out until there is none, or one is to end.
+bool Display::obey() {
+  while (!ended_) {
+    const auto command = commands_.take();
+    if (!command) return true;
+    obey(*command);
+  }
+  return false;
+}
+
+void Display::obey(const DisplayCommand& command) {
+  if (command.name == "end") ended_ = true;
+}
+
+void Display::put_camera(const nlohmann::json& camera) {
+  feed_.put(MessageType::camera, text_of(camera));
+}
+
+bool Display::show(const RenderProgress& progress) {
+  if (!obey()) return false;
+  if (!feed_.due() || progress.running == nullptr) return true;
+  const RunningRender& running = *progress.running;
+  if (machine_ != &running.machine) feed_.begin_machine();
+  machine_ = &running.machine;
+  if (!machine_begin_) machine_begin_ = Clock::now();
+  const double spent = std::chrono::duration<double>(Clock::now() - *machine_begin_).count();
+  progress_ = {{"state", "running"},
+               {"draft", running.draft},
+               {"stage", name_of(progress.stage)},
+               {"fraction", progress.fraction},
+               {"overall", progress.overall},
+               {"seconds_left", estimated_seconds_left(spent, progress.overall)},
+               {"unshot", progress.unshot_fraction},
+               {"credits_home", progress.credits_home},
+               {"credits_total", progress.credits_total},
+               {"virtual_time", progress.virtual_time},
+               {"elapsed", elapsed()}};
+  feed_.update(running.machine, running.setup.radiance_per_quantum(), text_of(progress_));
+  return true;
+}
+
+bool Display::show(const Machine& machine, Cycles now) {
+  if (!obey()) return false;
+  if (!feed_.due()) return true;
+  progress_ = {{"state", "running"}, {"virtual_time", now}, {"elapsed", elapsed()}};
+  feed_.update(machine, 1, text_of(progress_));
+  return true;
+}
+
+void Display::say(const PeText& text) {
+  texts_.push_back("PE " + std::to_string(text.pe) + " @ " + std::to_string(text.time) + ": " + text.text);
+  if (texts_.size() > kMostTexts) texts_.pop_front();
+  feed_.put(MessageType::texts, text_of(nlohmann::json(texts_)));
+}
+
+void Display::finish(const Picture* picture) {
+  if (picture != nullptr) feed_.show(*picture);
+  feed_.rest();
+  nlohmann::json progress = progress_;
+  progress["state"] = "done";
+  progress["fraction"] = progress["overall"] = 1;
+  put_progress(std::move(progress));
+}
+
+void Display::fail(const std::string& why) {
+  nlohmann::json progress = progress_;
+  progress["state"] = "failed";
+  progress["error"] = why;
+  put_progress(std::move(progress));
+}
+
+void Display::wait(const std::function<bool()>& stop) {
+  while (!ended_ && !stop()) {
+    if (const auto command = commands_.take(kPatience)) obey(*command);
+  }
+}
+
+}  // namespace torolux
