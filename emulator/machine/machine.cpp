@@ -18,6 +18,8 @@
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
 #include "emulator/niu/state_log.hpp"
+#include "emulator/snapshot/keeper.hpp"
+#include "emulator/snapshot/memory.hpp"
 #include "emulator/trace/watcher.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
@@ -140,6 +142,31 @@ struct Machine::Parts {
     out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
                          children_seconds() - begin_children;
   }
+  void save(SnapshotWriter& archive) {
+    emulation->save(archive);
+    for (unsigned pe = 0; pe < pes.size(); ++pe) {
+      archive.section("PE");
+      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
+      PeRegisters registers = engine->save(pe);
+      archive(registers);
+    }
+  }
+  void restore(SnapshotReader& archive) {
+    emulation->restore(archive);
+    for (unsigned pe = 0; pe < pes.size(); ++pe) {
+      archive.section("PE");
+      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
+      PeRegisters registers{};
+      archive(registers);
+      engine->restore(pe, registers);
+    }
+  }
+  /// After a message that the host has read.
+  void save_if_due() {
+    if (!setup.keeper->is_due() || emulation->has_failed()) return;
+    emulation->let_rest();
+    setup.keeper->keep([this](SnapshotWriter& archive) { save(archive); });
+  }
   void stop_engine() {
     emulation->tell_to_stop();
     engine->stop();
@@ -182,10 +209,15 @@ std::uint64_t MachineFigures::instructions() const {
   return sum;
 }
 
-void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress) {
+void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress, SnapshotReader* from) {
   Parts& p = *parts_;
   if (p.emulation) throw MachineFailure("a machine runs once");
+  if ((from != nullptr || p.setup.keeper != nullptr) && !p.engine->can_be_saved()) {
+    throw UsageError("a machine of the engine " + std::string(p.engine->name()) +
+                     " can neither be saved nor go on from what was saved");
+  }
   p.emulation.emplace(p.setup, p.channels, p.image, *p.engine, program);
+  if (from != nullptr) p.restore(*from);
   p.begin_wall = clock_seconds(CLOCK_MONOTONIC);
   p.begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   p.begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
@@ -201,7 +233,8 @@ void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progr
   try {
     p.engine->start();
     p.running = true;
-    p.emulation->run(attend);
+    const auto message_read = [&p] { p.save_if_due(); };
+    p.emulation->run(attend, p.setup.keeper != nullptr ? std::function<void()>(message_read) : nullptr);
   } catch (...) {
     p.stop_engine();
     p.running = false;

@@ -24,6 +24,8 @@ namespace torolux {
 
 class MachineWatcher;  // emulator/trace/watcher.hpp
 class RecordWatcher;   // emulator/trace/record_watcher.hpp
+class SnapshotKeeper;  // emulator/snapshot/keeper.hpp
+class SnapshotReader;  // emulator/snapshot/archive.hpp
 
 struct MachineSetup {
   MachineDescription description;
@@ -38,6 +40,7 @@ struct MachineSetup {
   std::uint32_t frame_layers = 0;     ///< planes of the frame buffer besides the colours, as bits (protocol::plane_bit)
   MachineWatcher* watcher = nullptr;  ///< told what happens; outlives the machine. Changes nothing of the run
   RecordWatcher* record_watcher = nullptr;  ///< shown what packets and messages hold; likewise
+  SnapshotKeeper* keeper = nullptr;         ///< given the machine's state whenever it wants that; likewise
 };
 
 struct PeFigures {
@@ -73,6 +76,11 @@ struct KindFigures {
   std::uint64_t packets = 0;  ///< that carry at least one
   std::uint64_t records = 0;
   std::uint64_t bytes = 0;  ///< of the records
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(name, packets, records, bytes);
+  }
 };
 
 struct StageFigures;
@@ -98,6 +106,12 @@ struct MachineFigures {
   std::vector<StageFigures> stages;  ///< of a run: stages of the host's program, one behind the other
 
   std::uint64_t instructions() const;  ///< of all PEs
+  /// What the network's side has counted.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(now, pes, routers, packets, link_retries, record_kinds, bus, host, frame_buffer_busy_cycles,
+            frame_buffer_high_water, frame_buffer_message_cycles, pixels_added);
+  }
 };
 
 /// The network's side, the host too, is in a stage from when the host begins it until it begins the next one; a PE,
@@ -117,7 +131,9 @@ class Machine {
   /// Runs until the program has finished and the machine is empty. Once per machine.
   /// progress: called about ten times a second of wall time, from the calling thread; returning false ends the run.
   /// Throws MachineFailure: trap, dead or silent PE, deadlock (with what each actor waits for), fault of the program.
-  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {});
+  /// from: the state of an equal machine, from which this one goes on, and so does the program; nullptr: none. Throws
+  /// InputError where it is not one. With it, or with a keeper, the engine must be one that can be saved (UsageError).
+  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {}, SnapshotReader* from = nullptr);
 
   const FrameBuffer& frame_buffer() const;
   /// Exact at a moment when nothing is in flight (between stages, at the end): a host program may ask in on_message.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/engines/engine/debugging.hpp"
+#include "host_tools/cli/checkpoint_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/trace_options.hpp"
@@ -37,6 +38,7 @@ struct RenderOptions {
   bool no_picture = false;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
   TraceOptions trace;
+  CheckpointOptions checkpoint;
   std::optional<FollowTarget> follow;
   bool quiet = false, verbose = false;
 

@@ -11,6 +11,7 @@
 #include "firmware/protocol/random.hpp"
 #include "host_tools/irradiance/refine.hpp"
 #include "host_tools/render/course.hpp"
+#include "host_tools/render/drafts.hpp"
 #include "host_tools/render/frame_layers.hpp"
 #include "host_tools/setup/advice.hpp"
 #include "host_tools/setup/record_follower.hpp"
@@ -90,50 +91,91 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   }
 }
 
-/// Runs one machine of a render after the other, and tells how far they all are.
-struct Watch {
-  Course& course;
-  const std::function<bool(const RenderProgress&)>& progress;
-
-  void run(Machine& machine, RenderProgram& program) const {
-    course.begin_machine();
-    machine.run(program, [&](Cycles now) {
-      if (!progress) return true;
-      RenderProgress present = program.progress(now);
-      present.overall = course.share(present);
-      return progress(present);
-    });
+/// A machine of a render, to whoever keeps checkpoints.
+class OneOfRun final : public CheckpointedRun {
+ public:
+  OneOfRun(Drafts& drafts, RenderProgram& program) : drafts_(drafts), program_(program) {}
+  std::uint64_t rounds_ended() const override { return program_.rounds_ended(); }
+  bool finished() const override { return drafts_.over && program_.finished(); }
+  void save(SnapshotWriter& archive) override {
+    archive(drafts_);
+    program_.save(archive);
   }
+
+ private:
+  Drafts& drafts_;
+  RenderProgram& program_;
 };
 
-/// Where the mesh needs more elements. Absent: stopped by `progress`.
-std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera& camera, const Quality& full,
-                                               const MachineChoice& choice, const Image& image, const Watch& watch,
-                                               RenderFigures& figures) {
-  const Quality quality = draft_of(full);
-  std::vector<Split> splits;
-  std::uint64_t more = 0;
-  for (std::uint32_t round = 0; round < kDraftRounds; ++round) {
-    RenderSetup setup = fitting_setup(scene, camera, quality, choice, image, splits);
-    DraftLight light;
-    for (std::uint32_t half = 0; half < light.flux.size(); ++half) {
-      setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
-      RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
-      Machine torolux(machine_setup(setup, quality, choice), image);
-      watch.run(torolux, program);
-      if (!program.finished()) return std::nullopt;
-      figures.draft_cycles += program.times().read;
-      figures.draft_records += program.solution()->tally.rays;
-      light.flux[half] = incident_flux(*program.solution(), full.shadow_rays);
-      light.of_record = flux_of_record(*program.solution());
-    }
-    if (round == 0) more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDraftRounds;
-    std::vector<Split> chosen = choose_splits(setup.mesh, scene, light, more);
-    std::vector<Split> all;
-    std::set_union(splits.begin(), splits.end(), chosen.begin(), chosen.end(), std::back_inserter(all));
-    splits = std::move(all);
+/// Runs one machine of a render after the other, and tells how far they all are.
+class Watch {
+ public:
+  /// from: a checkpoint, from which the first machine goes on; drafts: of that.
+  Watch(Course course, Drafts& drafts, CheckpointKeeper* keeper, CheckpointReader* from,
+        const std::function<bool(const RenderProgress&)>& progress)
+      : course_(std::move(course)), drafts_(drafts), keeper_(keeper), from_(from), progress_(progress) {
+    if (from != nullptr) course_.skip_machines(drafts.over ? kDrafts : drafts.round * 2 + drafts.half);
   }
-  return splits;
+  SnapshotKeeper* keeper() const { return keeper_; }
+
+  void run(Machine& machine, RenderProgram& program) {
+    course_.begin_machine();
+    CheckpointReader* const from = std::exchange(from_, nullptr);
+    if (from != nullptr) program.restore(from->state());
+    OneOfRun run(drafts_, program);
+    if (keeper_ != nullptr) keeper_->watch(run);
+    const auto progress = [&](Cycles now) {
+      if (!progress_) return true;
+      RenderProgress present = program.progress(now);
+      present.overall = course_.share(present);
+      return progress_(present) || keeper_ != nullptr;  // who keeps checkpoints ends the run, when it has
+    };
+    machine.run(program, progress, from != nullptr ? &from->state() : nullptr);
+  }
+
+ private:
+  Course course_;
+  Drafts& drafts_;
+  CheckpointKeeper* keeper_;
+  CheckpointReader* from_;
+  const std::function<bool(const RenderProgress&)>& progress_;
+};
+
+/// Solves a draft twice. False: stopped by `progress`.
+bool solve_draft(const Scene& scene, const Camera& camera, const Quality& full, const MachineChoice& choice,
+                 const Image& image, Watch& watch, RenderSetup& setup, Drafts& drafts) {
+  const Quality quality = draft_of(full);
+  for (; drafts.half < drafts.light.flux.size(); ++drafts.half) {
+    setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * drafts.round + drafts.half);
+    RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
+    MachineSetup of_draft = machine_setup(setup, quality, choice);
+    of_draft.keeper = watch.keeper();
+    Machine torolux(of_draft, image);
+    watch.run(torolux, program);
+    if (!program.finished()) return false;
+    drafts.cycles += program.times().read;
+    drafts.records += program.solution()->tally.rays;
+    drafts.light.flux[drafts.half] = incident_flux(*program.solution(), full.shadow_rays);
+    drafts.light.of_record = flux_of_record(*program.solution());
+  }
+  drafts.half = 0;
+  return true;
+}
+
+/// Finds where the mesh needs more elements. False: stopped by `progress`.
+bool solve_drafts(const Scene& scene, const Camera& camera, const Quality& full, const MachineChoice& choice,
+                  const Image& image, Watch& watch, Drafts& drafts) {
+  for (; drafts.round < kDraftRounds; ++drafts.round) {
+    RenderSetup setup = fitting_setup(scene, camera, draft_of(full), choice, image, drafts.splits);
+    if (!solve_draft(scene, camera, full, choice, image, watch, setup, drafts)) return false;
+    if (drafts.round == 0) drafts.more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDraftRounds;
+    std::vector<Split> chosen = choose_splits(setup.mesh, scene, drafts.light, drafts.more);
+    std::vector<Split> all;
+    std::set_union(drafts.splits.begin(), drafts.splits.end(), chosen.begin(), chosen.end(), std::back_inserter(all));
+    drafts.splits = std::move(all);
+  }
+  drafts.over = true;
+  return true;
 }
 
 }  // namespace
@@ -144,19 +186,23 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   const Image image = load_image(pe_image);
   const auto begin = std::chrono::steady_clock::now();
   RenderResult result;
-  Course course(quality, files.radiosity.has_value());
-  const Watch watch{course, progress};
   std::optional<SavedRadiosity> saved;
-  std::vector<Split> splits;
+  Drafts drafts;
   if (files.radiosity) {
     saved = read_radiosity(*files.radiosity);
     check_radiosity(*saved, scene, quality);
-    splits = saved->splits;
-  } else if (quality.refine > 0) {
-    auto chosen = draft_splits(scene, camera, quality, machine, image, watch, result.figures);
-    if (!chosen) return result;
-    splits = std::move(*chosen);
+    drafts.splits = saved->splits;
   }
+  drafts.over = files.radiosity.has_value() || quality.refine <= 0;
+  if (files.resume != nullptr) files.resume->state()(drafts);
+  std::optional<CheckpointKeeper> keeper;
+  if (files.checkpoint.file) keeper.emplace(files.checkpoint);
+  Watch watch(Course(quality, files.radiosity.has_value()), drafts, keeper ? &*keeper : nullptr, files.resume,
+              progress);
+  if (!drafts.over && !solve_drafts(scene, camera, quality, machine, image, watch, drafts)) return result;
+  result.figures.draft_cycles = drafts.cycles;
+  result.figures.draft_records = drafts.records;
+  const std::vector<Split>& splits = drafts.splits;
   const RenderSetup setup = fitting_setup(scene, camera, quality, machine, image, splits);
   RenderJob job = job_of(scene, camera, quality, machine, setup, false);
   const RadiosityOrigin origin = radiosity_origin(scene, quality, setup.mesh);
@@ -169,6 +215,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   MachineSetup of_picture = machine_setup(setup, quality, machine);
   of_picture.watcher = machine.watcher;
   of_picture.record_watcher = machine.follower;
+  of_picture.keeper = watch.keeper();
   if (machine.follower != nullptr) machine.follower->begin(scene, setup, quality, machine);
   Machine torolux(of_picture, image);
   const auto run_begin = std::chrono::steady_clock::now();

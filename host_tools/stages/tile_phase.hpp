@@ -33,6 +33,8 @@ class TilePhase : public RayPhase {
                   std::span<const std::byte> contents) override;
   bool done() const override { return next_ == grid_.count() && under_way_ == 0 && credits_.all_home(); }
   const char* waiting_for() const override { return "tiles and credits"; }
+  void save(SnapshotWriter& archive) override { this->archive(archive); }
+  void restore(SnapshotReader& archive) override { this->archive(archive); }
 
   std::uint64_t made() const override { return made_; }
   std::uint64_t count() const override { return std::uint64_t{settings_.width} * settings_.height * settings_.samples; }
@@ -40,6 +42,11 @@ class TilePhase : public RayPhase {
   std::uint64_t credits_home() const override { return credits_.home(); }
 
  private:
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(next_, rays_held_, under_way_, credits_, made_, sent_);
+  }
+
   void deal(HostPort& port, PeNumber pe);
   void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
 
