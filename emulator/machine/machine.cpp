@@ -146,18 +146,18 @@ struct Machine::Parts {
     emulation->save(archive);
     for (unsigned pe = 0; pe < pes.size(); ++pe) {
       archive.section("PE");
-      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
-      PeRegisters registers = engine->save(pe);
+      PeRegisters registers = engine->save(pe);  // first: only then does the NIU driver know that its HINT waits
       archive(registers);
+      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
     }
   }
   void restore(SnapshotReader& archive) {
     emulation->restore(archive);
     for (unsigned pe = 0; pe < pes.size(); ++pe) {
       archive.section("PE");
-      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
       PeRegisters registers{};
       archive(registers);
+      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
       engine->restore(pe, registers);
     }
   }
@@ -217,6 +217,7 @@ void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progr
                      " can neither be saved nor go on from what was saved");
   }
   p.emulation.emplace(p.setup, p.channels, p.image, *p.engine, program);
+  if (p.setup.keeper != nullptr) p.engine->will_be_saved();
   if (from != nullptr) p.restore(*from);
   p.begin_wall = clock_seconds(CLOCK_MONOTONIC);
   p.begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);

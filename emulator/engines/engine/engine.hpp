@@ -50,8 +50,10 @@ class Engine {
   virtual void stop() = 0;
   // ---- Saving and going on ----
 
-  /// Whether the two that follow can be called.
+  /// Whether the three that follow can be called.
   virtual bool can_be_saved() const { return false; }
+  /// Before the start: `save` may be called.
+  virtual void will_be_saved() {}
   /// Of a PE that waits in a HINT for the network's side, or has halted; it waits on.
   virtual PeRegisters save(unsigned /*pe*/) { return {}; }
   /// Before the start: the PE does not begin at `_start`, but where this says; its memory is as it was then.
