@@ -54,6 +54,7 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
   add("--save-radiosity", options.save_radiosity);
   add("--save-mesh", options.save_mesh);
   add("--trace", options.trace.file);
+  add("--checkpoint", options.checkpoint.file);
   std::vector<NamedFile> read;
   for (const InputFile& input : prepared.run.inputs.files) read.push_back({"a file that is read", input.path});
   if (options.machine) read.push_back({"--machine", *options.machine});
@@ -71,11 +72,27 @@ void check_results_writable(const Resolved& resolved, const RenderOptions& optio
   if (options.report) check_file_writable(*options.report);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
   if (options.save_mesh) check_file_writable(*options.save_mesh);
+  if (options.checkpoint.file) check_file_writable(*options.checkpoint.file);
+}
+
+/// What tells of a run from its beginning cannot begin in its midst.
+void check_told_whole(const RenderOptions& options) {
+  if (!options.checkpoint.resume) return;
+  if (options.trace.file || options.follow)
+    throw UsageError("--trace and --follow tell of a whole run: not of one that goes on by --resume");
 }
 
 void print_notes(const std::vector<std::string>& notes, bool quiet) {
   if (quiet) return;
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
+}
+
+/// Where it is interrupted, its state has been saved.
+void tell_of_checkpoint(const RenderOptions& options) {
+  if (options.checkpoint.file)
+    print_notes({"the state is in " + options.checkpoint.file->string() + "; the same with --resume " +
+                 options.checkpoint.file->string() + " goes on"},
+                options.quiet);
 }
 
 std::unique_ptr<Display> display_of(const PreparedRender& prepared, const RenderOptions& options) {
@@ -94,7 +111,10 @@ class Shown {
         display_(display) {}
 
   bool show(const RenderProgress& progress) {
-    if (interrupted()) return false;
+    if (interrupted()) {
+      if (display_ != nullptr) display_->pace().go_free();  // it may have to go on until its state can be saved
+      return false;
+    }
     line_.show(progress);
     return display_ == nullptr || display_->show(progress);
   }
@@ -132,6 +152,7 @@ void finish_trace(TraceFile& trace, bool quiet) {
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   Resolved& resolved = prepared.resolved;
   resolved.machine.debugging.listens = announce_debugger(firmware_image());
+  check_told_whole(options);
   check_results_distinct(prepared, options);
   check_results_writable(resolved, options);
   print_notes(prepared.scene.warnings, options.quiet);
@@ -141,6 +162,9 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
+  resolved.files.checkpoint = checkpoint_choice(options.checkpoint, prepared.run);
+  const auto from = checkpoint_to_resume(options.checkpoint, prepared.run);
+  resolved.files.resume = from.get();
   const auto display = display_of(prepared, options);
   if (display) {
     resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
@@ -160,7 +184,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (story) {
     for (const std::string& line : story->lines()) std::cout << line << "\n";
   }
-  remember_speed(resolved.machine, result.figures);
+  if (!from) remember_speed(resolved.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
 
@@ -192,7 +216,12 @@ void add_render_command(CLI::App& app, CommandAction& action) {
   command->callback([options, &action] {
     action = [options] {
       PreparedRender prepared = prepare_render(*options);
-      return run_prepared(prepared, *options).exit_code;
+      try {
+        return run_prepared(prepared, *options).exit_code;
+      } catch (const StateSaved&) {
+        tell_of_checkpoint(*options);
+        return kInterrupted;
+      }
     };
   });
 }

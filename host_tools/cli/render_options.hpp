@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/engines/engine/debugging.hpp"
+#include "host_tools/cli/checkpoint_options.hpp"
 #include "host_tools/cli/display_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
@@ -39,6 +40,7 @@ struct RenderOptions {
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
   TraceOptions trace;
   DisplayOptions display;
+  CheckpointOptions checkpoint;
   std::optional<FollowTarget> follow;
   bool quiet = false, verbose = false;
 

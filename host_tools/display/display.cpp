@@ -60,7 +60,10 @@ bool Display::obey() {
 }
 
 void Display::obey(const DisplayCommand& command) {
-  if (command.name == "end") ended_ = true;
+  if (command.name == "end") {
+    ended_ = true;
+    pace_.go_free();
+  }
   if (command.name != "pace") return;
   try {
     pace_.obey(command.values);

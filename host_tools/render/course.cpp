@@ -33,6 +33,10 @@ void Course::begin_machine() {
   if (is_draft_) --drafts_left_;
 }
 
+void Course::skip_machines(unsigned machines) {
+  for (unsigned i = 0; i < machines && drafts_left_ > 0; ++i) begin_machine();
+}
+
 double Course::share(const RenderProgress& progress) {
   const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
   double done = before_;

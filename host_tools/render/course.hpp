@@ -14,6 +14,8 @@ class Course {
 
   /// Another machine begins: the next draft's, or after the last of them the one that makes the picture.
   void begin_machine();
+  /// So many have run before, in another process.
+  void skip_machines(unsigned machines);
   /// 0..1, of the work of all machines: the present one's stages by their own shares. Rough: what a stage takes is
   /// foretold from the number of records and rays that the quality asks for.
   double share(const RenderProgress& progress);

@@ -54,6 +54,12 @@ class RenderProgram : public LightProgram {
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< once the radiosity stage has ended
   std::uint64_t rays() const { return rays_; }
   std::uint64_t credits_home() const;
+  std::uint64_t rounds_ended() const;
+
+  /// Between two messages.
+  void save(SnapshotWriter& archive);
+  /// Instead of the start: it goes on from what the program of an equal job has saved. Throws InputError.
+  void restore(SnapshotReader& archive);
 
  private:
   enum class Step { load_radiosity, radiosity, read, load_ray_tracing, ray_tracing, report, finished };
@@ -62,7 +68,10 @@ class RenderProgram : public LightProgram {
   std::string_view name_of(Step step) const;
   void enter(HostPort& port, Step step);
   void leave(HostPort& port);
-  std::unique_ptr<Phase> phase_for(HostPort& port, Step step);
+  std::unique_ptr<Phase> phase_for(Step step);
+  void charge(HostPort& port, Step step) const;
+  template <class Archive>
+  void archive(Archive& archive);
   std::unique_ptr<Phase> loading(protocol::Stage stage);
 
   RenderJob job_;
