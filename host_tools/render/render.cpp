@@ -219,7 +219,13 @@ RenderResult render(const Scene& scene, const Camera& camera, const Quality& qua
   if (machine.follower != nullptr) machine.follower->begin(scene, setup, quality, machine);
   Machine torolux(of_picture, image);
   const auto run_begin = std::chrono::steady_clock::now();
-  watch.run(torolux, program);
+  try {
+    watch.run(torolux, program);
+  } catch (const StateSaved&) {
+    const bool traces_rays = program.progress(0).stage == RenderStage::ray_tracing;
+    if (files.picture_so_far && traces_rays) files.picture_so_far(picture_of(torolux.frame_buffer(), setup));
+    throw;
+  }
   result.figures.run_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - run_begin).count();
 
   result.notes = setup.notes;
