@@ -109,10 +109,10 @@ class BlockPool {
       chunks_.clear();
       for (std::uint64_t i = 0; i < chunks && i * kChunk <= kNoBlock - kChunk; ++i) {
         chunks_.push_back(std::make_unique<Block[]>(kChunk));
-        archive_chunk(archive, *chunks_.back().get());
+        archive_chunk(archive, chunks_.back()[0]);
       }
     } else {
-      for (auto& chunk : chunks_) archive_chunk(archive, *chunk.get());
+      for (auto& chunk : chunks_) archive_chunk(archive, chunk[0]);
     }
   }
 

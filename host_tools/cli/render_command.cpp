@@ -55,6 +55,8 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
   add("--save-mesh", options.save_mesh);
   add("--trace", options.trace.file);
   add("--checkpoint", options.checkpoint.file);
+  if (const auto& file = options.checkpoint.file)
+    written.push_back({"the picture so far of --checkpoint", std::filesystem::path(*file).concat(".png")});
   std::vector<NamedFile> read;
   for (const InputFile& input : prepared.run.inputs.files) read.push_back({"a file that is read", input.path});
   if (options.machine) read.push_back({"--machine", *options.machine});
@@ -163,6 +165,10 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
   resolved.files.checkpoint = checkpoint_choice(options.checkpoint, prepared.run);
+  if (const auto& file = options.checkpoint.file) {
+    resolved.files.picture_so_far = [&resolved, so_far = std::filesystem::path(*file).concat(".png")](
+                                        const Picture& picture) { write_layers(picture, {}, so_far, resolved.tone); };
+  }
   const auto from = checkpoint_to_resume(options.checkpoint, prepared.run);
   resolved.files.resume = from.get();
   const auto display = display_of(prepared, options);

@@ -135,7 +135,13 @@ RenderResult RenderSession::run(Machine::Then then) {
   if (p.choice.follower != nullptr) p.choice.follower->begin(p.scene, setup, p.quality, p.choice);
   Machine& machine = p.machine.emplace(p.of_picture(watch.keeper()), p.image);
   const auto run_begin = Clock::now();
-  watch.run(machine, program, setup, false, then);
+  try {
+    watch.run(machine, program, setup, false, then);
+  } catch (const StateSaved&) {
+    const bool traces_rays = program.progress(0).stage == RenderStage::ray_tracing;
+    if (p.files.picture_so_far && traces_rays) p.files.picture_so_far(picture_of(machine.frame_buffer(), setup));
+    throw;
+  }
   result.figures.run_seconds = seconds_since(run_begin);
 
   result.notes = setup.notes;

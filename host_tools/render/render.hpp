@@ -69,7 +69,10 @@ struct RenderFiles {
   std::optional<std::filesystem::path> save_mesh;  ///< PLY with all light, whatever the picture takes from shadow rays
   std::optional<std::filesystem::path> radiosity;  ///< skip the radiosity stage
   CheckpointChoice checkpoint = {};                ///< what is kept of the run meanwhile
-  CheckpointReader* resume = nullptr;              ///< go on from there; of a run with the same settings
+  /// Called where the run ends by Ctrl-C while rays are traced, after its state has been saved: the picture as far as
+  /// it is; black where it is not. Null: nobody wants it.
+  std::function<void(const Picture&)> picture_so_far = {};
+  CheckpointReader* resume = nullptr;  ///< go on from there; of a run with the same settings
 };
 
 /// Before anything has run.

@@ -53,12 +53,13 @@ std::string everything(const RenderResult& result) {
 struct Pieces {
   RenderResult result;
   unsigned interruptions = 0;
+  std::vector<std::size_t> lit;  // pixels that were not black, of each picture that was kept
 };
 
-/// Runs the case in pieces of so many messages to the host, twice as many, thrice, and so on. next: changes the machine
-/// before each piece.
+/// Runs the case in pieces of so many messages to the host, twice as many, thrice, and so on (ever_longer). next:
+/// changes the machine before each piece.
 Pieces run_in_pieces(RenderCase render_case, unsigned messages,
-                     const std::function<void(RenderCase&, unsigned piece)>& next = {}) {
+                     const std::function<void(RenderCase&, unsigned piece)>& next = {}, bool ever_longer = true) {
   const std::filesystem::path file = testing::TempDir() + "torolux_checkpoint_test.ckpt";
   std::filesystem::remove(file);
   Pieces pieces;
@@ -66,8 +67,11 @@ Pieces run_in_pieces(RenderCase render_case, unsigned messages,
     unsigned read = 0;
     render_case.files.checkpoint.file = file;
     render_case.files.checkpoint.minutes = 0;
-    render_case.files.checkpoint.interrupted = [&read, length = messages * (pieces.interruptions + 1)] {
-      return ++read > length;
+    render_case.files.checkpoint.interrupted =
+        [&read, length = messages * (ever_longer ? pieces.interruptions + 1 : 1)] { return ++read > length; };
+    render_case.files.picture_so_far = [&pieces](const Picture& picture) {
+      pieces.lit.push_back(static_cast<std::size_t>(
+          std::ranges::count_if(picture.pixels, [](const auto& pixel) { return pixel[0] + pixel[1] + pixel[2] > 0; })));
     };
     const auto from = pieces.interruptions != 0 ? std::make_unique<CheckpointReader>(file) : nullptr;
     render_case.files.resume = from.get();
@@ -92,6 +96,18 @@ void expect_same_in_pieces(const RenderCase& render_case, unsigned messages, uns
 
 TEST(Checkpoint, PiecesAreTheWhole) {
   expect_same_in_pieces(small_case(), 11, 5);
+}
+
+// Ctrl-C while rays are traced: the picture as far as it is, ever more of it.
+TEST(Checkpoint, ThePictureSoFarIsKept) {
+  RenderCase render_case = small_case();
+  render_case.quality.max_shots = 1;
+  render_case.quality.width = render_case.quality.height = 64;
+  const Pieces pieces = run_in_pieces(render_case, 50, {}, false);
+  ASSERT_GE(pieces.lit.size(), 2U);
+  EXPECT_LT(pieces.lit.front(), pieces.lit.back());
+  EXPECT_TRUE(std::ranges::is_sorted(pieces.lit));
+  EXPECT_LE(pieces.lit.back(), pieces.result.picture.pixels.size());
 }
 
 // Drafts, their halves, and the splits between them; layers; two threads.
