@@ -14,6 +14,7 @@
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/trace_options.hpp"
+#include "host_tools/growing_picture/growing_picture.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/given_settings.hpp"
 #include "host_tools/settings/presets.hpp"
@@ -37,6 +38,7 @@ struct RenderOptions {
   std::vector<std::filesystem::path> outputs;
   bool no_picture = false;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
+  GrowingPictureChoice growing;
   TraceOptions trace;
   DisplayOptions display;
   std::optional<FollowTarget> follow;
