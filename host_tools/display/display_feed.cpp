@@ -27,6 +27,11 @@ Number share(std::uint64_t part, std::uint64_t whole) {
   return static_cast<Number>(std::lround(value * double{std::numeric_limits<Number>::max()}));
 }
 
+/// Of the two numbers, one may have been written without the other yet.
+std::uint64_t busy_cycles(const LivePe& pe) {
+  return difference(pe.clock, pe.waited);
+}
+
 /// A PE that waits tells nothing: up to the network's time it has done so.
 std::uint64_t end_of(const LivePe& pe, const LiveFigures& figures) {
   return std::max(pe.clock, figures.now);
@@ -106,7 +111,7 @@ void DisplayFeed::put_loads(LiveState::Update& update) {
   for (std::size_t pe = 0; pe < pes; ++pe) {
     const LivePe& now = now_.pes[pe];
     const LivePe& before = before_.pes[pe];
-    const std::uint64_t busy = difference(now.clock - now.waited, before.clock - before.waited);
+    const std::uint64_t busy = difference(busy_cycles(now), busy_cycles(before));
     const auto load = share<std::uint8_t>(busy, difference(end_of(now, now_), end_of(before, before_)));
     phases_[pe] = phase_of(now, before, phases_[pe]);
     contents += static_cast<char>(load);

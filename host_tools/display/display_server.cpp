@@ -22,6 +22,7 @@ namespace {
 /// Endless answers at once: each has a thread, and what it has not yet sent.
 constexpr int kMostViewers = 16;
 constexpr std::chrono::milliseconds kAlive{1000};
+constexpr int kMostWaiting = 256;
 constexpr std::chrono::seconds kAnswerPatience{10};
 constexpr std::chrono::milliseconds kLookAtEnd{5};
 constexpr int kMostLooksAtEnd = 100;
@@ -38,6 +39,9 @@ class Server final : public httplib::Server {
     });
   }
   std::atomic<bool> stopping = false;
+
+  /// After it has been bound: httplib would let five connections wait to be accepted.
+  void let_wait(int connections) { ::listen(svr_sock_, connections); }
 
  private:
   bool process_and_close_socket(socket_t socket) override {
@@ -165,6 +169,7 @@ struct DisplayServer::Parts {
       throw InputError("--display: nothing can be served at " + address + ", port " + std::to_string(where.port) +
                        "; another program may have that port: --display 0 takes any that is free");
     }
+    server.let_wait(kMostWaiting);
     const std::string token = is_loopback(address) ? "" : random_token();
     const std::string query = token.empty() ? "" : "?token=" + token;
     const bool six = address.find(':') != std::string::npos;
