@@ -11,6 +11,7 @@
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/growing_options.hpp"
 #include "host_tools/cli/measured_speed.hpp"
 #include "host_tools/cli/path_frames.hpp"
 #include "host_tools/cli/prepared_render.hpp"
@@ -104,13 +105,14 @@ std::unique_ptr<Display> display_of(const PreparedRender& prepared, const Render
                                         resolved.quality.height, resolved.tone});
 }
 
-/// A render while it goes on, as terminal and display (null: none) show it. False: it is to end.
+/// A render while it goes on, as terminal, display and growing picture (null: none) show it. False: it is to end.
 class Shown {
  public:
-  Shown(const Resolved& resolved, const RenderOptions& options, Display* display)
+  Shown(const Resolved& resolved, const RenderOptions& options, Display* display, GrowingPicture* growing)
       : line_(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
               resolved.machine.description.processor.clock_hertz, options.verbose),
-        display_(display) {}
+        display_(display),
+        growing_(growing) {}
 
   bool show(const RenderProgress& progress) {
     if (interrupted()) {
@@ -118,6 +120,7 @@ class Shown {
       return false;
     }
     line_.show(progress);
+    if (growing_ != nullptr) growing_->show(progress);
     return display_ == nullptr || display_->show(progress);
   }
   /// Of a path.
@@ -131,6 +134,7 @@ class Shown {
  private:
   ProgressLine line_;
   Display* display_;
+  GrowingPicture* growing_;
 };
 
 /// The first picture, and those of a path behind it.
@@ -147,6 +151,11 @@ RenderResult run_session(RenderSession& session, const Resolved& resolved, Shown
 void finish_trace(TraceFile& trace, bool quiet) {
   trace.finish();
   if (!trace.note().empty()) print_notes({trace.note()}, quiet);
+}
+
+void finish_growing(GrowingPicture& growing, const RenderResult& result, bool quiet) {
+  const std::string note = growing.finish(result.picture, result.layers);
+  if (!note.empty()) print_notes({note}, quiet);
 }
 
 }  // namespace
@@ -177,7 +186,8 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
     resolved.machine.pacer = &display->pace();
     resolved.machine.hop_watcher = &display->pace();
   }
-  Shown shown(resolved, options, display.get());
+  const auto growing = growing_picture(options.growing, prepared.run.scene, resolved);
+  Shown shown(resolved, options, display.get(), growing.get());
   const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
   RenderSession session(prepared.scene, resolved.camera, resolved.quality, resolved.machine, resolved.files,
                         firmware_image(), show);
@@ -193,6 +203,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (!from) remember_speed(resolved.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
+  if (growing) finish_growing(*growing, result, options.quiet);
 
   if (resolved.path.empty()) {
     for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
