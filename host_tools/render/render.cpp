@@ -107,7 +107,7 @@ struct Watch {
   void run(Machine& machine, RenderProgram& program, const RenderSetup& setup, bool draft,
            Machine::Then then = Machine::Then::end) const {
     course.begin_machine();
-    const RunningRender running{machine, program, setup, draft};
+    const RunningRender running{machine, program, setup, draft, course.machines()};
     const auto tell = [&](Cycles now) {
       if (!progress) return true;
       RenderProgress present = program.progress(now);
