@@ -54,9 +54,11 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       host_(setup.description, program, pes_, events_, 2 * pes_ + 1, pool_),
       signal_cycles_(setup.description.signal_cycles()),
       record_watcher_(setup.record_watcher),
+      pacer_(setup.pacer),
       attend_seconds_(std::min(kAttendSeconds, setup.progress_seconds)) {
   cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
   events_.watch(this);
+  torus_.watch_hops(setup.hop_watcher);
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
   stages_.push_back({"run", network_figures(0)});
   if (setup.watcher == nullptr) return;
@@ -291,6 +293,7 @@ void Emulation::copy_in(unsigned pe, BlockIndex block, bool from_bus) {
 
 void Emulation::copied(unsigned pe, BlockIndex block, bool from_bus) {
   if (watch_) watch_->received(now_, pool_[block]);
+  if (pacer_ != nullptr) pacer_->passed(Step::packet);
   if (record_watcher_ != nullptr) record_watcher_->received(now_, packet_of(pool_[block]));
   nius_[pe].deliver(block, now_, pool_, times_);
   if (from_bus) {

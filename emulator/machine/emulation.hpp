@@ -20,6 +20,7 @@
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/torus.hpp"
 #include "emulator/trace/machine_watch.hpp"
+#include "emulator/trace/pacer.hpp"
 #include "emulator/trace/record_watcher.hpp"
 
 namespace torolux {
@@ -60,6 +61,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void await(unsigned pe, Cycles wanted);
   void fetch_next_turn_ahead() const;
   void attend_now_and_then();
+  void hold_until_let(Cycles next);
   bool at_rest(unsigned pe);
   // Figures (stages.cpp)
   void begin_stage(std::string_view name) override;
@@ -131,6 +133,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   HostActor host_;
   std::uint32_t signal_cycles_;
   RecordWatcher* record_watcher_;  // null: nobody
+  Pacer* pacer_;                   // null: as fast as it goes
   std::function<void(Cycles)> attend_;
   std::uint32_t until_attend_ = 0;
   double attend_seconds_;  // of wall time, from one to the next

@@ -27,6 +27,8 @@ namespace torolux {
 
 class MachineWatcher;  // emulator/trace/watcher.hpp
 class RecordWatcher;   // emulator/trace/record_watcher.hpp
+class Pacer;           // emulator/trace/pacer.hpp
+class HopWatcher;      // emulator/torus/hop_watcher.hpp
 
 struct MachineSetup {
   MachineDescription description;
@@ -42,6 +44,8 @@ struct MachineSetup {
   std::uint32_t frame_layers = 0;     ///< planes of the frame buffer besides the colours, as bits (protocol::plane_bit)
   MachineWatcher* watcher = nullptr;  ///< told what happens; outlives the machine. Changes nothing of the run
   RecordWatcher* record_watcher = nullptr;  ///< shown what packets and messages hold; likewise
+  Pacer* pacer = nullptr;                   ///< holds it back, so that somebody can follow; likewise
+  HopWatcher* hop_watcher = nullptr;        ///< told of each hop of packets; likewise
 };
 
 struct PeFigures {

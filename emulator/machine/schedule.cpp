@@ -2,7 +2,9 @@
 // Virtual time: which event may happen, when to wait for which PE, and what it means if nothing can happen any more.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <ctime>
+#include <thread>
 
 #include "emulator/errors.hpp"
 #include "emulator/machine/emulation.hpp"
@@ -14,6 +16,8 @@ namespace {
 
 /// Attention at least this often, by events.
 constexpr std::uint32_t kAttendEvents = 4096;
+/// Between two questions whether a run that is held back may go on.
+constexpr std::chrono::milliseconds kHold{2};
 /// Running a PE, a millisecond at most, counts as so many.
 constexpr std::uint32_t kHelpEvents = 256;
 /// Looks at a PE that is about to get there before the scheduler sleeps.
@@ -39,6 +43,13 @@ void Emulation::attend_now_and_then() {
   if (seconds - last_attended_ < attend_seconds_) return;
   last_attended_ = seconds;
   if (attend_) attend_(now_);
+}
+
+void Emulation::hold_until_let(Cycles next) {
+  while (!pacer_->lets(next)) {
+    std::this_thread::sleep_for(kHold);
+    attend_now_and_then();
+  }
 }
 
 /// Waits for a PE that runs: until its bound is later than `wanted`, or it waits itself, or a while has passed.
@@ -104,6 +115,7 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
       throw MachineFailure("virtual time runs backwards: an event of cycle " + std::to_string(event.time) +
                            " became known at cycle " + std::to_string(now_));
     }
+    if (pacer_ != nullptr) hold_until_let(event.time);
     now_ = event.time;
     if (watch_) watch_->before(now_);
     trace_hash_ = mix(mix(trace_hash_, event.time), event.order);

@@ -128,6 +128,7 @@ void Emulation::begin_stage(std::string_view name) {
 
 void Emulation::note(HostGauge gauge, double value) {
   time_line_.note(gauge, value, host_.now());
+  if (pacer_ != nullptr && gauge == HostGauge::unshot) pacer_->passed(Step::round);  // told at each selection
   if (watch_) watch_->gauge(host_.now(), gauge, value);
 }
 

@@ -163,6 +163,7 @@ Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles
   }
   ++out.packets;
   out.flits += block.flits;
+  if (hop_watcher_ != nullptr) hop_watcher_->leaves(router, output, block, start, start + hop_cycles_);
   events_.push(start + hop_cycles_, source(router), EventKind::arrive, static_cast<std::uint16_t>(next),
                static_cast<std::uint8_t>(port), index);
   return start + block.flits;
@@ -200,6 +201,9 @@ void Torus::eject(unsigned router, BlockIndex index, Cycles tail) {
     packet_figures_.add(block.hops, delivered - block.entered, block.records, block.bytes);
     ++out.packets;
     out.flits += block.flits;
+    if (hop_watcher_ != nullptr) {
+      hop_watcher_->leaves(router, index_of(Port::local), block, tail - block.flits, delivered);
+    }
   } else {
     routers_[router].seldom[index_of(Port::local)].wasted_flits += block.flits;
   }

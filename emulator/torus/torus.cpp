@@ -73,6 +73,7 @@ void Torus::inject(unsigned pe, BlockIndex block, Cycles now) {
   Input& input = routers_[pe].inputs[index_of(Port::local)];
   input.queue.push(pool_, block);
   input.high_water = std::max(input.high_water, input.queue.size());
+  if (hop_watcher_ != nullptr) hop_watcher_->entered(pe, pool_[block]);
   if (input.queue.size() == 1) head(pe, index_of(Port::local), now);
 }
 

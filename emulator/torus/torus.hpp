@@ -13,6 +13,7 @@
 #include "emulator/time/jitter.hpp"
 #include "emulator/torus/block.hpp"
 #include "emulator/torus/figures.hpp"
+#include "emulator/torus/hop_watcher.hpp"
 #include "emulator/torus/link_faults.hpp"
 #include "emulator/torus/ring_lines.hpp"
 #include "emulator/torus/shape.hpp"
@@ -49,6 +50,8 @@ class Torus {
         TorusSources sources, BlockPool& pool, TorusClient& client);
 
   const TorusShape& shape() const { return shape_; }
+  /// Null: nobody follows packets. Outlives this.
+  void watch_hops(HopWatcher* watcher) { hop_watcher_ = watcher; }
   std::uint32_t flits(std::uint32_t bytes) const { return flits_of(bytes, flit_bytes_); }
   /// Appends a packet (destination, flits, number set) to the outgoing queue of a PE. The limit on it is the NIU's.
   void inject(unsigned pe, BlockIndex block, Cycles now);
@@ -175,6 +178,7 @@ class Torus {
   std::vector<Cycles> return_times_;       // rings of buffer_ entries, one per router and link
   PacketFigures packet_figures_;
   std::size_t inside_ = 0;
+  HopWatcher* hop_watcher_ = nullptr;
 };
 
 }  // namespace torolux

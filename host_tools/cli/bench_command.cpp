@@ -12,6 +12,7 @@
 #include "host_tools/bench/engine_bench.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/scene/load_scene.hpp"
@@ -33,14 +34,11 @@ struct BenchOptions {
   unsigned threads = 0;
 };
 
-/// A scene of the source tree in which this program was built.
+/// A scene that came with this program.
 std::string own_scene(const char* name) {
+  const auto scene = scene_folder() / name;
   std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  auto scene = (program.parent_path() / "../../../scenes" / name).lexically_normal();
-  if (error || !std::filesystem::is_directory(scene)) {
-    throw UsageError("no scene at " + scene.string() + ": name one");
-  }
+  if (!std::filesystem::is_directory(scene, error)) throw UsageError("no scene at " + scene.string() + ": name one");
   return scene.string();
 }
 

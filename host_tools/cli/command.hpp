@@ -26,6 +26,7 @@ void add_lockstep_command(CLI::App& app, CommandAction& action);
 void add_bench_command(CLI::App& app, CommandAction& action);
 void add_rerun_command(CLI::App& app, CommandAction& action);
 void add_study_command(CLI::App& app, CommandAction& action);
+void add_manual_command(CLI::App& app, CommandAction& action);
 
 /// All of them.
 void add_commands(CLI::App& app, CommandAction& action);

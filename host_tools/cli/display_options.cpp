@@ -70,12 +70,13 @@ void add_display_options(CLI::App& command, DisplayOptions& options, const std::
                        options.address = text;
                      }));
   in_group(command.add_flag("--open", options.open, "Of the display: open it in a browser (xdg-open)"));
+  in_group(command.add_flag("--paused", options.paused, "Of the display: the run stands until the page lets it go"));
 }
 
 std::unique_ptr<Display> open_display(const DisplayOptions& options, const DisplayedRun& run) {
   if (!options.display) {
-    if (options.address || options.open) {
-      throw UsageError("--display-address and --open say how a run is displayed; --display asks for that");
+    if (options.address || options.open || options.paused) {
+      throw UsageError("--display-address, --open and --paused say how a run is displayed; --display asks for that");
     }
     return nullptr;
   }
@@ -83,6 +84,7 @@ std::unique_ptr<Display> open_display(const DisplayOptions& options, const Displ
   if (options.port) where.port = *options.port;
   if (options.address) where.address = *options.address;
   auto display = std::make_unique<Display>(where, run);
+  if (options.paused) display->pace().stand();
   std::cerr << "torolux: display: " << display->url() << std::endl;
   if (options.open) start_browser(display->url());
   return display;

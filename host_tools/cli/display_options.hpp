@@ -20,9 +20,10 @@ struct DisplayOptions {
   std::optional<int> port;
   std::optional<std::string> address;
   bool open = false;
+  bool paused = false;  ///< the run stands until a page lets it go
 };
 
-/// --display, --display-address, --open.
+/// --display, --display-address, --open, --paused.
 void add_display_options(CLI::App& command, DisplayOptions& options, const std::string& group);
 
 /// Serves from now on, and says where on standard error; null: it is not asked for. Throws UsageError, InputError.

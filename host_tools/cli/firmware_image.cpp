@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "emulator/errors.hpp"
+#include "emulator/installed_file.hpp"
 
 namespace torolux {
 
@@ -18,8 +19,7 @@ std::filesystem::path firmware_image() {
     image = named;
     if (fs::is_directory(image, error)) image /= "pe.elf";
   } else {
-    image = fs::read_symlink("/proc/self/exe", error).parent_path() / "../../firmware/bin/pe.elf";
-    image = image.lexically_normal();
+    image = installed_file("share/torolux/firmware/pe.elf", "../../firmware/bin/pe.elf");
   }
   if (!fs::is_regular_file(image, error))
     throw InputError(image.string() +

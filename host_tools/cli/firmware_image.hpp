@@ -6,8 +6,8 @@
 
 namespace torolux {
 
-/// pe.elf: in the environment variable TOROLUX_FIRMWARE (the image, or the folder that holds it), else where the builds
-/// put it: ../../firmware/bin beside the folder of this executable. Throws InputError where there is none.
+/// pe.elf: in the environment variable TOROLUX_FIRMWARE (the image, or the folder that holds it), else
+/// share/torolux/firmware of the installation, else where the builds put it. Throws InputError where there is none.
 std::filesystem::path firmware_image();
 
 }  // namespace torolux

@@ -11,6 +11,7 @@
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/measured_speed.hpp"
+#include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/resolve.hpp"
 #include "host_tools/report/text.hpp"
 
@@ -115,7 +116,7 @@ void print_plan(const RenderPlan& plan, const MachineChoice& machine) {
 }
 
 int run_info(const RenderOptions& options) {
-  const Scene scene = load_scene(options.scene, scene_options(options));
+  const Scene scene = load_scene(scene_named(options.scene), scene_options(options));
   const Resolved resolved = resolve(options, scene);
   print_scene(scene);
   std::vector<std::string> refusals;

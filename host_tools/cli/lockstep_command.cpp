@@ -13,6 +13,7 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/resolve.hpp"
 #include "host_tools/report/progress_line.hpp"
 #include "host_tools/report/text.hpp"
@@ -58,7 +59,7 @@ void run_image_in_lock_step(const RenderOptions& options) {
 }
 
 void render_in_lock_step(const RenderOptions& options) {
-  const Scene scene = load_scene(options.scene, scene_options(options));
+  const Scene scene = load_scene(scene_named(options.scene), scene_options(options));
   check_renderable(scene);
   if (!options.quiet)
     for (const std::string& warning : scene.warnings) std::cerr << "torolux: note: " << warning << "\n";

@@ -11,10 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
+#include "firmware/protocol/machine.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/help_format.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/parse_error.hpp"
 #include "host_tools/report/version.hpp"
 
@@ -49,6 +52,30 @@ int guarded(Work work) {
   }
 }
 
+/// What `torolux --version` prints.
+std::string version_text() {
+  const std::string commit = program_commit();
+  std::string engines;
+  for (const std::string_view name : engine_names()) {
+    engines += (engines.empty() ? "" : ", ") + std::string(name);
+    if (name == kDefaultEngine) engines += " (default)";
+  }
+  return std::string("torolux ") + kVersion + "\ncommit: " + (commit.empty() ? "unknown" : commit) +
+         "\nprotocol: " + std::to_string(protocol::kProtocolVersion) + "\nengines: " + engines;
+}
+
+/// What `torolux` alone prints: where to begin.
+std::string first_steps() {
+  std::string scenes;
+  for (const std::string& name : own_scenes()) scenes += " " + name;
+  return "Torolux: a massively parallel machine for image synthesis, emulated\n\n"
+         "  torolux render cornell_box    a first picture, cornell_box.png, and what the machine took\n"
+         "  torolux info cornell_box      what a scene holds and what a machine needs for it\n"
+         "  torolux --help                all commands\n"
+         "  torolux render --help         all options of a command\n" +
+         (scenes.empty() ? "" : "\nScenes that are here:" + scenes + "\n");
+}
+
 int run(CLI::App& app, const CommandAction& action, int argc, const char* const* argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   // `help`, `help render`: as `--help`, `render --help`.
@@ -56,6 +83,10 @@ int run(CLI::App& app, const CommandAction& action, int argc, const char* const*
     words.erase(words.begin());
     if (const std::string wrong = unknown_command(app, words); !wrong.empty()) throw UsageError(wrong);
     words.emplace_back("--help");
+  }
+  if (words.empty()) {
+    std::cout << first_steps();
+    return code(ExitCode::done);
   }
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them
@@ -91,12 +122,13 @@ void add_commands(CLI::App& app, CommandAction& action) {
   add_bench_command(app, action);
   add_rerun_command(app, action);
   add_study_command(app, action);
+  add_manual_command(app, action);
 }
 
 int torolux_main(int argc, const char* const* argv) {
   const InterruptionGuard guard;
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
-  app.set_version_flag("--version", std::string("torolux ") + kVersion);
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormat>());
   app.footer(

@@ -9,6 +9,7 @@
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/parse_words.hpp"
 #include "host_tools/cli/table_options.hpp"
 #include "host_tools/scene/recorded_files.hpp"
@@ -38,7 +39,7 @@ RenderOptions parse_render_options(const std::vector<std::string>& words) {
 PreparedRender prepare_render(const RenderOptions& options) {
   RecordedFiles recorded;
   PreparedRender prepared;
-  prepared.scene = load_scene_from(recorded, options.scene, scene_options(options));
+  prepared.scene = load_scene_from(recorded, scene_named(options.scene), scene_options(options));
   check_renderable(prepared.scene);
   prepared.resolved = resolve(options, prepared.scene);
   prepared.findings = findings_before(prepared.scene, prepared.resolved);

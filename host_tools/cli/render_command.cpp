@@ -142,7 +142,11 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
   const auto display = display_of(prepared, options);
-  if (display) resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
+  if (display) {
+    resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
+    resolved.machine.pacer = &display->pace();
+    resolved.machine.hop_watcher = &display->pace();
+  }
   Shown shown(resolved, options, display.get());
   const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
   RenderSession session(prepared.scene, resolved.camera, resolved.quality, resolved.machine, resolved.files,

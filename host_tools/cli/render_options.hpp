@@ -59,8 +59,11 @@ struct RenderOptions {
 };
 
 /// SCENE, --studio, --missing-materials, --strict. name, help: of the first.
-void add_scene_options(CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
-                       const std::string& help = "A folder with scene.toml, a .toml file, or an .obj file");
+void add_scene_options(
+    CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
+    const std::string& help =
+        "A folder with scene.toml, a .toml file, an .obj file, or the name of a scene that came with "
+        "the program");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, GivenSettings& given, const std::string& group);
 /// Those of the table's groups, and what is by their side: files, the camera, --quality, the machine's parameters.

@@ -58,8 +58,12 @@ RunEnd run_prepared(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const auto display = open_display(
       options.display,
-      {"run", options.image, setup.columns, setup.rows, setup.description.processor.clock_hertz, 0, 0, {}});
-  if (display) setup.progress_seconds = DisplayFeed::kUpdateSeconds;
+      {"run", std::filesystem::path(options.image).filename().string(), setup.columns, setup.rows, setup.description.processor.clock_hertz, 0, 0, {}});
+  if (display) {
+    setup.progress_seconds = DisplayFeed::kUpdateSeconds;
+    setup.pacer = &display->pace();
+    setup.hop_watcher = &display->pace();
+  }
   const auto print = [&display](const PeText& text) {
     std::cout << "PE " << text.pe << " @ " << text.time << ": " << text.text << std::endl;
     if (display) display->say(text);

@@ -36,6 +36,7 @@ struct CommandName {
 };
 inline constexpr std::array kCommandNames = {
     CommandName{"end", false},   ///< no more display: the run is stopped, or once it is over the command ends
+    CommandName{"pace", false},  ///< while it runs: slow motion, single steps
     CommandName{"view", false},  ///< after the run: the scene from elsewhere
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "emulator/errors.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "host_tools/render/running_render.hpp"
 #include "host_tools/report/progress_line.hpp"
@@ -65,6 +66,18 @@ bool Display::obey() {
 
 void Display::obey(const DisplayCommand& command) {
   if (command.name == "end") ended_ = true;
+  if (command.name != "pace") return;
+  try {
+    pace_.obey(command.values);
+  } catch (const InputError& error) {
+    progress_["error"] = error.what();
+  }
+}
+
+void Display::put_packets() {
+  if (pace_.is_free() && free_told_) return;
+  free_told_ = pace_.is_free();
+  feed_.put(MessageType::packets, pace_.packets());
 }
 
 void Display::put_camera(const nlohmann::json& camera) {
@@ -91,6 +104,7 @@ bool Display::show(const RenderProgress& progress) {
                {"elapsed", elapsed()}};
   show_radiosity(running, progress.stage);
   feed_.update(running.machine, running.setup.radiance_per_quantum(), text_of(progress_));
+  put_packets();
   return true;
 }
 
@@ -127,6 +141,7 @@ bool Display::show(const Machine& machine, Cycles now) {
   if (!feed_.due()) return true;
   progress_ = {{"state", "running"}, {"virtual_time", now}, {"elapsed", elapsed()}};
   feed_.update(machine, 1, text_of(progress_));
+  put_packets();
   return true;
 }
 

@@ -12,6 +12,7 @@
 #include "host_tools/display/commands.hpp"
 #include "host_tools/display/display_feed.hpp"
 #include "host_tools/display/display_server.hpp"
+#include "host_tools/display/pace.hpp"
 #include "host_tools/display/radiosity_view.hpp"
 #include "host_tools/render/render.hpp"
 #include "host_tools/run/run.hpp"
@@ -40,6 +41,7 @@ class Display {
   const std::string& url() const { return server_.url(); }
   DisplayFeed& feed() { return feed_; }
   CommandQueue& commands() { return commands_; }
+  Pace& pace() { return pace_; }
 
   /// From within a render's `progress`. False: a page has asked to end.
   bool show(const RenderProgress& progress);
@@ -66,11 +68,14 @@ class Display {
   void begin_frame_buffer();
   void show_radiosity(const RunningRender& running, RenderStage stage);
   bool obey();
+  void put_packets();
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
   Clock::time_point begin_ = Clock::now();
   LiveState state_;
   CommandQueue commands_;
+  Pace pace_;
+  bool free_told_ = true;  // that the run goes as fast as it can
   DisplayFeed feed_{state_};
   std::deque<std::string> texts_;
   std::optional<Clock::time_point> machine_begin_;

@@ -20,6 +20,7 @@ enum class MessageType : std::uint32_t {
   progress,  ///< JSON
   bye,       ///< JSON: the server ends, and why
   camera,    ///< JSON: from where the picture is seen
+  packets,   ///< where each packet is, while the run is held back (pace.hpp)
   count
 };
 

@@ -173,6 +173,8 @@ struct RenderSession::Parts {
     MachineSetup machine_setup = torolux::machine_setup(*setup, quality, choice);
     machine_setup.watcher = choice.watcher;
     machine_setup.record_watcher = choice.follower;
+    machine_setup.pacer = choice.pacer;
+    machine_setup.hop_watcher = choice.hop_watcher;
     return machine_setup;
   }
 

@@ -16,6 +16,8 @@
 namespace torolux {
 
 class MachineWatcher;  // emulator/trace/watcher.hpp
+class Pacer;           // emulator/trace/pacer.hpp
+class HopWatcher;      // emulator/torus/hop_watcher.hpp
 class RecordFollower;  // host_tools/setup/record_follower.hpp
 
 /// The machine that makes it.
@@ -36,6 +38,8 @@ struct MachineChoice {
   unsigned threads = 0;
   MachineWatcher* watcher = nullptr;   ///< of the machine that makes the picture, not of drafts'; outlives the render
   RecordFollower* follower = nullptr;  ///< likewise
+  Pacer* pacer = nullptr;              ///< likewise
+  HopWatcher* hop_watcher = nullptr;   ///< likewise
   double progress_seconds = 0.1;       ///< from one call of a render's `progress` to the next, about [s of wall time]
 };
 

@@ -217,10 +217,44 @@ async function checkReconnecting(browser) {
   await close();
 }
 
+/** An image that would be over at once stands until the page lets it go: packet by packet, slowly, at full speed. */
+async function checkPace(browser) {
+  const run = await start(["run", `${root}/build/firmware/bin/token.elf`, "--pes", "4x3", "--display", "0", "--paused"]);
+  const { page, faults, close } = await open(browser, run.url);
+  await page.waitForSelector("#pace");
+  const now = async () => Number((await page.textContent("#pace-now")).match(/cycle ([\d\s]+)/)?.[1].replace(/\s/g, "") ?? -1);
+  const cycles = [0];
+  for (const name of ["Next packet", "Next packet", "Next event", "Next packet"]) {
+    await page.getByText(name).press("Enter");
+    await until(name, now, (cycle) => cycle > cycles.at(-1), 5);
+    await page.waitForTimeout(200);
+    cycles.push(await now());
+    await page.waitForTimeout(200);
+    assert.equal(await now(), cycles.at(-1), "it stands");
+  }
+  const maps = new Set();
+  await page.focus("#speed");
+  await page.keyboard.press("Home");  // 10 cycles in a second: the whole run has some hundred
+  await page.getByText("Slow motion", { exact: true }).first().press("Enter");
+  await until("packets on their way", async () => {
+    maps.add((await canvasOf(page, "#torus canvas")).hash);
+    return Math.min(maps.size, Number((await page.textContent("#pace-now")).match(/way: (\d+)/)?.[1] ?? 0) > 0 ? 99 : 0);
+  }, (seen) => seen > 3, 20);
+  await page.screenshot({ path: join(folder, "display_slow.png"), fullPage: true });
+  await page.getByText("Full speed").press("Enter");
+  await until("done", () => page.textContent("#progress h2"), (text) => text === "Done", 20);
+  assert.match(await page.textContent("#texts"), /PE 0/);
+  await page.getByText("End the display").press("Enter");
+  assert.equal(await run.ended, 0);
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 const browser = await launch();
 try {
   await checkRender(browser);
   await checkStopping(browser);
+  await checkPace(browser);
   await checkReconnecting(browser);
 } finally {
   for (const child of children) child.kill("SIGKILL"); // those that a fault has left behind

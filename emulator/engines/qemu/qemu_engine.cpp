@@ -13,6 +13,7 @@
 #include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/engines/qemu/qemu_process.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/installed_file.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/ending.hpp"
 #include "emulator/niu/processor_side.hpp"
@@ -33,10 +34,9 @@ constexpr const char* kCpu =
     "false,zbs=false,pmp=true";
 
 std::filesystem::path plugin_file() {
+  auto file = installed_file("lib/torolux/torolux_qemu_plugin.so", "../lib/torolux_qemu_plugin.so");
   std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  auto file = program.parent_path().parent_path() / "lib" / "torolux_qemu_plugin.so";
-  if (error || !std::filesystem::exists(file)) {
+  if (!std::filesystem::exists(file, error)) {
     throw MachineFailure("the QEMU plugin is missing at " + file.string() + ": build all targets");
   }
   return file;

@@ -2,8 +2,10 @@
 // The server's endless answer enters (docs/display.md); the newest state of the run leaves, to whoever has asked to be
 // told of changes. Connects again when the connection is lost.
 
+import { readPackets } from "./packets.js";
+
 /** As MessageType in host_tools/display/messages.hpp. */
-const kTypes = ["alive", "machine", "picture", "pixels", "loads", "texts", "progress", "bye", "camera"];
+const kTypes = ["alive", "machine", "picture", "pixels", "loads", "texts", "progress", "bye", "camera", "packets"];
 const kHeader = 8;
 const kMostBytes = 1 << 26; // of a message
 const kLeastPause = 500; // before connecting again [ms]
@@ -134,6 +136,7 @@ export class Feed {
     else if (type === "loads") this.loads.take(bytes);
     else if (type === "texts") this.texts = json(bytes);
     else if (type === "progress") this.progress = json(bytes);
+    else if (type === "packets") this.packets = readPackets(bytes);
     else if (type === "camera") {
       this.camera = json(bytes);
       this.start ??= this.camera;

@@ -6,6 +6,8 @@ import "../shared/theme.css";
 import "./display.css";
 import { Feed } from "./feed.js";
 import { Charts } from "./history.jsx";
+import { Pace } from "./pace.jsx";
+import { packetOverlay } from "./packets.js";
 import { Picture } from "./picture.jsx";
 import { Connection, Progress, Texts } from "./progress.jsx";
 import { Torus } from "./torus.jsx";
@@ -26,7 +28,7 @@ function Display({ feed }) {
         <main class={feed.picture ? "with-picture" : ""}>
           <Picture feed={feed} />
           <Progress feed={feed} />
-          <Torus feed={feed} />
+          <Torus feed={feed} overlay={() => packetOverlay(feed.packets)}><Pace feed={feed} /></Torus>
           <Texts feed={feed} />
           <Charts feed={feed} />
         </main>

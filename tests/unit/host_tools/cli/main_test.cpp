@@ -28,6 +28,7 @@ TEST(Main, HelpAndVersionAreNoErrors) {
   const Outcome version = torolux({"--version"});
   EXPECT_EQ(version.code, 0);
   EXPECT_THAT(version.out, testing::StartsWith("torolux "));
+  for (const char* part : {"commit: ", "protocol: ", "translated (default)"}) EXPECT_THAT(version.out, HasSubstr(part));
 }
 
 TEST(Main, HelpOfRenderIsComplete) {
@@ -88,10 +89,26 @@ TEST(Main, HelpOfRenderIsComplete) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
 }
 
+TEST(Main, AloneItSaysWhereToBegin) {
+  const Outcome alone = torolux({});
+  EXPECT_EQ(alone.code, 0);
+  EXPECT_THAT(alone.out, HasSubstr("torolux render cornell_box"));
+  EXPECT_THAT(alone.out, HasSubstr("two_mirrors")) << "the scenes that are here";
+}
+
+TEST(Main, ScenesThatCameWithTheProgramAreFoundByName) {
+  const Outcome by_name = torolux({"info", "two_mirrors"});
+  const Outcome by_path = torolux({"info", std::string(TOROLUX_SOURCE_DIR) + "/scenes/two_mirrors"});
+  EXPECT_EQ(by_name.code, 0) << by_name.err;
+  EXPECT_THAT(by_name.out, HasSubstr("1 830"));
+  const auto before_predictions = [](const std::string& text) { return text.substr(0, text.find("predicted")); };
+  EXPECT_EQ(before_predictions(by_name.out), before_predictions(by_path.out));
+  EXPECT_EQ(torolux({"info", "./two_mirrors"}).code, 2) << "a path is meant, not a name";
+}
+
 TEST(Main, UsageErrors) {
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{},
-                                             {"paint"},
+       std::vector<std::vector<std::string>>{{"paint"},
                                              {"render"},
                                              {"render", "scene", "--colour"},
                                              {"render", "scene", "--size"},
