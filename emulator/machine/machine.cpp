@@ -283,6 +283,10 @@ const FrameChanges& Machine::frame_changes() const {
   return parts_->emulation ? parts_->emulation->frame_changes() : parts_->frame_changes;
 }
 
+std::span<const std::byte> Machine::local_memory(unsigned pe) const {
+  return parts_->pes.at(pe).local.bytes().first(parts_->setup.local_memory_bytes);
+}
+
 MachineFigures Machine::figures() const {
   Parts& p = *parts_;
   if (p.running) {

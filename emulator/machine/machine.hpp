@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -154,6 +155,8 @@ class Machine {
   void sample(LiveFigures& figures) const;
   const FrameBuffer& frame_buffer() const;
   const FrameChanges& frame_changes() const;
+  /// For whoever looks on: its PE may be writing it.
+  std::span<const std::byte> local_memory(unsigned pe) const;
   /// Exact at a moment when nothing is in flight (between stages, at the end): a host program may ask in on_message.
   MachineFigures figures() const;
 

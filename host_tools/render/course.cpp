@@ -28,6 +28,7 @@ Course::Course(const Quality& quality, bool radiosity_given)
 }
 
 void Course::begin_machine() {
+  ++machines_;
   if (is_draft_) before_ += of_draft_;
   is_draft_ = drafts_left_ > 0;
   if (is_draft_) --drafts_left_;

@@ -81,7 +81,7 @@ void Watch::run(Machine& machine, RenderProgram& program, const RenderSetup& set
   if (from != nullptr) program.restore(from->state());
   OneOfRun run(drafts_, program);
   if (keeper_ != nullptr) keeper_->watch(run);
-  const RunningRender running{machine, program, setup, draft};
+  const RunningRender running{machine, program, setup, draft, course_.machines()};
   const auto progress = [&](Cycles now) {
     if (!progress_) return true;
     RenderProgress present = program.progress(now);

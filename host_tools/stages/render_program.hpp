@@ -45,6 +45,7 @@ class RenderProgram : public LightProgram {
   const char* waiting_for() const override;
 
   RenderProgress progress(Cycles now) const;
+  const RenderJob& job() const { return job_; }
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given
   const StageTimes& times() const { return times_; }
   std::uint64_t shots() const { return shots_; }
