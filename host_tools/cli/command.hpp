@@ -18,6 +18,7 @@ using CommandAction = std::function<int()>;
 /// kept by the callback, so `app` must outlive the action.
 void add_render_command(CLI::App& app, CommandAction& action);
 void add_info_command(CLI::App& app, CommandAction& action);
+void add_inspect_command(CLI::App& app, CommandAction& action);
 void add_compare_command(CLI::App& app, CommandAction& action);
 void add_tonemap_command(CLI::App& app, CommandAction& action);
 void add_run_command(CLI::App& app, CommandAction& action);

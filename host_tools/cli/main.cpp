@@ -114,6 +114,7 @@ int flushed(int result) {
 void add_commands(CLI::App& app, CommandAction& action) {
   add_render_command(app, action);
   add_info_command(app, action);
+  add_inspect_command(app, action);
   add_compare_command(app, action);
   add_tonemap_command(app, action);
   add_run_command(app, action);

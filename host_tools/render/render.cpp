@@ -161,6 +161,7 @@ struct RenderSession::Parts {
   Image image;
   std::optional<RenderSetup> setup;
   std::optional<Machine> machine;
+  std::optional<Solution> solved;
 
   std::optional<std::vector<Split>> splits_for(const std::optional<SavedRadiosity>& saved, const Watch& watch,
                                                RenderFigures& figures) const {
@@ -200,7 +201,7 @@ RenderSession::RenderSession(const Scene& scene, const Camera& camera, const Qua
                              const MachineChoice& machine, const RenderFiles& files,
                              const std::filesystem::path& pe_image,
                              const std::function<bool(const RenderProgress&)>& progress)
-    : parts_(new Parts{scene, camera, quality, machine, files, progress, load_image(pe_image), {}, {}}) {}
+    : parts_(new Parts{scene, camera, quality, machine, files, progress, load_image(pe_image), {}, {}, {}}) {}
 RenderSession::~RenderSession() = default;
 
 RenderResult RenderSession::run(Machine::Then then) {
@@ -244,6 +245,7 @@ RenderResult RenderSession::run(Machine::Then then) {
   if (!p.files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
   p.write_files(origin, *splits, *program.solution());
   p.take_picture(result);
+  p.solved = program.take_solution();
   return result;
 }
 
@@ -287,6 +289,14 @@ const FrameBuffer& RenderSession::frame_buffer() const {
 
 const Machine& RenderSession::machine() const {
   return *parts_->machine;
+}
+
+const RenderSetup& RenderSession::setup() const {
+  return parts_->setup.value();
+}
+
+const Solution& RenderSession::solution() const {
+  return parts_->solved.value();
 }
 
 double RenderSession::radiance_per_quantum() const {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host_tools/render/render.hpp"
+#include "host_tools/setup/setup.hpp"
 #include "host_tools/stages/ray_phase.hpp"
 
 namespace torolux {
@@ -41,6 +42,8 @@ class RenderSession {
   const FrameBuffer& frame_buffer() const;
   Cycles now() const;  ///< virtual time at the end of the last run or view
   const Machine& machine() const;
+  const RenderSetup& setup() const;
+  const Solution& solution() const;     ///< of the first run, which has come to its end
   double radiance_per_quantum() const;  ///< of the frame buffer's sums, where all samples are taken
 
  private:

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "host_tools/camera/camera_rays.hpp"
 #include "host_tools/irradiance/vertex_irradiance.hpp"
@@ -46,6 +47,7 @@ class RenderProgram : public LightProgram {
 
   RenderProgress progress(Cycles now) const;
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given
+  Solution take_solution() { return *std::move(job_.solution); }             ///< which is there
   const StageTimes& times() const { return times_; }
   std::uint64_t shots() const { return shots_; }
   /// By path segments of the stage; zeros before it has ended.

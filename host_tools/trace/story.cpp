@@ -44,7 +44,17 @@ std::string subspace(std::uint32_t place) {
          std::to_string(protocol::cell_along(place, 1)) + ", " + std::to_string(protocol::cell_along(place, 2)) + ")";
 }
 
+std::string joined(const std::vector<std::uint16_t>& routers) {
+  std::string text;
+  for (const std::uint16_t router : routers) text += (text.empty() ? "" : "-") + std::to_string(router);
+  return text;
+}
+
 }  // namespace
+
+std::string text_of(const StoryEvent& event) {
+  return right(grouped(event.time), 16) + "  " + left(event.who, 8) + event.what;
+}
 
 void Story::begin(const Scene& scene, const RenderSetup& setup, const Quality& quality, const MachineChoice& machine) {
   scene_ = &scene;
@@ -65,7 +75,13 @@ void Story::begin(const Scene& scene, const RenderSetup& setup, const Quality& q
 }
 
 void Story::tell(Cycles time, const std::string& who, const std::string& what) {
-  lines_.push_back(right(grouped(time), 16) + "  " + left(who, 8) + what);
+  events_.push_back({time, who, what});
+}
+
+std::vector<std::string> Story::lines() const {
+  std::vector<std::string> lines;
+  for (const StoryEvent& event : events_) lines.push_back(text_of(event));
+  return lines;
 }
 
 std::string Story::at(const protocol::Vec3f& place) const {
@@ -85,14 +101,13 @@ std::string Story::surface(std::uint32_t polygon) const {
 }
 
 /// The routers on the way, first and last included.
-std::string Story::route(const RecordPacket& packet) const {
-  std::string text = std::to_string(packet.source);
-  unsigned router = packet.source;
-  for (unsigned links = 0; router != packet.destination && links <= torus_->diameter(); ++links) {
-    router = torus_->neighbour(router, torus_->route(router, packet.destination));
-    text += "-" + std::to_string(router);
+std::vector<std::uint16_t> Story::route(const RecordPacket& packet) const {
+  std::vector<std::uint16_t> routers{packet.source};
+  while (routers.back() != packet.destination && routers.size() <= torus_->diameter() + 1) {
+    const unsigned next = torus_->neighbour(routers.back(), torus_->route(routers.back(), packet.destination));
+    routers.push_back(static_cast<std::uint16_t>(next));
   }
-  return text;
+  return routers;
 }
 
 /// From the outgoing queue into the record slots with nothing in the way (docs/machine.md, "The torus").
@@ -117,7 +132,8 @@ void Story::arrives(Cycles time, const RecordPacket& packet) {
     tell(time, pe_text(packet.destination),
          "received after " + grouped(time - leg->sent) + " cycles, of which it waited " +
              grouped(time - leg->sent - std::min(time - leg->sent, unhindered(packet))) + ": " + std::to_string(links) +
-             (links == 1 ? " link" : " links") + ", routers " + route(packet));
+             (links == 1 ? " link" : " links") + ", routers " + joined(route(packet)));
+    events_.back().routers = route(packet);
     legs_.erase(leg);
     ++legs_told_;
     return;

@@ -18,6 +18,16 @@
 
 namespace torolux {
 
+struct StoryEvent {
+  Cycles time;
+  std::string who;  ///< a PE, or nobody
+  std::string what;
+  std::vector<std::uint16_t> routers = {};  ///< where a packet has been received: those that it went through, in order
+};
+
+/// One line: cycle, who, what.
+std::string text_of(const StoryEvent& event);
+
 class Story final : public RecordFollower {
  public:
   explicit Story(const FollowTarget& target) : target_(target) {}
@@ -29,8 +39,10 @@ class Story final : public RecordFollower {
   void came(Cycles time, const BusMessage& message) override;
   void end(Cycles time) override;
 
-  /// So far: cycle, who, what.
-  const std::vector<std::string>& lines() const { return lines_; }
+  /// So far.
+  const std::vector<StoryEvent>& events() const { return events_; }
+  /// The same as text.
+  std::vector<std::string> lines() const;
 
  private:
   /// A packet with the record on its way.
@@ -53,7 +65,7 @@ class Story final : public RecordFollower {
   std::string watts(const protocol::Flux& flux) const;
   std::string at(const protocol::Vec3f& place) const;
   std::string surface(std::uint32_t polygon) const;
-  std::string route(const RecordPacket& packet) const;
+  std::vector<std::uint16_t> route(const RecordPacket& packet) const;
   Cycles unhindered(const RecordPacket& packet) const;
 
   FollowTarget target_;
@@ -62,7 +74,7 @@ class Story final : public RecordFollower {
   const Quality* quality_ = nullptr;
   const MachineDescription* machine_ = nullptr;
   std::optional<TorusShape> torus_;
-  std::vector<std::string> lines_;
+  std::vector<StoryEvent> events_;
   std::vector<Leg> legs_;
   std::optional<std::uint32_t> left_;  ///< polygon that it left when it was last seen
   std::optional<std::uint32_t> shot_key_;
