@@ -61,6 +61,7 @@ bool Display::obey() {
 
 void Display::obey(const DisplayCommand& command) {
   if (command.name == "end") ended_ = true;
+  if (command.name == "ask") command.answer->give(R"({"error": "there are answers once a picture is rendered"})");
   if (command.name != "pace") return;
   try {
     pace_.obey(command.values);
