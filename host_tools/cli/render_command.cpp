@@ -219,7 +219,8 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (display) {
     display->finish(&result.picture);
     keep_display(options.quiet, [&](const std::function<bool()>& stop) {
-      Walk(session, *display, resolved.camera, resolved.quality).go(stop);
+      Questions questions(prepared.scene, resolved.quality, resolved.machine, session);
+      Walk(session, *display, resolved.camera, resolved.quality, questions).go(stop);
     });
   }
   return {0, std::move(statistics)};

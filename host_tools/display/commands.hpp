@@ -35,6 +35,7 @@ struct CommandName {
   bool answered;  ///< the page waits for what the run's thread says to it
 };
 inline constexpr std::array kCommandNames = {
+    CommandName{"ask", true},    ///< after a render: about an element, a PE, a pixel (questions.hpp)
     CommandName{"end", false},   ///< no more display: the run is stopped, or once it is over the command ends
     CommandName{"pace", false},  ///< while it runs: slow motion, single steps
     CommandName{"view", false},  ///< after the run: the scene from elsewhere

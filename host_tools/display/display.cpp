@@ -69,6 +69,7 @@ void Display::obey(const DisplayCommand& command) {
     ended_ = true;
     pace_.go_free();
   }
+  if (command.name == "ask") command.answer->give(R"({"error": "there are answers once a picture is rendered"})");
   if (command.name != "pace") return;
   try {
     pace_.obey(command.values);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "host_tools/layout/golden_step.hpp"
@@ -75,15 +76,26 @@ nlohmann::json json_of(const Camera& camera) {
   return {{"eye", camera.eye}, {"look_at", camera.look_at}, {"up", camera.up}, {"fov", camera.field_of_view_degrees}};
 }
 
-Walk::Walk(RenderSession& session, Display& display, const Camera& camera, const Quality& quality)
+Walk::Walk(RenderSession& session, Display& display, const Camera& camera, const Quality& quality, Questions& questions)
     : session_(session),
       display_(display),
       camera_(camera),
       width_(quality.width),
       height_(quality.height),
-      samples_(quality.samples) {}
+      samples_(quality.samples),
+      questions_(questions) {}
+
+void Walk::answer(const DisplayCommand& question) {
+  const auto answer = questions_.answer(question.values, camera_, [this] { return goes_on(); });
+  question.answer->give(answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
 
 void Walk::take(const DisplayCommand& command) {
+  if (command.name == "ask") {
+    if (!Questions::asks_machine(command.values)) return answer(command);
+    if (asked_.size() < CommandQueue::kMostWaiting) return asked_.push_back(command);
+    return command.answer->give(R"({"error": "too many questions wait"})");
+  }
   if (command.name != "view") return display_.obey(command);
   try {
     wanted_ = camera_of(command.values, camera_);
@@ -106,6 +118,10 @@ void Walk::go(const std::function<bool()>& stop) {
       const Camera camera = *wanted_;
       wanted_.reset();
       make(camera);
+    } else if (!asked_.empty()) {
+      const DisplayCommand question = std::move(asked_.front());
+      asked_.pop_front();
+      answer(question);
     } else if (const auto command = display_.commands().take(kPatience)) {
       take(*command);
     }
@@ -118,7 +134,9 @@ bool Walk::pass(const View& view) {
 
 void Walk::show(std::uint32_t taken, bool coarse) {
   const Picture picture = session_.picture(taken);
-  display_.feed().show(coarse ? enlarged(picture, kCoarse, width_, height_) : picture);
+  const Picture shown = coarse ? enlarged(picture, kCoarse, width_, height_) : picture;
+  display_.feed().show(shown);
+  questions_.take(shown);
   display_.tell({{"state", taken == samples_ && !coarse ? "done" : "walking"},
                  {"samples", coarse ? 0 : taken},
                  {"of_samples", samples_},

@@ -3,12 +3,14 @@
 // moves. The newest camera wins.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <vector>
 
 #include "host_tools/display/display.hpp"
+#include "host_tools/display/questions.hpp"
 #include "host_tools/render/session.hpp"
 
 namespace torolux {
@@ -25,8 +27,9 @@ class Walk {
   /// A pixel of the first, coarse picture stands for so many by so many.
   static constexpr std::uint32_t kCoarse = 4;
 
-  /// session: its first run has ended, and stays. camera, quality: of that run. All outlive this.
-  Walk(RenderSession& session, Display& display, const Camera& camera, const Quality& quality);
+  /// session: its first run has ended, and stays. camera, quality: of that run. questions: of that session; answers
+  /// come between commands, those that take the machine between views. All outlive this.
+  Walk(RenderSession& session, Display& display, const Camera& camera, const Quality& quality, Questions& questions);
 
   /// On the run's thread, until a page asks to end or `stop` says so (asked some times a second).
   void go(const std::function<bool()>& stop);
@@ -34,6 +37,7 @@ class Walk {
  private:
   void take(const DisplayCommand& command);
   bool goes_on();
+  void answer(const DisplayCommand& question);
   void make(const Camera& camera);
   bool pass(const View& view);
   void show(std::uint32_t taken, bool coarse);
@@ -42,7 +46,9 @@ class Walk {
   Display& display_;
   Camera camera_;
   std::uint32_t width_, height_, samples_;
-  std::optional<Camera> wanted_;  // the newest that nobody has begun with
+  Questions& questions_;
+  std::deque<DisplayCommand> asked_;  // of the machine, and not yet answered
+  std::optional<Camera> wanted_;      // the newest that nobody has begun with
   const std::function<bool()>* stop_ = nullptr;
 };
 

@@ -51,6 +51,25 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   }
 }
 
+/// What a machine tells the one watcher that it has is told whoever follows a record now.
+class FollowerRelay final : public RecordWatcher {
+ public:
+  RecordWatcher* to = nullptr;
+
+  void sent(Cycles time, const RecordPacket& packet) override {
+    if (to != nullptr) to->sent(time, packet);
+  }
+  void received(Cycles time, const RecordPacket& packet) override {
+    if (to != nullptr) to->received(time, packet);
+  }
+  void came(Cycles time, const BusMessage& message) override {
+    if (to != nullptr) to->came(time, message);
+  }
+  void end(Cycles time) override {
+    if (to != nullptr) to->end(time);
+  }
+};
+
 }  // namespace
 
 struct RenderSession::Parts {
@@ -62,13 +81,16 @@ struct RenderSession::Parts {
   const std::function<bool(const RenderProgress&)>& progress;
   Image image;
   std::optional<RenderSetup> setup;
+  FollowerRelay relay;
   std::optional<Machine> machine;
   std::optional<Solution> solved;
 
-  MachineSetup of_picture(SnapshotKeeper* keeper) const {
+  MachineSetup of_picture(SnapshotKeeper* keeper, Machine::Then then) {
     MachineSetup machine_setup = torolux::machine_setup(*setup, quality, choice);
     machine_setup.watcher = choice.watcher;
     machine_setup.record_watcher = choice.follower;
+    relay.to = choice.follower;
+    if (then == Machine::Then::stay) machine_setup.record_watcher = &relay;
     machine_setup.pacer = choice.pacer;
     machine_setup.hop_watcher = choice.hop_watcher;
     machine_setup.keeper = keeper;
@@ -97,7 +119,7 @@ RenderSession::RenderSession(const Scene& scene, const Camera& camera, const Qua
                              const MachineChoice& machine, const RenderFiles& files,
                              const std::filesystem::path& pe_image,
                              const std::function<bool(const RenderProgress&)>& progress)
-    : parts_(new Parts{scene, camera, quality, machine, files, progress, load_image(pe_image), {}, {}, {}}) {}
+    : parts_(new Parts{scene, camera, quality, machine, files, progress, load_image(pe_image), {}, {}, {}, {}}) {}
 RenderSession::~RenderSession() = default;
 
 RenderResult RenderSession::run(Machine::Then then) {
@@ -134,7 +156,7 @@ RenderResult RenderSession::run(Machine::Then then) {
 
   RenderProgram program(std::move(job));
   if (p.choice.follower != nullptr) p.choice.follower->begin(p.scene, setup, p.quality, p.choice);
-  Machine& machine = p.machine.emplace(p.of_picture(watch.keeper()), p.image);
+  Machine& machine = p.machine.emplace(p.of_picture(watch.keeper(), then), p.image);
   const auto run_begin = Clock::now();
   try {
     watch.run(machine, program, setup, false, then);
@@ -158,7 +180,7 @@ RenderResult RenderSession::run(Machine::Then then) {
   return result;
 }
 
-bool RenderSession::view(const View& view, const std::function<bool()>& wanted) {
+bool RenderSession::view(const View& view, const std::function<bool()>& wanted, RecordFollower* follower) {
   Parts& p = *parts_;
   const RenderSetup& setup = p.setup.value();
   const CameraRays rays(view.camera, setup.mesh.space, view.width, view.height,
@@ -169,6 +191,8 @@ bool RenderSession::view(const View& view, const std::function<bool()>& wanted) 
   ViewProgram program(setup, rays, settings);
   if (!view.adds) p.machine->begin_picture(view.width, view.height, p.quality.layers);
   if (!wanted()) return false;
+  if (follower != nullptr) follower->begin(p.scene, setup, p.quality, p.choice);
+  p.relay.to = follower != nullptr ? follower : p.choice.follower;
   p.machine->run(
       program,
       [&](Cycles) {
@@ -176,6 +200,8 @@ bool RenderSession::view(const View& view, const std::function<bool()>& wanted) 
         return true;
       },
       Machine::Then::stay);
+  p.relay.to = p.choice.follower;
+  if (follower != nullptr) follower->end(now());
   return !program.was_given_up();
 }
 

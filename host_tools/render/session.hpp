@@ -12,6 +12,8 @@
 
 namespace torolux {
 
+class RecordFollower;  // host_tools/setup/record_follower.hpp
+
 /// One pass over a picture of the solved scene.
 struct View {
   Camera camera;
@@ -34,7 +36,8 @@ class RenderSession {
   /// After a run that stays. wanted: asked some ten times a second and before each pass; false: the view is given up,
   /// and all its light comes home. Returns whether it is whole. Throws InputError for a camera that looks nowhere,
   /// MachineFailure.
-  bool view(const View& view, const std::function<bool()>& wanted);
+  /// follower (null: nobody): told of the view's records, and before it what the view is of.
+  bool view(const View& view, const std::function<bool()>& wanted, RecordFollower* follower = nullptr);
   /// Of what has been added so far: taken is the number of samples of each pixel. The sums of all samples: those of
   /// render() with that camera.
   Picture picture(std::uint32_t taken) const;

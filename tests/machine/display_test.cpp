@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Proves: a run with a display, looked at or not, by a page that reads slowly or goes away, gives the bytes, cycles and
-// statistics of a run without; it ends when a page or Ctrl-C says so; what stands on the command line is checked.
+// statistics of a run without; it answers as `torolux inspect` does; it ends when a page or Ctrl-C says so; what stands
+// on the command line is checked.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "tests/machine/process.hpp"
@@ -85,6 +88,61 @@ TEST(Display, ChangesNothingOfARender) {
   const Finished finished = process.wait();
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   expect_same(folder, "unseen", "seen");
+}
+
+/// What the run answers to a question; empty object: nothing that is JSON.
+nlohmann::json answer_to(int port, const std::string& question) {
+  const std::string response = response_to(port, command_request(port, R"({"do": "ask", )" + question + "}"));
+  EXPECT_EQ(status_of(response), 200) << response;
+  const std::size_t begin = response.find("\r\n\r\n");
+  return nlohmann::json::parse(begin == std::string::npos ? "{}" : response.substr(begin + 4), nullptr, false);
+}
+
+/// The answers of a display are those of `torolux inspect`, whatever has been looked at in between.
+TEST(Display, AnswersQuestions) {
+  const TemporaryFolder folder;
+  std::vector<std::string> words = render_words(folder, "asked");
+  words.insert(words.end(), {"--samples", "2", "--replicate", "0", "--display", "0"});
+  ToroluxProcess process(words);
+  const int port = display_port(process);
+  EXPECT_THAT(answer_to(port, R"("pe": 1)").value("error", ""), HasSubstr("once a picture is rendered"));
+  wait_until_done(port);
+  const auto json = folder.path() / "answers.json";
+  const Finished inspected =
+      run_torolux({"inspect",     kScene,      "--quality", "draft", "--size",      "160x120", "--pes",      "3x2",
+                   "--max-shots", "40",        "--samples", "2",     "--replicate", "0",       "--quiet",    "--pixel",
+                   "50,90:1",     "--element", "50,90",     "--pe",  "4",           "--json",  json.string()});
+  ASSERT_EQ(inspected.exit_code, 0) << inspected.errors;
+  const auto expected = nlohmann::json::parse(contents(json));
+
+  nlohmann::json pixel = answer_to(port, R"("pixel": [50, 90, 1])")["pixel"];
+  EXPECT_EQ(pixel["radiance"], expected["pixel"]["radiance"]);
+  EXPECT_EQ(pixel["element"], expected["pixel"]["element"]);
+  const nlohmann::json& story = pixel["story"];  // which PE makes the ray depends on when: the way differs
+  ASSERT_GT(story.size(), 3U);
+  EXPECT_THAT(story.front()["what"].get<std::string>(), HasSubstr("gets the tile of"));
+  EXPECT_THAT(story.back()["what"].get<std::string>(), HasSubstr("the pixel has got"));
+  EXPECT_TRUE(std::ranges::any_of(story, [](const auto& event) { return event.contains("routers"); }));
+
+  nlohmann::json element = answer_to(port, R"("element": [50, 90])")["element"];
+  std::uint64_t seen = 0;
+  for (const auto& run : element["seen"]) seen += run[1].get<std::uint64_t>();
+  EXPECT_GT(seen, 0U);
+  EXPECT_EQ(seen, element["pixels"]);
+  element.erase("seen");
+  EXPECT_EQ(element, expected["element"]);
+
+  nlohmann::json pe = answer_to(port, R"("pe": 4)")["pe"];
+  EXPECT_EQ(pe["seen_as"], "subspaces");
+  EXPECT_GT(pe["pixels"], 0);
+  EXPECT_FALSE(pe["seen"].empty());
+  for (const char* key : {"stages", "figures", "pixels", "box"}) EXPECT_EQ(pe[key], expected["pe"][key]) << key;
+
+  for (const char* wrong : {R"("pe": 6)", R"("pe": -1)", R"("pe": 4294967300)", R"("element": 4294967290)",
+                            R"("element": [160, 0])", R"("pixel": [0, 0, 2])", R"("pixel": 3)", R"("none": 1)"})
+    EXPECT_NE(answer_to(port, wrong).value("error", ""), "") << wrong;
+  process.signal(SIGINT);
+  EXPECT_EQ(process.wait().exit_code, 0);
 }
 
 TEST(Display, StaysUntilCtrlC) {

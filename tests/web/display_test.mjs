@@ -153,6 +153,30 @@ async function checkWalk(page, file) {
   await checkPicture(page, file);
 }
 
+/** A click on the picture and on a PE, then by keys; what is told is lit up in the picture. */
+async function checkAsking(page) {
+  const heading = () => page.textContent("#answers").then((text) => text ?? "");
+  const shown = await canvasOf(page, "#picture canvas");
+  await page.evaluate(() => scrollTo(0, 0));
+  const box = await page.locator("#picture canvas").boundingBox();
+  await page.mouse.click(box.x + box.width * 0.35, box.y + box.height * 0.8);
+  await until("the element", heading, (text) => /Element \d+, front, of white.*Where its light comes from/.test(text), 10);
+  assert.ok((await canvasOf(page, "#picture canvas.lit")).colours === 2, "some of the picture is lit up");
+  await page.screenshot({ path: join(folder, "display_element.png"), fullPage: true });
+  await page.getByText("Follow its ray").press("Enter");
+  await until("its story", heading, (text) => /The ray of pixel \d+, \d+, sample 0.*the pixel has got/.test(text), 10);
+  await page.screenshot({ path: join(folder, "display_story.png"), fullPage: true });
+  assert.equal((await canvasOf(page, "#picture canvas")).hash, shown.hash, "the picture stays");
+  await page.focus("#torus canvas");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Enter");
+  await until("the PE", heading, (text) => /PE \d+ \(column \d, row \d\).*local memory/.test(text), 10);
+  await page.screenshot({ path: join(folder, "display_pe.png"), fullPage: true });
+  await checkLooks(page, kTexts);
+  await page.getByText("Close", { exact: true }).press("Enter");
+  assert.equal(await page.locator("#picture canvas.lit").count(), 0);
+}
+
 async function checkRender(browser) {
   const run = await start([...kRender, "--size", "640x480", "--samples", "16", "--output", "box.png", "--display", "0"]);
   const { page, faults, close } = await open(browser, run.url);
@@ -162,6 +186,7 @@ async function checkRender(browser) {
   await checkKeys(page);
   await checkLooks(page, kTexts);
   await takeScreenshots(browser, run.url, "display_done");
+  await checkAsking(page);
   await checkWalk(page, join(folder, "box.png"));
   await page.getByText("End the display").press("Enter");
   await until("the page says that it is over", () => page.textContent("#connection"), (text) => /has ended/.test(text), 5);

@@ -189,6 +189,6 @@ export async function send(command) {
     body: JSON.stringify(command),
   });
   const value = await answer.json().catch(() => ({}));
-  if (!answer.ok) throw new Error(value.error ?? `the server answers ${answer.status}`);
+  if (!answer.ok || value.error) throw new Error(value.error ?? `the server answers ${answer.status}`);
   return value;
 }

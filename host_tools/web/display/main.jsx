@@ -4,6 +4,7 @@ import { render } from "preact";
 import "uplot/dist/uPlot.min.css";
 import "../shared/theme.css";
 import "./display.css";
+import { Answers, Lit, litPixels, useQuestions, wayOverlay } from "./ask.jsx";
 import { Feed } from "./feed.js";
 import { Charts } from "./history.jsx";
 import { Pace } from "./pace.jsx";
@@ -15,7 +16,11 @@ import { useFeed } from "./use_feed.js";
 
 function Display({ feed }) {
   useFeed(feed, 500);
-  const { machine } = feed;
+  const { machine, picture } = feed;
+  const questions = useQuestions(feed);
+  const { ask, answers, ready } = questions;
+  const lit = litPixels(answers);
+  const way = wayOverlay(answers.pixel?.story);
   if (machine) document.title = `${machine.title} - Torolux`;
   return (
     <>
@@ -26,9 +31,11 @@ function Display({ feed }) {
       </header>
       {machine && (
         <main class={feed.picture ? "with-picture" : ""}>
-          <Picture feed={feed} />
+          <Picture feed={feed} onPick={ready ? (at) => ask({ element: at, at }) : undefined}
+            over={lit.length > 0 && <Lit runs={lit} width={picture.width} height={picture.height} />} />
           <Progress feed={feed} />
-          <Torus feed={feed} overlay={() => packetOverlay(feed.packets)}><Pace feed={feed} /></Torus>
+          <Torus feed={feed} overlay={() => packetOverlay(feed.packets) ?? way} onPick={ready ? (pe) => ask({ pe }) : undefined}><Pace feed={feed} /></Torus>
+          <Answers questions={questions} />
           <Texts feed={feed} />
           <Charts feed={feed} />
         </main>

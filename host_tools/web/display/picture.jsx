@@ -61,10 +61,10 @@ class Painter {
 }
 
 /**
- * onPick: called with [x, y] of a pixel that was clicked on, where there is a use for it. children: what else belongs
- * to the picture. It can be walked through once the run is over.
+ * onPick: called with [x, y] of a pixel that was clicked on, where there is a use for it. over: lies on top of the picture. children:
+ * what else belongs to it. It can be walked through once the run is over.
  */
-export function Picture({ feed, onPick, children }) {
+export function Picture({ feed, onPick, over, children }) {
   useFeed(feed, kInterval);
   const canvas = useRef(null);
   const painter = useRef(new Painter());
@@ -89,8 +89,11 @@ export function Picture({ feed, onPick, children }) {
   return (
     <section id="picture">
       <h2>Picture</h2>
+      <div class="frame">
       <canvas ref={canvas} role="img" {...(walk.handlers ?? { onClick: onPick && pick })}
-        aria-label={`${machine.title}: ${kind}, ${picture.width} by ${picture.height} pixels`} />
+          aria-label={`${machine.title}: ${kind}, ${picture.width} by ${picture.height} pixels`} />
+      {over}
+      </div>
       {words && <p class="soft">{words}</p>}
       <div class="choices">
         <label class="choice">

@@ -47,8 +47,8 @@ function PeDetails({ feed, pe }) {
   );
 }
 
-/** overlay: gives TorusMap's. children: what else belongs to the map. */
-export function Torus({ feed, overlay, children }) {
+/** overlay: gives TorusMap's; onPick: likewise. children: what else belongs to the map. */
+export function Torus({ feed, overlay, onPick, children }) {
   const { loads, machine } = feed;
   useFeed(feed, loads.pes > kManyPes ? kIntervalOfMany : kInterval);
   const [chosen, setChosen] = useState(0);
@@ -74,7 +74,7 @@ export function Torus({ feed, overlay, children }) {
       <div class="map">
         <div>
           <TorusMap columns={machine.columns} rows={machine.rows} values={loads.values} most={1} links={loads.links}
-            linkMost={linkMost.current} chosen={Math.min(chosen, loads.pes - 1)} onChoose={setChosen} overlay={overlay?.()}
+            linkMost={linkMost.current} chosen={Math.min(chosen, loads.pes - 1)} onChoose={setChosen} onPick={onPick} overlay={overlay?.()}
             peColour={figure === "phase" ? (pe) => phaseColour(loads.phases[pe]) : undefined}
             label={`PEs by ${kFigures[figure]}, links by traffic`} />
           {figure === "load" ? <ColourScale name="PEs: busy" most={percent(1)} /> : <PhaseLegend phases={machine.phases} />}

@@ -84,11 +84,11 @@ const kMoves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], Arrow
 
 /**
  * columns, rows; values: by PE, most: what has the scale's last colour; links: {east: [by PE], ...}, linkMost likewise;
- * chosen: a PE; onChoose; label: what is seen, in words. peColour: of a PE, [r, g, b], in place of its value's;
+ * chosen: a PE; onChoose; onPick: one that was clicked on, or chosen when Enter came; label: what is seen, in words. peColour: of a PE, [r, g, b], in place of its value's;
  * overlay: draws on top, with the canvas's context, the place of a PE [pixels], and how far PEs are apart.
  */
 export function TorusMap(props) {
-  const { columns, rows, chosen, onChoose, label } = props;
+  const { columns, rows, chosen, onChoose, onPick, label } = props;
   const dark = useDark();
   const canvas = useRef(null);
   const [box, width] = useWidth();
@@ -99,9 +99,12 @@ export function TorusMap(props) {
   const at = (event) => {
     const bounds = canvas.current.getBoundingClientRect();
     const cell = (value, count) => Math.min(count - 1, Math.max(0, Math.floor(value / step - kStub - kSquare / 2 + 0.5)));
-    onChoose(cell(event.clientY - bounds.top, rows) * columns + cell(event.clientX - bounds.left, columns));
+    const pe = cell(event.clientY - bounds.top, rows) * columns + cell(event.clientX - bounds.left, columns);
+    onChoose(pe);
+    return pe;
   };
   const key = (event) => {
+    if (event.key === "Enter") onPick?.(chosen);
     const move = kMoves[event.key];
     if (!move) return;
     event.preventDefault();
@@ -112,7 +115,7 @@ export function TorusMap(props) {
   return (
     <div class="torus scroll" ref={box}>
       <canvas ref={canvas} tabIndex={0} role="application" aria-label={`${label}. Arrow keys choose a PE.`}
-        onPointerMove={(event) => event.pointerType === "mouse" && at(event)} onClick={at} onKeyDown={key} />
+        onPointerMove={(event) => event.pointerType === "mouse" && at(event)} onClick={(event) => { const pe = at(event); onPick?.(pe); }} onKeyDown={key} />
     </div>
   );
 }
