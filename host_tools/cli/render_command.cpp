@@ -158,6 +158,44 @@ void finish_growing(GrowingPicture& growing, const RenderResult& result, bool qu
   if (!note.empty()) print_notes({note}, quiet);
 }
 
+void keep_checkpoints(PreparedRender& prepared, const CheckpointOptions& options) {
+  Resolved& resolved = prepared.resolved;
+  resolved.files.checkpoint = checkpoint_choice(options, prepared.run);
+  if (!options.file) return;
+  resolved.files.picture_so_far = [&resolved, so_far = std::filesystem::path(*options.file).concat(".png")](
+                                      const Picture& picture) { write_layers(picture, {}, so_far, resolved.tone); };
+}
+
+void show_on(Display& display, MachineChoice& machine) {
+  machine.progress_seconds = DisplayFeed::kUpdateSeconds;
+  machine.pacer = &display.pace();
+  machine.hop_watcher = &display.pace();
+}
+
+void write_results(const PreparedRender& prepared, const RenderOptions& options, const RenderResult& result,
+                   const std::string& statistics) {
+  const Resolved& resolved = prepared.resolved;
+  if (resolved.path.empty()) {
+    for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
+  }
+  if (options.stats) write_file(*options.stats, statistics);
+  if (options.stats_csv) write_stats_tables(*options.stats_csv, stats_tables(result.figures));
+  if (options.report) {
+    write_file(*options.report,
+               report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
+  }
+  if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+}
+
+/// Pages may look at the solved scene from elsewhere, and ask.
+void walk_about(const PreparedRender& prepared, RenderSession& session, Display& display, bool quiet) {
+  const Resolved& resolved = prepared.resolved;
+  keep_display(quiet, [&](const std::function<bool()>& stop) {
+    Questions questions(prepared.scene, resolved.quality, resolved.machine, session);
+    Walk(session, display, resolved.camera, resolved.quality, questions).go(stop);
+  });
+}
+
 }  // namespace
 
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
@@ -173,19 +211,11 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
-  resolved.files.checkpoint = checkpoint_choice(options.checkpoint, prepared.run);
-  if (const auto& file = options.checkpoint.file) {
-    resolved.files.picture_so_far = [&resolved, so_far = std::filesystem::path(*file).concat(".png")](
-                                        const Picture& picture) { write_layers(picture, {}, so_far, resolved.tone); };
-  }
+  keep_checkpoints(prepared, options.checkpoint);
   const auto from = checkpoint_to_resume(options.checkpoint, prepared.run);
   resolved.files.resume = from.get();
   const auto display = display_of(prepared, options);
-  if (display) {
-    resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
-    resolved.machine.pacer = &display->pace();
-    resolved.machine.hop_watcher = &display->pace();
-  }
+  if (display) show_on(*display, resolved.machine);
   const auto growing = growing_picture(options.growing, prepared.run.scene, resolved);
   Shown shown(resolved, options, display.get(), growing.get());
   const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
@@ -205,23 +235,11 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   print_notes(findings_after(prepared.scene, result), options.quiet);
   if (growing) finish_growing(*growing, result, options.quiet);
 
-  if (resolved.path.empty()) {
-    for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
-  }
   std::string statistics = stats_json(prepared.run, result.figures);
-  if (options.stats) write_file(*options.stats, statistics);
-  if (options.stats_csv) write_stats_tables(*options.stats_csv, stats_tables(result.figures));
-  if (options.report) {
-    write_file(*options.report,
-               report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
-  }
-  if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+  write_results(prepared, options, result, statistics);
   if (display) {
     display->finish(&result.picture);
-    keep_display(options.quiet, [&](const std::function<bool()>& stop) {
-      Questions questions(prepared.scene, resolved.quality, resolved.machine, session);
-      Walk(session, *display, resolved.camera, resolved.quality, questions).go(stop);
-    });
+    walk_about(prepared, session, *display, options.quiet);
   }
   return {0, std::move(statistics)};
 }
