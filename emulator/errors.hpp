@@ -33,4 +33,10 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same, and its state has been saved.
+class StateSaved : public Interrupted {
+ public:
+  using Interrupted::Interrupted;
+};
+
 }  // namespace torolux

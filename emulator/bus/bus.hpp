@@ -70,6 +70,11 @@ class Bus {
   /// Of the transfer that has ended last, or is under way.
   BusKind kind() const { return kind_; }
   const BusFigures& figures() const { return figures_; }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(requests_, room_, frame_buffer_, places_, next_, busy_, scheduled_, figures_, kind_);
+  }
 
  private:
   void see(std::uint32_t requester, Cycles now);

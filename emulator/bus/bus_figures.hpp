@@ -53,6 +53,11 @@ struct BusFigures {
   std::vector<BusTraffic> to_pe;    ///< from the host, broadcasts apart
 
   Cycles busy_cycles() const { return arbitration_cycles + data_cycles; }
+  /// For snapshots.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(arbitration_cycles, data_cycles, transfers, users, kinds, from_pe, to_pe);
+  }
 };
 
 }  // namespace torolux

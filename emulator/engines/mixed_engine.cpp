@@ -29,14 +29,23 @@ class MixedEngine final : public Engine {
     qemu_->stop();
     most_->stop();
   }
+  bool can_be_saved() const override { return qemu_->can_be_saved() && most_->can_be_saved(); }
+  void will_be_saved() override {
+    qemu_->will_be_saved();
+    most_->will_be_saved();
+  }
+  PeRegisters save(unsigned pe) override { return of(pe).save(pe); }
+  void restore(unsigned pe, const PeRegisters& registers) override { of(pe).restore(pe, registers); }
   double cpu_seconds() const override { return qemu_->cpu_seconds() + most_->cpu_seconds(); }
-  ProcessorWaker* waker(unsigned pe) override { return (on_qemu_[pe] ? qemu_ : most_)->waker(pe); }
+  ProcessorWaker* waker(unsigned pe) override { return of(pe).waker(pe); }
   /// While QEMU runs the PE in question, others may run here.
   bool help(unsigned pe, std::uint64_t wanted) override { return most_->help(pe, wanted); }
   void fetch_ahead(unsigned pe) const override { most_->fetch_ahead(pe); }
   double help_seconds() const override { return most_->help_seconds(); }
 
  private:
+  Engine& of(unsigned pe) const { return on_qemu_[pe] ? *qemu_ : *most_; }
+
   std::unique_ptr<Engine> most_, qemu_;
   std::vector<bool> on_qemu_;
 };

@@ -35,6 +35,13 @@ class FrameBufferController {
   Cycles message_cycles() const { return message_cycles_; }  ///< that messages spent here, in all
   Cycles busy_cycles() const { return busy_cycles_; }
   std::uint64_t pixels_added() const { return pixels_added_; }
+  /// After its state has been restored.
+  void tell_all_changed() { changes_.note_all(pixels_added_); }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(frame_buffer_.planes, places_used_, high_water_, free_at_, busy_cycles_, message_cycles_, pixels_added_);
+  }
 
  private:
   std::uint32_t cycles_per_pixel_, places_;

@@ -23,6 +23,12 @@ class FrameChanges {
     added_ = added;
   }
 
+  /// All of it is new; added: as in note.
+  void note_all(std::uint64_t added) {
+    last_.assign(last_.size(), added);
+    added_ = added;
+  }
+
   std::uint64_t added() const { return added_; }
   /// Of each run: `added` at its last change; 0: never. The last run may be shorter than the others.
   std::span<const std::uint64_t> last() const { return last_; }

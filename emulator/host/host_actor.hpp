@@ -49,6 +49,8 @@ class HostActor final : public HostPort {
   void start(HostClient& client);
   /// The program has finished, and the machine is empty: from now on another one, which is still to be started.
   void go_on_with(HostProgram& program, Cycles now);
+  /// Instead of that, where the program goes on.
+  void resume(HostClient& client) { client_ = &client; }
   /// A message or diverted records have come over the bus.
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
@@ -82,6 +84,12 @@ class HostActor final : public HostPort {
   std::size_t waiting_for_all() const { return behind_.size(); }
   const HostClock& clock() const { return clock_; }
   std::uint64_t records_diverted(unsigned pe) const { return lines_[pe].diverted; }
+  /// All of it that a run changes; not the program's own.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(clock_, lines_, ready_, behind_, ahead_, full_, broadcasts_made_, inbox_, stepping_, messages_read_,
+            numbers_, next_pe_);
+  }
 
  private:
   /// Slots for the first packet of a queue.

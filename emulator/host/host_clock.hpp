@@ -29,6 +29,11 @@ class HostClock {
   /// By HostWork, in the host's own cycles.
   const std::array<std::uint64_t, kHostWorks>& own_cycles() const { return own_cycles_; }
   const std::array<std::uint64_t, kHostWorks>& items() const { return items_; }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(cycles_, part_, idle_, own_cycles_, items_);
+  }
 
  private:
   std::array<std::uint64_t, kHostWorks> cost_;  // [host cycles] of an item

@@ -16,6 +16,7 @@
 #include "emulator/machine/machine.hpp"
 #include "emulator/machine/time_line.hpp"
 #include "emulator/niu/network_side.hpp"
+#include "emulator/snapshot/archive.hpp"
 #include "emulator/time/bound_tree.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/torus/torus.hpp"
@@ -33,12 +34,19 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
             HostProgram& program);
 
   /// Runs until the program has finished and the machine is empty. attend: called at least some ten times a second,
-  /// or as often as the setup's progress asks for; may throw to end the run. Throws MachineFailure.
-  void run(const std::function<void(Cycles)>& attend);
+  /// or as often as the setup's progress asks for; may throw to end the run. message_read: called after each message
+  /// that the host has read; null: nobody. Throws MachineFailure.
+  void run(const std::function<void(Cycles)>& attend, const std::function<void()>& message_read);
   /// The run has ended: time goes on with another program, which has the same kinds of records, and the same picture.
   void go_on_with(HostProgram& program);
   /// While nothing runs: the picture begins anew.
   void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
+  /// Before the run, which then goes on from what `save` of an equal machine has written. Throws InputError.
+  void restore(SnapshotReader& archive);
+  /// Waits until no PE can do more before something else happens: so much may be saved.
+  void let_rest();
+  void save(SnapshotWriter& archive);
+  bool has_failed() const { return !failure_.empty(); }
   void tell_to_stop();
   /// The run has ended: whoever watches is told the rest.
   void end_watch(Cycles end);
@@ -70,6 +78,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void count_kinds(const Block& block);
   MachineFigures network_figures(Cycles now) const;
   void fill_in_stages(MachineFigures& all, unsigned pe, const ProcessorMark& end) const;
+  template <class Archive>
+  void archive(Archive& archive);
   bool empty() const;
   std::string deadlock_report() const;
   std::string report_of(unsigned pe) const;
@@ -139,6 +149,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   double attend_seconds_;  // of wall time, from one to the next
   double last_attended_ = 0;
   double slept_ = 0;
+  bool resumed_ = false;
   Cycles now_ = 0;
   std::uint64_t trace_hash_ = 0;
   std::uint64_t messages_to_host_ = 0;  // sent so far, on their way or read
@@ -147,6 +158,11 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   struct Stage {
     std::string name;
     MachineFigures before;
+
+    template <class Archive>
+    void archive(Archive& archive) {
+      archive(name, before);
+    }
   };
   std::vector<Stage> stages_;
   bool begun_ = false;  // the program has named the first

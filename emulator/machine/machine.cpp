@@ -18,6 +18,8 @@
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
 #include "emulator/niu/state_log.hpp"
+#include "emulator/snapshot/keeper.hpp"
+#include "emulator/snapshot/memory.hpp"
 #include "emulator/trace/watcher.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
@@ -142,12 +144,43 @@ struct Machine::Parts {
     out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
                          children_seconds() - begin_children;
   }
-  void begin(HostProgram& program) {
+  void begin(HostProgram& program, SnapshotReader* from) {
+    if ((from != nullptr || setup.keeper != nullptr) && !engine->can_be_saved()) {
+      throw UsageError("a machine of the engine " + std::string(engine->name()) +
+                       " can neither be saved nor go on from what was saved");
+    }
     emulation.emplace(setup, channels, image, *engine, program);
+    if (setup.keeper != nullptr) engine->will_be_saved();
+    if (from != nullptr) restore(*from);
     begin_wall = clock_seconds(CLOCK_MONOTONIC);
     begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
     begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     begin_children = children_seconds();
+  }
+  void save(SnapshotWriter& archive) {
+    emulation->save(archive);
+    for (unsigned pe = 0; pe < pes.size(); ++pe) {
+      archive.section("PE");
+      PeRegisters registers = engine->save(pe);  // first: only then does the NIU driver know that its HINT waits
+      archive(registers);
+      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
+    }
+  }
+  void restore(SnapshotReader& archive) {
+    emulation->restore(archive);
+    for (unsigned pe = 0; pe < pes.size(); ++pe) {
+      archive.section("PE");
+      PeRegisters registers{};
+      archive(registers);
+      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
+      engine->restore(pe, registers);
+    }
+  }
+  /// After a message that the host has read.
+  void save_if_due() {
+    if (!setup.keeper->is_due() || emulation->has_failed()) return;
+    emulation->let_rest();
+    setup.keeper->keep([this](SnapshotWriter& archive) { save(archive); });
   }
   void stop_engine() {
     emulation->tell_to_stop();
@@ -194,14 +227,14 @@ std::uint64_t MachineFigures::instructions() const {
   return sum;
 }
 
-void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress, Then then) {
+void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progress, Then then, SnapshotReader* from) {
   Parts& p = *parts_;
   const bool again = p.running;
   if (p.emulation && !again) throw MachineFailure("the machine's last run has ended");
   if (again) {
     p.emulation->go_on_with(program);
   } else {
-    p.begin(program);
+    p.begin(program, from);
   }
   double last_progress = 0;
   const auto attend = [&](Cycles now) {
@@ -214,7 +247,9 @@ void Machine::run(HostProgram& program, const std::function<bool(Cycles)>& progr
   try {
     if (!again) p.engine->start();
     p.running = true;
-    p.emulation->run(attend);
+    const auto message_read = [&p] { p.save_if_due(); };
+    const bool kept = p.setup.keeper != nullptr && !again;  // the keeper knows the first program alone
+    p.emulation->run(attend, kept ? std::function<void()>(message_read) : nullptr);
   } catch (...) {
     p.stop_engine();
     throw;
@@ -246,6 +281,10 @@ const FrameBuffer& Machine::frame_buffer() const {
 
 const FrameChanges& Machine::frame_changes() const {
   return parts_->emulation ? parts_->emulation->frame_changes() : parts_->frame_changes;
+}
+
+std::span<const std::byte> Machine::local_memory(unsigned pe) const {
+  return parts_->pes.at(pe).local.bytes().first(parts_->setup.local_memory_bytes);
 }
 
 MachineFigures Machine::figures() const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ class MachineWatcher;  // emulator/trace/watcher.hpp
 class RecordWatcher;   // emulator/trace/record_watcher.hpp
 class Pacer;           // emulator/trace/pacer.hpp
 class HopWatcher;      // emulator/torus/hop_watcher.hpp
+class SnapshotKeeper;  // emulator/snapshot/keeper.hpp
+class SnapshotReader;  // emulator/snapshot/archive.hpp
 
 struct MachineSetup {
   MachineDescription description;
@@ -45,6 +48,7 @@ struct MachineSetup {
   RecordWatcher* record_watcher = nullptr;  ///< shown what packets and messages hold; likewise
   Pacer* pacer = nullptr;                   ///< holds it back, so that somebody can follow; likewise
   HopWatcher* hop_watcher = nullptr;        ///< told of each hop of packets; likewise
+  SnapshotKeeper* keeper = nullptr;         ///< given the machine's state whenever it wants that; likewise
 };
 
 struct PeFigures {
@@ -80,6 +84,11 @@ struct KindFigures {
   std::uint64_t packets = 0;  ///< that carry at least one
   std::uint64_t records = 0;
   std::uint64_t bytes = 0;  ///< of the records
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(name, packets, records, bytes);
+  }
 };
 
 struct StageFigures;
@@ -105,6 +114,12 @@ struct MachineFigures {
   std::vector<StageFigures> stages;  ///< of a run: stages of the host's program, one behind the other
 
   std::uint64_t instructions() const;  ///< of all PEs
+  /// What the network's side has counted.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(now, pes, routers, packets, link_retries, record_kinds, bus, host, frame_buffer_busy_cycles,
+            frame_buffer_high_water, frame_buffer_message_cycles, pixels_added);
+  }
 };
 
 /// The network's side, the host too, is in a stage from when the host begins it until it begins the next one; a PE,
@@ -125,8 +140,11 @@ class Machine {
   /// time goes on where it had ended, the PEs are where they were, and the program has the same kinds of records.
   /// progress: called every setup.progress_seconds, about, from the calling thread; returning false ends the run.
   /// Throws MachineFailure: trap, dead or silent PE, deadlock (with what each actor waits for), fault of the program.
+  /// from: the state of an equal machine, from which this one goes on, and so does the program; null: none. Throws
+  /// InputError where it is not one. With it, or with a keeper, the engine must be one that can be saved (UsageError).
   enum class Then : std::uint8_t { end, stay };
-  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {}, Then then = Then::end);
+  void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {}, Then then = Then::end,
+           SnapshotReader* from = nullptr);
   /// Of a machine that has stayed: no more runs. The same figures as if it had not stayed.
   void end();
   /// Of a machine that has stayed: the frame buffer is that of an empty picture. layers: as in MachineSetup.
@@ -137,6 +155,8 @@ class Machine {
   void sample(LiveFigures& figures) const;
   const FrameBuffer& frame_buffer() const;
   const FrameChanges& frame_changes() const;
+  /// For whoever looks on: its PE may be writing it.
+  std::span<const std::byte> local_memory(unsigned pe) const;
   /// Exact at a moment when nothing is in flight (between stages, at the end): a host program may ask in on_message.
   MachineFigures figures() const;
 

@@ -105,10 +105,14 @@ bool Emulation::next_event(Event& event) {
   }
 }
 
-void Emulation::run(const std::function<void(Cycles)>& attend) {
+void Emulation::run(const std::function<void(Cycles)>& attend, const std::function<void()>& message_read) {
   attend_ = attend;
-  host_.start(*this);
-  note_host_busy();
+  if (resumed_) {
+    host_.resume(*this);
+  } else {
+    host_.start(*this);
+    note_host_busy();
+  }
   Event event{};
   while (next_event(event)) {
     if (event.time < now_) {  // only a wrong bound can do that
@@ -121,6 +125,7 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
     trace_hash_ = mix(mix(trace_hash_, event.time), event.order);
     handle(event);
     end_if_failed();
+    if (message_read && event.kind == EventKind::host_step) message_read();
     if (--until_attend_ == 0) attend_now_and_then();
   }
   if (!failure_.empty()) throw MachineFailure(failure_);
@@ -129,6 +134,7 @@ void Emulation::run(const std::function<void(Cycles)>& attend) {
 }
 
 void Emulation::go_on_with(HostProgram& program) {
+  resumed_ = false;
   program_ = &program;
   host_.go_on_with(program, now_);
 }

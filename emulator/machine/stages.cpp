@@ -211,8 +211,8 @@ void Emulation::fill_in_stages(MachineFigures& all, unsigned pe, const Processor
 
 void Emulation::fill_in(MachineFigures& figures) {
   Cycles end = std::max(now_, host_.now());
+  let_rest();
   for (unsigned pe = 0; pe < pes_; ++pe) {
-    while (!at_rest(pe)) await(pe, kNever);
     end = std::max(end, nius_[pe].channel().clock.load(std::memory_order_acquire));
   }
   figures = network_figures(end);

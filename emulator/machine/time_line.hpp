@@ -34,6 +34,11 @@ class TimeLine {
 
   /// busy: of each PE.
   TimeLineFigures figures(Cycles end, const std::vector<Slices<std::uint64_t>>& busy) const;
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(packets_, bus_, frame_buffer_, host_, gauges_);
+  }
 
  private:
   struct Gauge {

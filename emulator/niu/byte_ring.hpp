@@ -81,6 +81,19 @@ class ByteRing {
   static std::span<const std::byte> payload(const Header& header) {
     return {reinterpret_cast<const std::byte*>(&header) + sizeof header, header.bytes};
   }
+  /// Calls `each` with every entry, oldest first, which all stay.
+  template <class Each>
+  void for_each(Each each) const {
+    const std::uint64_t end = written_.load(std::memory_order_acquire);
+    for (std::uint64_t at = read_.load(std::memory_order_relaxed); at != end;) {
+      std::uint64_t time = 0;
+      std::memcpy(&time, &data()[place(at)], sizeof time);
+      if (time == kSkip) at += bytes() - place(at);
+      const Header& header = *reinterpret_cast<const Header*>(&data()[place(at)]);
+      each(header);
+      at += entry_bytes(header.bytes);
+    }
+  }
   /// Removes the entry that `front` gave.
   void pop(const Header& header) {
     read_.store(read_.load(std::memory_order_relaxed) + entry_bytes(header.bytes), std::memory_order_release);

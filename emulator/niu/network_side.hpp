@@ -10,6 +10,7 @@
 #include "emulator/description/description.hpp"
 #include "emulator/host/host_queue.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/niu/channel_archive.hpp"
 #include "emulator/niu/state_log.hpp"
 #include "emulator/niu/waker.hpp"
 #include "emulator/time/bound_tree.hpp"
@@ -139,6 +140,14 @@ class alignas(64) NiuNetworkSide {
   void finish_states(Cycles end);
 
   const NiuChannel& channel() const { return *channel_; }
+  /// All that a run changes on both sides of the NIU; only while the processor waits, and as of the last refresh.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(slots_, used_, high_water_, receiving_, receiving_high_water_, asked_, bus_buffer_used_, copy_free_,
+            copy_in_cycles_, floor_, bound_, wait_, taken_, wakes_, stage_, gathered_, overflow_, horizon_,
+            departed_torus_, departed_bus_, sends_, control_used_);
+    archive_channel(archive, *channel_);
+  }
   /// Whether all that was delivered has been taken, as of the last refresh.
   bool nothing_gathered() const { return gathered_.empty(); }
 

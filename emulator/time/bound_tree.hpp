@@ -46,6 +46,11 @@ class BoundTree {
       if (winner_[i] == before && before != index) return;
     }
   }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(bound_, winner_);
+  }
 
  private:
   void play(std::size_t node) {

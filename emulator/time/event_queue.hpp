@@ -92,6 +92,12 @@ class EventQueue {
     if (popped_ == opened_.size()) close();
     return result;  // still there
   }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(lists_, filled_, nodes_, free_, open_, now_, span_, near_, later_least_, heap_least_, popped_, opened_,
+            later_, later_filled_, heap_, sequence_);
+  }
 
  private:
   static constexpr std::size_t kWindow = 2 * kSpan;

@@ -28,6 +28,11 @@ class Fifo {
   std::size_t capacity() const { return values_.capacity(); }
   /// Oldest first.
   std::span<const T> inside() const { return std::span(values_).subspan(first_); }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(values_, first_);
+  }
 
  private:
   static constexpr std::size_t kLeastMoved = 64;

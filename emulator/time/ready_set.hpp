@@ -29,6 +29,11 @@ class ReadySet {
     const std::size_t found = first_at_or_after(from);
     return found != kNobody ? found : first_at_or_after(0);
   }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(bits_, filled_);
+  }
 
  private:
   using Words = std::vector<std::uint64_t>;

@@ -100,9 +100,34 @@ class BlockPool {
   void fetch_ahead(BlockIndex index) const { __builtin_prefetch(&(*this)[index], 1); }
   void give_back(BlockIndex index) { free_.push_back(index); }
   std::size_t in_use() const { return chunks_.size() * kChunk - free_.size(); }
+  /// All of it that a run changes: of the data, only what is payload.
+  template <class Archive>
+  void archive(Archive& archive) {
+    std::uint64_t chunks = chunks_.size();
+    archive(chunks, free_);
+    if constexpr (Archive::kReads) {
+      chunks_.clear();
+      for (std::uint64_t i = 0; i < chunks && i * kChunk <= kNoBlock - kChunk; ++i) {
+        chunks_.push_back(std::make_unique<Block[]>(kChunk));
+        archive_chunk(archive, chunks_.back()[0]);
+      }
+    } else {
+      for (auto& chunk : chunks_) archive_chunk(archive, chunk[0]);
+    }
+  }
 
  private:
   static constexpr BlockIndex kChunk = 64;
+
+  /// first: of kChunk.
+  template <class Archive>
+  static void archive_chunk(Archive& archive, Block& first) {
+    for (Block& block : std::span(&first, kChunk)) {
+      archive.bytes(std::as_writable_bytes(std::span(&block, 1)).first(offsetof(Block, data)));
+      if (block.bytes > kMostBlockBytes) block.bytes = 0;
+      archive.bytes(std::span(block.data).first(block.bytes));
+    }
+  }
 
   void grow() {
     const auto first = static_cast<BlockIndex>(chunks_.size() * kChunk);

@@ -62,6 +62,12 @@ struct PacketFigures {
     ++by_records[count];
     bytes_by_records[count] += bytes;
   }
+  /// For snapshots.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(by_hops, bytes_by_hops, by_latency, by_records, bytes_by_records, packets, latency_sum, latency_most, hops,
+            wasted_hops);
+  }
 
   bool operator==(const PacketFigures&) const = default;
 };

@@ -17,6 +17,11 @@ class LinkFaults {
   /// Copies that fail before the one that arrives whole. Throws MachineFailure if a CRC does not notice.
   std::uint32_t bad_copies(const Block& block);
   std::uint64_t retries() const { return retries_; }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(retries_);
+  }
 
  private:
   std::uint32_t error_threshold_;  // of 2^32

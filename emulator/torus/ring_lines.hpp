@@ -35,6 +35,11 @@ class RingLines {
   bool handle(const Event& event) {
     return lines_[line(event.actor, static_cast<Port>(event.port))].seen = event.block != 0;
   }
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(lines_);
+  }
 
  private:
   struct Line {

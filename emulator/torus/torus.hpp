@@ -84,6 +84,11 @@ class Torus {
   void check_slots() const;
   /// One line for each router that holds packets; at most `most` of them.
   std::string report(unsigned most) const;
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(faults_, lines_, routers_, return_times_, packet_figures_, inside_);
+  }
 
  private:
   static constexpr Cycles kNotYet = ~Cycles{0};

@@ -20,7 +20,7 @@ struct Tiles {
   std::uint32_t first = 0;  ///< of `place`: the current one
   std::uint32_t held = 0;   ///< from there on, going round
   // Of the current one: the next ray to make.
-  std::uint32_t column = 0, row = 0;  ///< in the tile
+  std::uint32_t column = 0, row = 0;   ///< in the tile
   std::uint32_t sample = 0, made = 0;  ///< the sample, and how many of the pixel's came before it in this pass
   protocol::CameraPixel pixel{};
   // Of all rays of the pass (protocol::View); the first of a stage takes all samples.

@@ -26,6 +26,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_debugging_options(command, options.debugging, heading(OptionGroup::machine));
   add_trace_options(command, options.trace, TracedRun::render, "Trace");
   add_display_options(command, options.display, "Display");
+  add_checkpoint_options(command, options.checkpoint, "Saving and going on");
 }
 
 RenderOptions parse_render_options(const std::vector<std::string>& words) {

@@ -11,6 +11,7 @@
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
+#include "host_tools/cli/growing_options.hpp"
 #include "host_tools/cli/measured_speed.hpp"
 #include "host_tools/cli/path_frames.hpp"
 #include "host_tools/cli/prepared_render.hpp"
@@ -54,6 +55,9 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
   add("--save-radiosity", options.save_radiosity);
   add("--save-mesh", options.save_mesh);
   add("--trace", options.trace.file);
+  add("--checkpoint", options.checkpoint.file);
+  if (const auto& file = options.checkpoint.file)
+    written.push_back({"the picture so far of --checkpoint", std::filesystem::path(*file).concat(".png")});
   std::vector<NamedFile> read;
   for (const InputFile& input : prepared.run.inputs.files) read.push_back({"a file that is read", input.path});
   if (options.machine) read.push_back({"--machine", *options.machine});
@@ -71,11 +75,27 @@ void check_results_writable(const Resolved& resolved, const RenderOptions& optio
   if (options.report) check_file_writable(*options.report);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
   if (options.save_mesh) check_file_writable(*options.save_mesh);
+  if (options.checkpoint.file) check_file_writable(*options.checkpoint.file);
+}
+
+/// What tells of a run from its beginning cannot begin in its midst.
+void check_told_whole(const RenderOptions& options) {
+  if (!options.checkpoint.resume) return;
+  if (options.trace.file || options.follow)
+    throw UsageError("--trace and --follow tell of a whole run: not of one that goes on by --resume");
 }
 
 void print_notes(const std::vector<std::string>& notes, bool quiet) {
   if (quiet) return;
   for (const std::string& note : notes) std::cerr << "torolux: note: " << note << "\n";
+}
+
+/// Where it is interrupted, its state has been saved.
+void tell_of_checkpoint(const RenderOptions& options) {
+  if (options.checkpoint.file)
+    print_notes({"the state is in " + options.checkpoint.file->string() + "; the same with --resume " +
+                 options.checkpoint.file->string() + " goes on"},
+                options.quiet);
 }
 
 std::unique_ptr<Display> display_of(const PreparedRender& prepared, const RenderOptions& options) {
@@ -85,17 +105,22 @@ std::unique_ptr<Display> display_of(const PreparedRender& prepared, const Render
                                         resolved.quality.height, resolved.tone});
 }
 
-/// A render while it goes on, as terminal and display (null: none) show it. False: it is to end.
+/// A render while it goes on, as terminal, display and growing picture (null: none) show it. False: it is to end.
 class Shown {
  public:
-  Shown(const Resolved& resolved, const RenderOptions& options, Display* display)
+  Shown(const Resolved& resolved, const RenderOptions& options, Display* display, GrowingPicture* growing)
       : line_(std::cerr, !options.quiet && ::isatty(STDERR_FILENO) == 1,
               resolved.machine.description.processor.clock_hertz, options.verbose),
-        display_(display) {}
+        display_(display),
+        growing_(growing) {}
 
   bool show(const RenderProgress& progress) {
-    if (interrupted()) return false;
+    if (interrupted()) {
+      if (display_ != nullptr) display_->pace().go_free();  // it may have to go on until its state can be saved
+      return false;
+    }
     line_.show(progress);
+    if (growing_ != nullptr) growing_->show(progress);
     return display_ == nullptr || display_->show(progress);
   }
   /// Of a path.
@@ -109,6 +134,7 @@ class Shown {
  private:
   ProgressLine line_;
   Display* display_;
+  GrowingPicture* growing_;
 };
 
 /// The first picture, and those of a path behind it.
@@ -127,11 +153,17 @@ void finish_trace(TraceFile& trace, bool quiet) {
   if (!trace.note().empty()) print_notes({trace.note()}, quiet);
 }
 
+void finish_growing(GrowingPicture& growing, const RenderResult& result, bool quiet) {
+  const std::string note = growing.finish(result.picture, result.layers);
+  if (!note.empty()) print_notes({note}, quiet);
+}
+
 }  // namespace
 
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   Resolved& resolved = prepared.resolved;
   resolved.machine.debugging.listens = announce_debugger(firmware_image());
+  check_told_whole(options);
   check_results_distinct(prepared, options);
   check_results_writable(resolved, options);
   print_notes(prepared.scene.warnings, options.quiet);
@@ -141,13 +173,21 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
+  resolved.files.checkpoint = checkpoint_choice(options.checkpoint, prepared.run);
+  if (const auto& file = options.checkpoint.file) {
+    resolved.files.picture_so_far = [&resolved, so_far = std::filesystem::path(*file).concat(".png")](
+                                        const Picture& picture) { write_layers(picture, {}, so_far, resolved.tone); };
+  }
+  const auto from = checkpoint_to_resume(options.checkpoint, prepared.run);
+  resolved.files.resume = from.get();
   const auto display = display_of(prepared, options);
   if (display) {
     resolved.machine.progress_seconds = DisplayFeed::kUpdateSeconds;
     resolved.machine.pacer = &display->pace();
     resolved.machine.hop_watcher = &display->pace();
   }
-  Shown shown(resolved, options, display.get());
+  const auto growing = growing_picture(options.growing, prepared.run.scene, resolved);
+  Shown shown(resolved, options, display.get(), growing.get());
   const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
   RenderSession session(prepared.scene, resolved.camera, resolved.quality, resolved.machine, resolved.files,
                         firmware_image(), show);
@@ -160,9 +200,10 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (story) {
     for (const std::string& line : story->lines()) std::cout << line << "\n";
   }
-  remember_speed(resolved.machine, result.figures);
+  if (!from) remember_speed(resolved.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
+  if (growing) finish_growing(*growing, result, options.quiet);
 
   if (resolved.path.empty()) {
     for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
@@ -193,7 +234,12 @@ void add_render_command(CLI::App& app, CommandAction& action) {
   command->callback([options, &action] {
     action = [options] {
       PreparedRender prepared = prepare_render(*options);
-      return run_prepared(prepared, *options).exit_code;
+      try {
+        return run_prepared(prepared, *options).exit_code;
+      } catch (const StateSaved&) {
+        tell_of_checkpoint(*options);
+        return kInterrupted;
+      }
     };
   });
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
+#include "host_tools/cli/growing_options.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/cli/table_options.hpp"
 #include "host_tools/picture/picture.hpp"
@@ -79,6 +80,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
   path("--save-mesh", "The solved elements with the radiosity at their corners, as .ply", options.save_mesh);
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",
        options.radiosity);
+  add_growing_options(command, options.growing, group);
   command.add_flag("--quiet", options.quiet, "No progress, no notes, no summary; errors only")->group(group);
   command.add_flag("--verbose", options.verbose, "Progress tells of credits, too")->group(group);
 }

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "emulator/engines/engine/debugging.hpp"
+#include "host_tools/cli/checkpoint_options.hpp"
 #include "host_tools/cli/display_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/trace_options.hpp"
+#include "host_tools/growing_picture/growing_picture.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/given_settings.hpp"
 #include "host_tools/settings/presets.hpp"
@@ -37,8 +39,10 @@ struct RenderOptions {
   std::vector<std::filesystem::path> outputs;
   bool no_picture = false;
   std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
+  GrowingPictureChoice growing;
   TraceOptions trace;
   DisplayOptions display;
+  CheckpointOptions checkpoint;
   std::optional<FollowTarget> follow;
   bool quiet = false, verbose = false;
 

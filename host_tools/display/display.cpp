@@ -2,6 +2,7 @@
 // Progress as JSON; commands that are the display's own are obeyed.
 #include "host_tools/display/display.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "emulator/errors.hpp"
@@ -14,6 +15,9 @@ namespace {
 
 constexpr std::size_t kMostTexts = 200;
 constexpr std::chrono::milliseconds kPatience{100};
+/// Of the time, for the view of the radiosity stage; and from one to the next, at least.
+constexpr double kViewShare = 0.01;
+constexpr std::chrono::milliseconds kViewPeriod{250};
 
 std::string text_of(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -33,7 +37,8 @@ nlohmann::json json_of(const DisplayedRun& run) {
 
 }  // namespace
 
-Display::Display(const DisplayAddress& where, const DisplayedRun& run) : server_(where, state_, commands_) {
+Display::Display(const DisplayAddress& where, const DisplayedRun& run)
+    : width_(run.width), height_(run.height), server_(where, state_, commands_) {
   feed_.describe(json_of(run));
   if (run.width > 0) feed_.begin_picture(run.width, run.height, "frame_buffer");
   put_progress({{"state", "preparing"}});
@@ -60,7 +65,10 @@ bool Display::obey() {
 }
 
 void Display::obey(const DisplayCommand& command) {
-  if (command.name == "end") ended_ = true;
+  if (command.name == "end") {
+    ended_ = true;
+    pace_.go_free();
+  }
   if (command.name == "ask") command.answer->give(R"({"error": "there are answers once a picture is rendered"})");
   if (command.name != "pace") return;
   try {
@@ -84,8 +92,7 @@ bool Display::show(const RenderProgress& progress) {
   if (!obey()) return false;
   if (!feed_.due() || progress.running == nullptr) return true;
   const RunningRender& running = *progress.running;
-  if (machine_ != &running.machine) feed_.begin_machine();
-  machine_ = &running.machine;
+  if (machine_ != running.number) feed_.begin_machine();
   if (!machine_begin_) machine_begin_ = Clock::now();
   const double spent = std::chrono::duration<double>(Clock::now() - *machine_begin_).count();
   progress_ = {{"state", "running"},
@@ -99,9 +106,38 @@ bool Display::show(const RenderProgress& progress) {
                {"credits_total", progress.credits_total},
                {"virtual_time", progress.virtual_time},
                {"elapsed", elapsed()}};
+  show_radiosity(running, progress.stage);
   feed_.update(running.machine, running.setup.radiance_per_quantum(), text_of(progress_));
   put_packets();
   return true;
+}
+
+void Display::begin_frame_buffer() {
+  if (!shows_radiosity_) return;
+  shows_radiosity_ = false;
+  radiosity_.reset();
+  feed_.begin_picture(width_, height_, "frame_buffer");
+}
+
+/// As long as there is nothing in the frame buffer.
+void Display::show_radiosity(const RunningRender& running, RenderStage stage) {
+  // Another machine has another mesh; what has been shown of the last one stays until there is something of this one.
+  if (machine_ != running.number) radiosity_.reset();
+  machine_ = running.number;
+  if (stage == RenderStage::ray_tracing) begin_frame_buffer();
+  if (stage != RenderStage::radiosity) return;
+  if (!radiosity_) {
+    radiosity_.emplace(running);
+    shows_radiosity_ = true;
+    feed_.begin_picture(radiosity_->width(), radiosity_->height(), "radiosity");
+  }
+  radiosity_->work(running, kViewShare * DisplayFeed::kUpdateSeconds);
+  const Clock::time_point begin = Clock::now();
+  if (begin < next_view_) return;
+  feed_.show(radiosity_->picture(running));
+  const Clock::time_point end = Clock::now();
+  next_view_ =
+      std::max(begin + kViewPeriod, end + std::chrono::duration_cast<Clock::duration>((end - begin) / kViewShare));
 }
 
 bool Display::show(const Machine& machine, Cycles now) {
@@ -120,6 +156,7 @@ void Display::say(const PeText& text) {
 }
 
 void Display::finish(const Picture* picture) {
+  begin_frame_buffer();
   if (picture != nullptr) feed_.show(*picture);
   feed_.rest();
   nlohmann::json progress = progress_;

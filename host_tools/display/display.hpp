@@ -13,6 +13,7 @@
 #include "host_tools/display/display_feed.hpp"
 #include "host_tools/display/display_server.hpp"
 #include "host_tools/display/pace.hpp"
+#include "host_tools/display/radiosity_view.hpp"
 #include "host_tools/render/render.hpp"
 #include "host_tools/run/run.hpp"
 
@@ -64,6 +65,8 @@ class Display {
   using Clock = std::chrono::steady_clock;
 
   void put_progress(nlohmann::json progress);
+  void begin_frame_buffer();
+  void show_radiosity(const RunningRender& running, RenderStage stage);
   bool obey();
   void put_packets();
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
@@ -76,7 +79,11 @@ class Display {
   DisplayFeed feed_{state_};
   std::deque<std::string> texts_;
   std::optional<Clock::time_point> machine_begin_;
-  const Machine* machine_ = nullptr;
+  unsigned machine_ = 0;                    // RunningRender::number
+  std::uint32_t width_, height_;            // of the frame buffer
+  std::optional<RadiosityView> radiosity_;  // in place of that, until the ray tracing stage begins
+  bool shows_radiosity_ = false;
+  Clock::time_point next_view_{};
   nlohmann::json progress_;  // as last told
   bool ended_ = false;       // as a page has asked
   DisplayServer server_;     // last: its threads end first

@@ -31,7 +31,7 @@ constexpr int kMostLooksAtEnd = 100;
 class Server final : public httplib::Server {
  public:
   Server() {
-    new_task_queue = [] { return new ConnectionThreads; };  // httplib owns it
+    new_task_queue = [] { return std::make_unique<ConnectionThreads>().release(); };  // httplib owns it
     // Not SO_REUSEPORT, which httplib sets: two servers would share a port.
     set_socket_options([](socket_t socket) {
       const int yes = 1;

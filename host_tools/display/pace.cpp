@@ -39,9 +39,7 @@ void Pace::obey(const nlohmann::json& values, Clock::time_point now) {
   const auto speed = values.find("speed");
   if (speed == values.end()) throw InputError("pace: there is neither speed nor step");
   if (*speed == "free") {
-    free_ = true;
-    hops_.clear();
-    return;
+    return go_free();
   }
   if (!speed->is_number() || !(speed->get<double>() >= 0 && speed->get<double>() <= kMostSpeed)) {
     throw InputError("speed: allowed are \"free\" and 0 to 1e12 cycles in a second");
@@ -49,6 +47,11 @@ void Pace::obey(const nlohmann::json& values, Clock::time_point now) {
   speed_ = speed->get<double>();
   steps_ = false;
   free_ = false;
+}
+
+void Pace::go_free() {
+  free_ = true;
+  hops_.clear();
 }
 
 /// Between the last event and the next one.

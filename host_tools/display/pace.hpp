@@ -44,6 +44,7 @@ class Pace final : public Pacer, public HopWatcher {
   /// InputError.
   void obey(const nlohmann::json& values, Clock::time_point now = Clock::now());
   void stand() { free_ = false; }  ///< before the run's first event
+  void go_free();
   bool is_free() const { return free_; }
 
   bool lets(Cycles next) override {

@@ -72,9 +72,11 @@ void Inspector::find_place(const ElementPlace& place, ElementAnswer& answer) con
   answer.subspace = of_.setup.placement.grid.cell(home.cell);
   const Placement& rays = of_.setup.ray_placement;
   for (const std::uint32_t polygon : polygons) {
-    const std::uint32_t first = mesh.triangles[polygon].first_part;
-    for (std::uint32_t part = first; part < mesh.parts.size() && mesh.parts[part].patch == place.patch; ++part)
-      if (rays.has_keeper(part)) answer.keeper = rays.keeper_of_part[part];
+    const MeshTriangle& triangle = mesh.triangles[polygon];
+    for (std::uint32_t i = 0; i < 1U << (2U * triangle.patch_level); ++i) {
+      const std::uint32_t part = triangle.first_part + i;
+      if (mesh.parts[part].patch == place.patch && rays.has_keeper(part)) answer.keeper = rays.keeper_of_part[part];
+    }
   }
 }
 

@@ -33,6 +33,7 @@ std::vector<std::string> words_of(const std::string& name, const std::string& fo
   }
   if (name == "--quality") {
     std::vector<std::string> words;
+    words.reserve(kPresets.size());
     for (const Preset& preset : kPresets) words.emplace_back(preset.name);
     return words;
   }

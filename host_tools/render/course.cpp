@@ -28,9 +28,14 @@ Course::Course(const Quality& quality, bool radiosity_given)
 }
 
 void Course::begin_machine() {
+  ++machines_;
   if (is_draft_) before_ += of_draft_;
   is_draft_ = drafts_left_ > 0;
   if (is_draft_) --drafts_left_;
+}
+
+void Course::skip_machines(unsigned machines) {
+  for (unsigned i = 0; i < machines && drafts_left_ > 0; ++i) begin_machine();
 }
 
 double Course::share(const RenderProgress& progress) {

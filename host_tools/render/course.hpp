@@ -14,6 +14,9 @@ class Course {
 
   /// Another machine begins: the next draft's, or after the last of them the one that makes the picture.
   void begin_machine();
+  /// So many have run before, in another process.
+  void skip_machines(unsigned machines);
+  unsigned machines() const { return machines_; }  ///< that have begun
   /// 0..1, of the work of all machines: the present one's stages by their own shares. Rough: what a stage takes is
   /// foretold from the number of records and rays that the quality asks for.
   double share(const RenderProgress& progress);
@@ -24,6 +27,7 @@ class Course {
   double all_;
   unsigned drafts_left_;
   bool is_draft_ = false;
+  unsigned machines_ = 0;
   double before_ = 0;  ///< work of the machines that have ended
   bool radiosity_over_;
   double share_ = 0;

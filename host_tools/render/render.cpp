@@ -2,44 +2,21 @@
 // One render from scene to picture, and views of the solved scene after it.
 #include "host_tools/render/render.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <utility>
 
 #include "emulator/errors.hpp"
-#include "firmware/protocol/random.hpp"
-#include "host_tools/irradiance/refine.hpp"
-#include "host_tools/render/course.hpp"
+#include "host_tools/render/drafts.hpp"
 #include "host_tools/render/frame_layers.hpp"
-#include "host_tools/render/running_render.hpp"
+#include "host_tools/render/machines.hpp"
 #include "host_tools/render/session.hpp"
-#include "host_tools/setup/advice.hpp"
 #include "host_tools/setup/record_follower.hpp"
-#include "host_tools/setup/setup.hpp"
 #include "host_tools/solution/ply_file.hpp"
 #include "host_tools/solution/radiosity_file.hpp"
-#include "host_tools/stages/render_program.hpp"
 #include "host_tools/stages/view_program.hpp"
 
 namespace torolux {
 namespace {
-
-MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, const MachineChoice& choice) {
-  MachineSetup machine;
-  machine.description = choice.description;
-  machine.columns = choice.columns;
-  machine.rows = choice.rows;
-  machine.local_memory_bytes = *setup.memory;
-  machine.engine = choice.engine;
-  machine.debugging = choice.debugging;
-  machine.threads = choice.threads;
-  machine.frame_width = quality.width;
-  machine.frame_height = quality.height;
-  machine.frame_layers = quality.layers;
-  machine.progress_seconds = choice.progress_seconds;
-  return machine;
-}
 
 void add_figures(const RenderProgram& program, const Machine& machine, const RenderSetup& setup,
                  RenderFigures& figures) {
@@ -64,31 +41,6 @@ void add_figures(const RenderProgram& program, const Machine& machine, const Ren
   figures.ray_tracing_copies = setup.ray_tracing_copies;
 }
 
-RenderSetup fitting_setup(const Scene& scene, const Camera& camera, const Quality& quality,
-                          const MachineChoice& machine, const Image& image, const std::vector<Split>& splits) {
-  RenderSetup setup = make_setup(scene, camera, quality, machine, image, splits);
-  if (!setup.memory) throw InputError(does_not_fit(scene, camera, quality, machine, image, splits, setup));
-  return setup;
-}
-
-/// setup: outlives the job.
-RenderJob job_of(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
-                 const RenderSetup& setup, bool radiosity_only) {
-  return {scene,
-          setup,
-          radiosity_settings(scene, setup, quality),
-          CameraRays(camera, setup.mesh.space, quality.width, quality.height,
-                     PixelSamples(quality.filter, quality.samples, setup.parameters.seed), setup.parameters.seed),
-          {setup.credits,
-           quality.width,
-           quality.height,
-           quality.samples,
-           {0, quality.samples, 1},
-           machine.skip_empty_subspaces},
-          std::nullopt,
-          radiosity_only};
-}
-
 /// A file whose flux does not add up is the file's fault, not the machine's.
 void check_balance(const std::filesystem::path& file, const Scene& scene, const RenderSetup& setup,
                    const Solution& solution) {
@@ -97,56 +49,6 @@ void check_balance(const std::filesystem::path& file, const Scene& scene, const 
   } catch (const MachineFailure& failure) {
     throw InputError(file.string() + ": damaged: " + failure.what());
   }
-}
-
-/// Runs one machine of a render after the other, and tells how far they all are.
-struct Watch {
-  Course& course;
-  const std::function<bool(const RenderProgress&)>& progress;
-
-  void run(Machine& machine, RenderProgram& program, const RenderSetup& setup, bool draft,
-           Machine::Then then = Machine::Then::end) const {
-    course.begin_machine();
-    const RunningRender running{machine, program, setup, draft};
-    const auto tell = [&](Cycles now) {
-      if (!progress) return true;
-      RenderProgress present = program.progress(now);
-      present.running = &running;
-      present.overall = course.share(present);
-      return progress(present);
-    };
-    machine.run(program, tell, then);
-  }
-};
-
-/// Where the mesh needs more elements. Absent: stopped by `progress`.
-std::optional<std::vector<Split>> draft_splits(const Scene& scene, const Camera& camera, const Quality& full,
-                                               const MachineChoice& choice, const Image& image, const Watch& watch,
-                                               RenderFigures& figures) {
-  const Quality quality = draft_of(full);
-  std::vector<Split> splits;
-  std::uint64_t more = 0;
-  for (std::uint32_t round = 0; round < kDraftRounds; ++round) {
-    RenderSetup setup = fitting_setup(scene, camera, quality, choice, image, splits);
-    DraftLight light;
-    for (std::uint32_t half = 0; half < light.flux.size(); ++half) {
-      setup.parameters.seed = protocol::hash_combine(machine_seed(full.seed), 2 * round + half);
-      RenderProgram program(job_of(scene, camera, quality, choice, setup, true));
-      Machine torolux(machine_setup(setup, quality, choice), image);
-      watch.run(torolux, program, setup, true);
-      if (!program.finished()) return std::nullopt;
-      figures.draft_cycles += program.times().read;
-      figures.draft_records += program.solution()->tally.rays;
-      light.flux[half] = incident_flux(*program.solution(), full.shadow_rays);
-      light.of_record = flux_of_record(*program.solution());
-    }
-    if (round == 0) more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDraftRounds;
-    std::vector<Split> chosen = choose_splits(setup.mesh, scene, light, more);
-    std::vector<Split> all;
-    std::set_union(splits.begin(), splits.end(), chosen.begin(), chosen.end(), std::back_inserter(all));
-    splits = std::move(all);
-  }
-  return splits;
 }
 
 /// What a machine tells the one watcher that it has is told whoever follows a record now.
@@ -183,14 +85,7 @@ struct RenderSession::Parts {
   std::optional<Machine> machine;
   std::optional<Solution> solved;
 
-  std::optional<std::vector<Split>> splits_for(const std::optional<SavedRadiosity>& saved, const Watch& watch,
-                                               RenderFigures& figures) const {
-    if (saved) return saved->splits;
-    if (quality.refine <= 0) return std::vector<Split>{};
-    return draft_splits(scene, camera, quality, choice, image, watch, figures);
-  }
-
-  MachineSetup of_picture(Machine::Then then) {
+  MachineSetup of_picture(Machine::Then then, SnapshotKeeper* keeper) {
     MachineSetup machine_setup = torolux::machine_setup(*setup, quality, choice);
     machine_setup.watcher = choice.watcher;
     machine_setup.record_watcher = choice.follower;
@@ -198,6 +93,7 @@ struct RenderSession::Parts {
     if (then == Machine::Then::stay) machine_setup.record_watcher = &relay;
     machine_setup.pacer = choice.pacer;
     machine_setup.hop_watcher = choice.hop_watcher;
+    machine_setup.keeper = keeper;
     return machine_setup;
   }
 
@@ -234,16 +130,23 @@ RenderResult RenderSession::run(Machine::Then then) {
   };
   const auto begin = Clock::now();
   RenderResult result;
-  Course course(p.quality, p.files.radiosity.has_value());
-  const Watch watch{course, p.progress};
   std::optional<SavedRadiosity> saved;
+  Drafts drafts;
   if (p.files.radiosity) {
     saved = read_radiosity(*p.files.radiosity);
     check_radiosity(*saved, p.scene, p.quality);
+    drafts.splits = saved->splits;
   }
-  const auto splits = p.splits_for(saved, watch, result.figures);
-  if (!splits) return result;
-  const RenderSetup& setup = p.setup.emplace(fitting_setup(p.scene, p.camera, p.quality, p.choice, p.image, *splits));
+  drafts.over = saved || p.quality.refine <= 0;
+  if (p.files.resume != nullptr) p.files.resume->state()(drafts);
+  std::optional<CheckpointKeeper> keeper;
+  if (p.files.checkpoint.file) keeper.emplace(p.files.checkpoint);
+  Watch watch(Course(p.quality, saved.has_value()), drafts, keeper ? &*keeper : nullptr, p.files.resume, p.progress);
+  if (!drafts.over && !solve_drafts(p.scene, p.camera, p.quality, p.choice, p.image, watch, drafts)) return result;
+  result.figures.draft_cycles = drafts.cycles;
+  result.figures.draft_records = drafts.records;
+  const RenderSetup& setup =
+      p.setup.emplace(fitting_setup(p.scene, p.camera, p.quality, p.choice, p.image, drafts.splits));
   RenderJob job = job_of(p.scene, p.camera, p.quality, p.choice, setup, false);
   const RadiosityOrigin origin = radiosity_origin(p.scene, p.quality, setup.mesh);
   if (saved) {
@@ -253,19 +156,25 @@ RenderResult RenderSession::run(Machine::Then then) {
 
   RenderProgram program(std::move(job));
   if (p.choice.follower != nullptr) p.choice.follower->begin(p.scene, setup, p.quality, p.choice);
-  Machine& machine = p.machine.emplace(p.of_picture(then), p.image);
+  Machine& machine = p.machine.emplace(p.of_picture(then, watch.keeper()), p.image);
   const auto run_begin = Clock::now();
-  watch.run(machine, program, setup, false, then);
+  try {
+    watch.run(machine, program, setup, false, then);
+  } catch (const StateSaved&) {
+    const bool traces_rays = program.progress(0).stage == RenderStage::ray_tracing;
+    if (p.files.picture_so_far && traces_rays) p.files.picture_so_far(picture_of(machine.frame_buffer(), setup));
+    throw;
+  }
   result.figures.run_seconds = seconds_since(run_begin);
 
   result.notes = setup.notes;
   add_figures(program, machine, setup, result.figures);
-  result.figures.splits = splits->size();
+  result.figures.splits = drafts.splits.size();
   result.figures.wall_seconds = seconds_since(begin);
   if (!program.finished()) return result;  // stopped by `progress`
   result.figures.energy = balance(p.scene, setup.mesh, setup.units, *program.solution());
   if (!p.files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
-  p.write_files(origin, *splits, *program.solution());
+  p.write_files(origin, drafts.splits, *program.solution());
   p.take_picture(result);
   p.solved = program.take_solution();
   return result;

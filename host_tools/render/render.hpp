@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
+#include "host_tools/checkpoint/checkpoint_file.hpp"
+#include "host_tools/checkpoint/keeper.hpp"
 #include "host_tools/layout/copies.hpp"
 #include "host_tools/picture/layers.hpp"
 #include "host_tools/picture/picture.hpp"
@@ -66,6 +68,11 @@ struct RenderFiles {
   std::optional<std::filesystem::path> save_radiosity;
   std::optional<std::filesystem::path> save_mesh;  ///< PLY with all light, whatever the picture takes from shadow rays
   std::optional<std::filesystem::path> radiosity;  ///< skip the radiosity stage
+  CheckpointChoice checkpoint = {};                ///< what is kept of the run meanwhile
+  /// Called where the run ends by Ctrl-C while rays are traced, after its state has been saved: the picture as far as
+  /// it is; black where it is not. Null: nobody wants it.
+  std::function<void(const Picture&)> picture_so_far = {};
+  CheckpointReader* resume = nullptr;  ///< go on from there; of a run with the same settings
 };
 
 /// Before anything has run.

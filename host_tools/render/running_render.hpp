@@ -12,7 +12,8 @@ struct RunningRender {
   const Machine& machine;  ///< another one for each draft, and for the picture
   const RenderProgram& program;
   const RenderSetup& setup;
-  bool draft;  ///< it solves a draft: no picture comes of it
+  bool draft;       ///< it solves a draft: no picture comes of it
+  unsigned number;  ///< of the machine among those of the render, from 1
 };
 
 }  // namespace torolux

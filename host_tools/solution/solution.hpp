@@ -32,6 +32,11 @@ struct Solution {
   protocol::Flux emitted_shot{};        ///< flux of all shots of emitted light
   protocol::Flux reflected_shot{};      ///< flux of all shots of reflected light
   std::uint64_t shots = 0;
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(elements, sides, tally, emitted_shot, reflected_shot, shots);
+  }
 };
 
 /// [W], R G B.

@@ -34,6 +34,10 @@ class CreditPool {
   void feed(HostPort& port);
   /// For the time line.
   void note(HostPort& port) const;
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(home_, hungry_);
+  }
 
  private:
   void grant(HostPort& port, PeNumber pe, std::uint64_t credits);

@@ -83,6 +83,11 @@ void LoadPhase::start(HostPort& port) {
   while (started_ < std::min(pes_, at_once)) load(port, static_cast<PeNumber>(started_++));
 }
 
+void LoadPhase::restore(SnapshotReader& archive) {
+  archive(started_, ready_);
+  for (unsigned pe = 0; pe < pes_; ++pe) layouts_.push_back(loads_.layout(static_cast<PeNumber>(pe)));
+}
+
 void LoadPhase::on_message(HostPort& port, PeNumber source, protocol::MessageKind kind, std::span<const std::byte>) {
   if (kind != protocol::MessageKind::ready) unexpected(source, kind, "loading");
   ++ready_;

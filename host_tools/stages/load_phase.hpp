@@ -30,6 +30,8 @@ class LoadPhase : public Phase {
                   std::span<const std::byte> contents) override;
   bool done() const override { return ready_ == pes_; }
   const char* waiting_for() const override { return "PEs to be loaded"; }
+  void save(SnapshotWriter& archive) override { archive(started_, ready_); }
+  void restore(SnapshotReader& archive) override;
   double fraction() const { return static_cast<double>(ready_) / pes_; }
 
  private:

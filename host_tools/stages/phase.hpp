@@ -11,6 +11,7 @@
 
 #include "emulator/errors.hpp"
 #include "emulator/host/host_program.hpp"
+#include "emulator/snapshot/archive.hpp"
 #include "firmware/protocol/messages.hpp"
 
 namespace torolux {
@@ -24,6 +25,9 @@ class Phase {
                           std::span<const std::byte> contents) = 0;
   virtual bool done() const = 0;
   virtual const char* waiting_for() const = 0;
+  /// All that changes after it has been made: it goes on, instead of being started, from what another one has saved.
+  virtual void save(SnapshotWriter& archive) = 0;
+  virtual void restore(SnapshotReader& archive) = 0;
 };
 
 /// The contents of a message from a PE as the struct that they must be; `least` bytes of it must be there.

@@ -23,6 +23,8 @@ class RadiosityPhase : public Phase {
                   std::span<const std::byte> contents) override;
   bool done() const override { return state_ == State::done; }
   const char* waiting_for() const override;
+  void save(SnapshotWriter& archive) override { this->archive(archive); }
+  void restore(SnapshotReader& archive) override { this->archive(archive); }
 
   std::uint64_t shots() const { return shots_; }
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< the present one, not ended, included
@@ -32,6 +34,13 @@ class RadiosityPhase : public Phase {
   const protocol::Flux& reflected_shot() const { return reflected_shot_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(state_, candidates_, answers_, unshot_, selected_unshot_, threshold_, expected_, shots_of_, owners_, turn_,
+            deals_, dealing_, wanting_, supplied_, under_way_, points_left_, recalled_, credits_, shots_, rounds_,
+            emitted_shot_, reflected_shot_);
+  }
+
   enum class State { selecting, shooting, done };
   struct Chosen {
     PeNumber pe;

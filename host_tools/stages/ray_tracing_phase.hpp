@@ -20,6 +20,8 @@ class RayTracingPhase : public RayPhase {
                   std::span<const std::byte> contents) override;
   bool done() const override { return next_ == end_ && credits_.all_home(); }
   const char* waiting_for() const override { return "credits of camera rays"; }
+  void save(SnapshotWriter& archive) override { this->archive(archive); }
+  void restore(SnapshotReader& archive) override { this->archive(archive); }
 
   std::uint64_t made() const override { return next_; }
   std::uint64_t count() const override { return count_; }
@@ -28,6 +30,11 @@ class RayTracingPhase : public RayPhase {
   void give_up() override { end_ = next_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(next_, sent_, turn_, credits_);
+  }
+
   void make_rays(HostPort& port);
   void make_ray(HostPort& port);
   PeNumber follower_of(CellIndex cell);

@@ -21,12 +21,19 @@ class ReadPhase : public Phase {
                   std::span<const std::byte> contents) override;
   bool done() const override { return done_ == layouts_.size(); }
   const char* waiting_for() const override { return "elements to be read"; }
+  void save(SnapshotWriter& archive) override { this->archive(archive); }
+  void restore(SnapshotReader& archive) override { this->archive(archive); }
 
   /// Shots and their flux are not known here and stay zero.
   Solution take_solution() { return std::move(solution_); }
   const VisitSums& visits() const { return visits_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(bytes_, solution_, visits_, done_);
+  }
+
   struct Range {
     std::uint32_t address, bytes;
   };

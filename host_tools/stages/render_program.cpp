@@ -60,17 +60,27 @@ void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t ki
 void RenderProgram::enter(HostPort& port, Step step) {
   if (step != Step::finished && name_of(step) != name_of(step_)) port.begin_stage(name_of(step));
   step_ = step;
-  phase_ = phase_for(port, step);
+  phase_ = phase_for(step);
   if (!phase_) return;
+  charge(port, step);
   phase_->start(port);
   if (phase_->done()) leave(port);
 }
 
-std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
+/// What the host computes before a step begins.
+void RenderProgram::charge(HostPort& port, Step step) const {
+  if (step == Step::load_radiosity) {
+    port.work(HostWork::hemicube_entry, protocol::hemicube_weights(job_.setup.parameters.hemicube));
+  } else if (step == Step::load_ray_tracing) {
+    port.work(HostWork::irradiance_triangle, irradiance_.triangles.size());
+    port.work(HostWork::irradiance_fit, irradiance_.fits);
+  }
+}
+
+std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
   const RenderSetup& setup = job_.setup;
   switch (step) {
     case Step::load_radiosity:
-      port.work(HostWork::hemicube_entry, protocol::hemicube_weights(setup.parameters.hemicube));
       return loading(Stage::radiosity);
     case Step::radiosity:
       return std::make_unique<RadiosityPhase>(job_.radiosity);
@@ -89,8 +99,6 @@ std::unique_ptr<Phase> RenderProgram::phase_for(HostPort& port, Step step) {
       irradiance_ = make_vertex_irradiance(IrradiancePlan(setup.mesh),
                                            incident_flux(*job_.solution, setup.parameters.emitters > 0),
                                            setup.units.watts_per_quantum, setup.units.unit_radiance);
-      port.work(HostWork::irradiance_triangle, irradiance_.triangles.size());
-      port.work(HostWork::irradiance_fit, irradiance_.fits);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
       if (setup.parameters.pixel_samples > 0)
@@ -187,6 +195,31 @@ std::uint64_t RenderProgram::credits_home() const {
   if (step_ == Step::radiosity) return static_cast<const RadiosityPhase&>(*phase_).credits_home();
   if (step_ == Step::ray_tracing) return static_cast<const RayPhase&>(*phase_).credits_home();
   return job_.setup.credits;
+}
+
+std::uint64_t RenderProgram::rounds_ended() const {
+  if (step_ != Step::radiosity) return rounds_.size();
+  return static_cast<const RadiosityPhase&>(*phase_).rounds().size() - 1;
+}
+
+template <class Archive>
+void RenderProgram::archive(Archive& archive) {
+  archive.section("program");
+  archive(step_, job_.solution, times_, rounds_, radiosity_visits_, ray_visits_, shots_, rays_, emitted_shot_,
+          reflected_shot_);
+}
+
+void RenderProgram::save(SnapshotWriter& archive) {
+  this->archive(archive);
+  if (phase_) phase_->save(archive);
+}
+
+void RenderProgram::restore(SnapshotReader& archive) {
+  this->archive(archive);
+  const bool lacks_light = step_ > Step::read && !job_.solution;
+  if (step_ > Step::finished || lacks_light) refuse_snapshot("the host's program is nowhere");
+  phase_ = phase_for(step_);
+  if (phase_) phase_->restore(archive);
 }
 
 RenderProgress RenderProgram::progress(Cycles now) const {

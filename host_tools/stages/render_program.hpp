@@ -46,6 +46,7 @@ class RenderProgram : public LightProgram {
   const char* waiting_for() const override;
 
   RenderProgress progress(Cycles now) const;
+  const RenderJob& job() const { return job_; }
   const std::optional<Solution>& solution() const { return job_.solution; }  ///< after the read-out, or as given
   Solution take_solution() { return *std::move(job_.solution); }             ///< which is there
   const StageTimes& times() const { return times_; }
@@ -56,6 +57,12 @@ class RenderProgram : public LightProgram {
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< once the radiosity stage has ended
   std::uint64_t rays() const { return rays_; }
   std::uint64_t credits_home() const;
+  std::uint64_t rounds_ended() const;
+
+  /// Between two messages.
+  void save(SnapshotWriter& archive);
+  /// Instead of the start: it goes on from what the program of an equal job has saved. Throws InputError.
+  void restore(SnapshotReader& archive);
 
  private:
   enum class Step { load_radiosity, radiosity, read, load_ray_tracing, ray_tracing, report, finished };
@@ -64,7 +71,10 @@ class RenderProgram : public LightProgram {
   std::string_view name_of(Step step) const;
   void enter(HostPort& port, Step step);
   void leave(HostPort& port);
-  std::unique_ptr<Phase> phase_for(HostPort& port, Step step);
+  std::unique_ptr<Phase> phase_for(Step step);
+  void charge(HostPort& port, Step step) const;
+  template <class Archive>
+  void archive(Archive& archive);
   std::unique_ptr<Phase> loading(protocol::Stage stage);
 
   RenderJob job_;

@@ -28,10 +28,17 @@ class ReportPhase : public Phase {
   }
   bool done() const override { return done_ == pes_; }
   const char* waiting_for() const override { return "reports of the PEs"; }
+  void save(SnapshotWriter& archive) override { this->archive(archive); }
+  void restore(SnapshotReader& archive) override { this->archive(archive); }
 
   const VisitSums& visits() const { return visits_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(done_, visits_);
+  }
+
   unsigned pes_;
   unsigned done_ = 0;
   VisitSums visits_{};

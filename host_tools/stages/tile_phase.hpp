@@ -35,6 +35,8 @@ class TilePhase : public RayPhase {
                   std::span<const std::byte> contents) override;
   bool done() const override { return next_ == end_ && under_way_ == 0 && credits_.all_home(); }
   const char* waiting_for() const override { return "tiles and credits"; }
+  void save(SnapshotWriter& archive) override { this->archive(archive); }
+  void restore(SnapshotReader& archive) override { this->archive(archive); }
 
   std::uint64_t made() const override { return made_; }
   std::uint64_t count() const override {
@@ -45,6 +47,11 @@ class TilePhase : public RayPhase {
   void give_up() override { end_ = next_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(next_, rays_held_, under_way_, credits_, made_, sent_);
+  }
+
   void deal(HostPort& port, PeNumber pe);
   void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
 

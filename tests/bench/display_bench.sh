@@ -25,10 +25,10 @@ plain() {
 display() {
   "$torolux" "${words[@]}" --stats "$folder/stats.json" --display 0 2>"$folder/told" &
   local run=$! url
-  until url=$(grep -m1 -o 'http://[^ ]*' "$folder/told"); do sleep 0.05; done
+  until url=$(grep -m1 -o 'http://[^ ]*' "$folder/told"); do kill -0 $run && sleep 0.05; done
   curl -sN "${url}stream" >"$folder/stream" &
   local page=$!
-  until grep -aq '"state":"done"' "$folder/stream"; do sleep 1; done
+  until grep -aq '"state":"done"' "$folder/stream"; do kill -0 $run && sleep 1; done
   curl -s -H 'Content-Type: application/json' -d '{"do":"end"}' "${url}command" >"$folder/end"
   wait $run $page || true
   note display

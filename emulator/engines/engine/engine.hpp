@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/description/description.hpp"
+#include "emulator/engines/engine/registers.hpp"
 #include "emulator/engines/engine/shared_memory.hpp"
 #include "emulator/engines/image/image.hpp"
 #include "emulator/niu/waker.hpp"
@@ -47,6 +48,17 @@ class Engine {
   virtual void check() {}
   /// Ends all PEs that still run. Called once, after the channels have been told to stop.
   virtual void stop() = 0;
+  // ---- Saving and going on ----
+
+  /// Whether the three that follow can be called.
+  virtual bool can_be_saved() const { return false; }
+  /// Before the start: `save` may be called.
+  virtual void will_be_saved() {}
+  /// Of a PE that waits in a HINT for the network's side, or has halted; it waits on.
+  virtual PeRegisters save(unsigned /*pe*/) { return {}; }
+  /// Before the start: the PE does not begin at `_start`, but where this says; its memory is as it was then.
+  virtual void restore(unsigned /*pe*/, const PeRegisters& /*registers*/) {}
+
   /// Host CPU time that the PEs have used so far [s]; 0 where the engine cannot tell it from the emulator's own.
   virtual double cpu_seconds() const { return 0; }
 

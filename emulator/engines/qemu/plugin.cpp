@@ -48,7 +48,14 @@ constexpr std::chrono::microseconds kLongestSleep{50'000};
 class Plugin {
  public:
   Plugin(PluginShare& share, NiuChannel& channel, std::span<const std::byte> memory, NiuProcessorSide side)
-      : share_(share), channel_(channel), memory_(memory), side_(side), patience_ends_(end_of_patience(channel)) {}
+      : share_(share),
+        channel_(channel),
+        memory_(memory),
+        side_(side),
+        patience_ends_(end_of_patience(channel)),
+        retrying_(share.resumes != 0),
+        retry_clock_(share.resumed_clock),
+        retry_instructions_(share.resumed_instructions) {}
 
   void translated(qemu_plugin_tb* block);
   void begin(const BlockPlace& block);
@@ -95,9 +102,9 @@ class Plugin {
   std::uint64_t instruction_offset_ = 0;
   std::uint64_t patience_ends_;  // counted cycles; with no HINT until then it is an endless loop
   // While the NIU driver repeats a HINT: clock and count at its first execution, to which they are set back.
-  bool retrying_ = false;
-  std::uint64_t retry_clock_ = 0;
-  std::uint64_t retry_instructions_ = 0;
+  bool retrying_;
+  std::uint64_t retry_clock_;
+  std::uint64_t retry_instructions_;
   std::uint32_t last_counted_ = 0;  // address
 };
 
@@ -319,6 +326,8 @@ void Plugin::hint(const HintPlace& place) {
   if (retrying_) {
     retry_clock_ = clock;
     retry_instructions_ = instructions;
+    share_.retry_clock.store(clock, std::memory_order_relaxed);
+    share_.retry_instructions.store(instructions, std::memory_order_relaxed);
     patience_ends_ = counted + channel_.most_cycles_between_hints + 1;  // what the driver's loop takes does not count
   } else {
     cycle_offset_ = counted - result.clock;

@@ -9,7 +9,7 @@
 
 namespace torolux {
 
-inline constexpr std::uint32_t kPluginShareVersion = 3;
+inline constexpr std::uint32_t kPluginShareVersion = 4;
 
 enum class HintLogUse : std::uint32_t { none, record, replay };
 
@@ -27,16 +27,21 @@ struct PluginShare {
   std::uint32_t counts_instructions;
   std::uint64_t channel_layout;  ///< niu_channel_layout()
   LatencyTable latency;
+  /// 1: the PE does not begin at `_start`, but repeats a HINT, which it met at this clock and count.
+  std::uint32_t resumes;
+  std::uint64_t resumed_clock, resumed_instructions;
 
   // Counted by the plugin at the start of each block, so ahead of the PE by up to a block; or see above.
   alignas(64) std::uint64_t cycles;  ///< of all instructions since `_start`, the NIU driver's retries included
   std::uint64_t instructions;
 
   // Set by the plugin.
-  std::atomic<std::uint64_t> cycles_at_hint;  ///< `cycles` at the end of the last HINT
-  std::atomic<std::uint64_t> hints;           ///< so far, retries included: shows that the plugin is alive
-  std::atomic<std::uint32_t> stopped;         ///< 1: the process ended because the machine or the PE had ended
-  std::atomic<std::uint32_t> diverged;        ///< 1: a replayed PE did not do what it had done when it was recorded
+  std::atomic<std::uint64_t> retry_clock;         ///< of the HINT that the PE repeats, at its first execution
+  std::atomic<std::uint64_t> retry_instructions;  ///< likewise
+  std::atomic<std::uint64_t> cycles_at_hint;      ///< `cycles` at the end of the last HINT
+  std::atomic<std::uint64_t> hints;               ///< so far, retries included: shows that the plugin is alive
+  std::atomic<std::uint32_t> stopped;             ///< 1: the process ended because the machine or the PE had ended
+  std::atomic<std::uint32_t> diverged;            ///< 1: a replayed PE did not do what it had done when it was recorded
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free);
 

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <optional>
 #include <string>
 
+#include "emulator/engines/qemu/gdb_connection.hpp"
+#include "emulator/engines/qemu/gdb_registers.hpp"
 #include "emulator/engines/qemu/gdb_socket.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/engines/qemu/qemu_process.hpp"
@@ -78,6 +81,8 @@ struct Launch {
   std::vector<SharedMemory>* meetings;
   std::string plugin;  // as QEMU's option takes it
   std::vector<int> cores;
+  bool to_be_saved = false;
+  std::vector<std::optional<PeRegisters>> restored;  // by PE; empty: all begin
 };
 
 class QemuPe {
@@ -85,8 +90,11 @@ class QemuPe {
   /// debugger: where one may connect; none: not at all.
   QemuPe(std::size_t number, const Launch& launch, const GdbSocket* debugger);
 
+  std::size_t number() const { return number_; }
   /// Throws MachineFailure where the PE cannot go on. tick: wall time since the last look.
   void check(std::uint64_t most_cycles_between_hints, Clock::duration tick);
+  /// It waits in a HINT, or has halted.
+  PeRegisters save();
   void kill() { process_.kill(); }
   double cpu_seconds() const { return process_.cpu_seconds(); }
 
@@ -96,9 +104,11 @@ class QemuPe {
   [[noreturn]] void fail(const std::string& what) const;
   static PluginShare& prepare(SharedMemory& memory, std::size_t number, const Launch& launch, bool debugged);
   static QemuProcess start(std::size_t number, const Launch& launch, const SharedMemory& share,
-                           const GdbSocket* debugger);
+                           const GdbSocket* debugger, const GdbConnection* line);
+  void let_begin(const std::optional<PeRegisters>& registers);
 
   std::size_t number_;
+  std::span<const std::byte> memory_;
   NiuChannel& channel_;
   bool debugged_;
   bool ended_ = false;  // by us
@@ -109,6 +119,7 @@ class QemuPe {
   std::optional<Ending> ending_;  // of which the network does not know yet
   SharedMemory share_memory_;
   PluginShare& share_;
+  std::optional<GdbConnection> line_;  // where it is to be saved, or goes on
   QemuProcess process_;
   std::uint64_t last_cycles_ = 0;
   std::uint64_t last_hints_ = 0;
@@ -118,11 +129,42 @@ class QemuPe {
 
 QemuPe::QemuPe(std::size_t number, const Launch& launch, const GdbSocket* debugger)
     : number_(number),
+      memory_(launch.setup.pes[number].local.bytes().first(launch.setup.pes[number].local_memory_bytes)),
       channel_(*niu_channel_at(launch.setup.pes[number].channel.bytes().data())),
       debugged_(debugger != nullptr),
       share_memory_("torolux-share", sizeof(PluginShare)),
       share_(prepare(share_memory_, number, launch, debugged_)),
-      process_(start(number, launch, share_memory_, debugger)) {}
+      line_(launch.to_be_saved || !launch.restored.empty() ? std::optional<GdbConnection>(std::in_place)
+                                                           : std::nullopt),
+      process_(start(number, launch, share_memory_, debugger, line_ ? &*line_ : nullptr)) {
+  if (!line_) return;
+  line_->leave_to_qemu();
+  let_begin(launch.restored.empty() ? std::nullopt : launch.restored[number]);
+}
+
+/// QEMU has stopped where its boot ROM begins.
+void QemuPe::let_begin(const std::optional<PeRegisters>& registers) {
+  if (registers && registers->halted != 0) {  // it stays where it is
+    share_.stopped.store(1);
+    return;
+  }
+  if (registers) write_registers(*line_, *registers);
+  line_->let_run();
+}
+
+PeRegisters QemuPe::save() {
+  if (share_.stopped.load(std::memory_order_acquire) != 0) {
+    PeRegisters registers{};
+    registers.halted = 1;
+    return registers;
+  }
+  line_->interrupt();
+  PeRegisters registers = read_registers_behind_hint(*line_, memory_);
+  registers.clock = share_.retry_clock.load(std::memory_order_relaxed);
+  registers.instructions = share_.retry_instructions.load(std::memory_order_relaxed);
+  line_->let_run();
+  return registers;
+}
 
 PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Launch& launch, bool debugged) {
   const PeMemory& pe = launch.setup.pes[number];
@@ -138,11 +180,16 @@ PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Lau
   share.meeting_descriptor = launch.meetings != nullptr ? (*launch.meetings)[number].descriptor() : -1;
   share.counts_instructions = debugged ? 1 : 0;
   share.latency = launch.setup.machine.processor.latency;
+  if (!launch.restored.empty() && launch.restored[number]) {
+    share.resumes = 1;
+    share.resumed_clock = share.retry_clock = launch.restored[number]->clock;
+    share.resumed_instructions = share.retry_instructions = launch.restored[number]->instructions;
+  }
   return share;
 }
 
 QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const SharedMemory& share,
-                          const GdbSocket* debugger) {
+                          const GdbSocket* debugger, const GdbConnection* line) {
   const PeMemory& pe = launch.setup.pes[number];
   const std::string memory = std::to_string(pe.local.bytes().size());
   const std::string descriptor = std::to_string(pe.local.descriptor());
@@ -179,6 +226,11 @@ QemuProcess QemuPe::start(std::size_t number, const Launch& launch, const Shared
     arguments.insert(arguments.end(), {"-chardev", "socket,id=gdb,server=on,wait=off,nodelay=on,fd=" + socket, "-gdb",
                                        "chardev:gdb", "-S"});
     inherited.push_back(debugger->descriptor());
+  }
+  if (line != nullptr) {
+    arguments.insert(arguments.end(), {"-chardev", "socket,id=line,fd=" + std::to_string(line->qemus_end()), "-gdb",
+                                       "chardev:line", "-S"});
+    inherited.push_back(line->qemus_end());
   }
   return QemuProcess(arguments, inherited, launch.cores);
 }
@@ -250,7 +302,7 @@ void QemuPe::watch_progress(std::uint64_t cycles, Clock::duration tick) {
 class QemuEngine final : public Engine {
  public:
   QemuEngine(const EngineSetup& setup, const QemuOptions& options)
-      : launch_{setup, options.logs, options.meetings, {}, {}},
+      : launch_{setup, options.logs, options.meetings, {}, {}, false, {}},
         listens_(options.listens),
         most_cycles_between_hints_(setup.machine.processor.most_cycles_between_hints) {
     for (const GdbEndpoint& endpoint : options.gdb) debugged_.emplace_back(endpoint);
@@ -288,6 +340,15 @@ class QemuEngine final : public Engine {
     }
   }
 
+  /// Whoever debugs a PE has its debugger stub.
+  bool can_be_saved() const override { return debugged_.empty() && !launch_.logs && launch_.meetings == nullptr; }
+  void will_be_saved() override { launch_.to_be_saved = true; }
+  PeRegisters save(unsigned pe) override { return of(pe).save(); }
+  void restore(unsigned pe, const PeRegisters& registers) override {
+    launch_.restored.resize(launch_.setup.pes.size());
+    launch_.restored[pe] = registers;
+  }
+
   double cpu_seconds() const override {
     double sum = 0;
     for (const QemuPe& pe : pes_) {
@@ -297,6 +358,9 @@ class QemuEngine final : public Engine {
   }
 
  private:
+  QemuPe& of(std::size_t number) {
+    return *std::ranges::find(pes_, number, [](const QemuPe& pe) { return pe.number(); });
+  }
   const GdbSocket* debugger_of(std::size_t pe) const {
     const auto found = std::ranges::find(debugged_, pe, [](const GdbSocket& socket) { return socket.endpoint().pe; });
     return found == debugged_.end() ? nullptr : &*found;

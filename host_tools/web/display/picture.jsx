@@ -11,7 +11,11 @@ const kExposureInterval = 500; // of looking for the middle luminance anew
 const kSamples = 1 << 15; // for that, while the picture grows
 const kFinalSamples = 1 << 22;
 
-const kKinds = { frame_buffer: "the frame buffer" };
+/** What a picture is, and what is said of it where that needs saying. */
+const kKinds = {
+  frame_buffer: ["the frame buffer", ""],
+  radiosity: ["what elements hold so far", "What elements hold so far, as the camera sees them; mirrors and glass are black. The picture itself comes in the ray tracing stage."],
+};
 
 /** What is painted, and how; in a ref: it changes with every message. */
 class Painter {
@@ -81,14 +85,16 @@ export function Picture({ feed, onPick, over, children }) {
     onPick([at(event.clientX - box.left, box.width, picture.width), at(event.clientY - box.top, box.height, picture.height)]);
   };
   pickAt.current = pick;
+  const [kind, words] = kKinds[picture.kind] ?? [picture.kind, ""];
   return (
     <section id="picture">
       <h2>Picture</h2>
       <div class="frame">
       <canvas ref={canvas} role="img" {...(walk.handlers ?? { onClick: onPick && pick })}
-        aria-label={`${machine.title}: ${kKinds[picture.kind] ?? picture.kind}, ${picture.width} by ${picture.height} pixels`} />
+        aria-label={`${machine.title}: ${kind}, ${picture.width} by ${picture.height} pixels`} />
       {over}
       </div>
+      {words && <p class="soft">{words}</p>}
       <div class="choices">
         <label class="choice">
           Exposure{" "}

@@ -3,6 +3,7 @@
 #include "emulator/engines/translated/run/processor.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/ending.hpp"
@@ -17,6 +18,31 @@ constexpr std::uint64_t kSliceCycles = 1U << 20U;
 std::span<std::byte> local_memory(const EngineSetup& setup, unsigned number) {
   const PeMemory& memory = setup.pes[number];
   return memory.local.bytes().first(memory.local_memory_bytes);
+}
+
+/// copy: called with each register of the PE and the same one as it is saved.
+template <class Pe, class Registers, class Copy>
+void copy_registers(Pe& pe, Registers& saved, Copy copy) {
+  static_assert(sizeof pe.x == sizeof saved.x && sizeof pe.f == sizeof saved.f);
+  static_assert(sizeof pe.pmpaddr == sizeof saved.pmpaddr && sizeof pe.pmpcfg == sizeof saved.pmpcfg);
+  copy(pe.x, saved.x);
+  copy(pe.f, saved.f);
+  copy(pe.pc, saved.pc);
+  copy(pe.fflags, saved.fflags);
+  copy(pe.frm, saved.frm);
+  copy(pe.mstatus, saved.mstatus);
+  copy(pe.mstatush, saved.mstatush);
+  copy(pe.mtvec, saved.mtvec);
+  copy(pe.mscratch, saved.mscratch);
+  copy(pe.mepc, saved.mepc);
+  copy(pe.mcause, saved.mcause);
+  copy(pe.mtval, saved.mtval);
+  copy(pe.mie, saved.mie);
+  copy(pe.mip, saved.mip);
+  copy(pe.pmpaddr, saved.pmpaddr);
+  copy(pe.pmpcfg, saved.pmpcfg);
+  copy(pe.reserved_address, saved.reserved_address);
+  copy(pe.reserved_value, saved.reserved_value);
 }
 
 // What a PE takes besides local memory: this, and of its channel in a machine of many PEs some 55 KiB.
@@ -79,6 +105,25 @@ Processor::Stop Processor::end() {
   const bool loop = fault_->code == NiuFaultCode::too_long_without_hint;
   const std::uint64_t clock = loop ? end_of_patience(channel_) : pe_.cycles;
   return end_with_fault(channel_, clock, *fault_) ? Stop::finished : Stop::slice;
+}
+
+PeRegisters Processor::save() const {
+  PeRegisters registers{};
+  registers.clock = pe_.cycles;
+  registers.instructions = pe_.instructions;
+  registers.hint_immediate = pe_.hint_immediate;
+  registers.halted = at_hint_ == AtHint::finished ? 1 : 0;
+  copy_registers(pe_, registers, [](const auto& of_pe, auto& saved) { std::memcpy(&saved, &of_pe, sizeof saved); });
+  return registers;
+}
+
+void Processor::restore(const PeRegisters& registers) {
+  pe_.cycles = registers.clock;
+  pe_.instructions = registers.instructions;
+  pe_.hint_immediate = registers.hint_immediate;
+  at_hint_ = registers.halted != 0 ? AtHint::finished : AtHint::waits;
+  copy_registers(pe_, registers, [](auto& of_pe, const auto& saved) { std::memcpy(&of_pe, &saved, sizeof saved); });
+  code_.resume(pe_);
 }
 
 Processor::Stop Processor::run(const Goal* goal) {

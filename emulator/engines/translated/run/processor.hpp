@@ -43,6 +43,10 @@ class Processor {
     const auto* const bytes = reinterpret_cast<const std::byte*>(this);
     for (std::size_t at = 0; at < kBeginsWith; at += kCacheLine) __builtin_prefetch(bytes + at, 1);
   }
+  /// While nobody runs it, and it waits or has finished without a fault.
+  PeRegisters save() const;
+  /// Before its first run.
+  void restore(const PeRegisters& registers);
   /// To be looked at by others: its bound, and what it waits for.
   const NiuChannel& channel() const { return channel_; }
 

@@ -24,6 +24,8 @@ class RunQueue {
   void wake(unsigned pe);
   /// Makes it the caller's, to run it. False: it is running, or finished. Also one that waits: it may look again.
   bool claim(unsigned pe);
+  /// It will never run again.
+  bool has_finished(unsigned pe) const { return entries_[pe].state.load() == State::finished; }
   /// The PE that has been ready for longest, or nothing. For the scheduler's thread.
   std::optional<unsigned> take();
   /// The same for a taker: waits a while for one, and leaves one to a scheduler that is not running a PE.

@@ -60,11 +60,22 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   std::string_view name() const override { return interprets_ ? "interpreted" : "translated"; }
 
   void start() override {
-    for (unsigned pe = 0; pe < setup_.pes.size(); ++pe) processors_.emplace_back(code_, setup_, pe);
+    for (unsigned pe = 0; pe < setup_.pes.size(); ++pe) {
+      processors_.emplace_back(code_, setup_, pe);
+      if (pe < restored_.size() && restored_[pe]) processors_.back().restore(*restored_[pe]);
+    }
+    restored_.clear();
     for (unsigned i = 1; i < setup_.threads; ++i) threads_.emplace_back([this] { work(); });
   }
 
   void stop() override { end(); }
+
+  bool can_be_saved() const override { return true; }
+  PeRegisters save(unsigned pe) override;
+  void restore(unsigned pe, const PeRegisters& registers) override {
+    restored_.resize(setup_.pes.size());
+    restored_[pe] = registers;
+  }
 
   ProcessorWaker* waker(unsigned /*pe*/) override { return this; }
   bool help(unsigned pe, std::uint64_t wanted) override;
@@ -81,6 +92,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   bool interprets_;
   TranslatedImage code_;
   RunQueue queue_;
+  std::vector<std::optional<PeRegisters>> restored_;  // by PE, until the start
   std::deque<Processor> processors_;
   std::vector<std::thread> threads_;
   std::atomic<bool> ending_ = false;
@@ -127,6 +139,18 @@ bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
   queue_.scheduler_runs_pe(false);
   helped_ += Clock::now() - begin;
   return true;
+}
+
+/// A thread that has just seen that the PE waits may not have let go of it yet.
+PeRegisters TranslatedEngine::save(unsigned pe) {
+  bool claimed = queue_.claim(pe);
+  while (!claimed && !queue_.has_finished(pe)) {
+    torolux::pause();
+    claimed = queue_.claim(pe);
+  }
+  const PeRegisters registers = processors_[pe].save();
+  if (claimed) queue_.put_back(pe);
+  return registers;
 }
 
 void TranslatedEngine::end() {

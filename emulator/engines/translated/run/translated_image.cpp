@@ -136,6 +136,12 @@ void TranslatedImage::start(TranslatedPe& pe, std::span<std::byte> local_memory,
   refresh(pe);
 }
 
+void TranslatedImage::resume(TranslatedPe& pe) const {
+  constexpr std::uint32_t kMode = 3;  // bits of mtvec
+  pe.interpreted = interpret_ || (trap_handlers_ && pe.mtvec != 0 && !trap_handlers_->contains(pe.mtvec & ~kMode));
+  refresh(pe);
+}
+
 /// What follows from the memory's rights.
 void TranslatedImage::refresh(TranslatedPe& pe) const {
   constexpr std::uint32_t kWidest = 4;

@@ -40,6 +40,9 @@ class TranslatedImage {
   /// and the NIU window filled in; it outlives the PE. mapped_bytes: as mapped_bytes_for, what QEMU would be given.
   void start(TranslatedPe& pe, std::span<std::byte> local_memory, std::size_t mapped_bytes) const;
 
+  /// After the start: the registers have been set from outside, to where a PE stood behind a HINT.
+  void resume(TranslatedPe& pe) const;
+
   enum class Stop : std::uint8_t {
     hint,         ///< executed and counted, pc behind it; hint_immediate says which. pe.hint has been asked, if the
                   ///< code is translated. Set pe.cycles if it waits

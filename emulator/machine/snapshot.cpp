@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The network half of a machine that stands still, and the NIUs' channels, to bytes and back.
+#include "emulator/machine/emulation.hpp"
+
+namespace torolux {
+
+/// All that a run changes; what is neither here nor in the archives of the parts is set when a machine is made.
+template <class Archive>
+void Emulation::archive(Archive& archive) {
+  archive.section("events");
+  archive(events_, pool_);
+  archive.section("NIUs");
+  archive(times_.bounds, times_.releases);
+  for (NiuNetworkSide& niu : nius_) archive(niu);
+  archive(parts_);
+  archive.section("torus");
+  archive(torus_);
+  archive.section("bus");
+  archive(bus_);
+  archive.section("frame buffer");
+  archive(controller_);
+  archive.section("host");
+  archive(host_);
+  archive.section("figures");
+  archive(now_, trace_hash_, messages_to_host_, stages_, begun_, time_line_, bus_busy_, host_busy_, kinds_);
+}
+
+void Emulation::let_rest() {
+  for (unsigned pe = 0; pe < pes_; ++pe) {
+    while (!at_rest(pe)) await(pe, kNever);
+  }
+}
+
+void Emulation::save(SnapshotWriter& archive) {
+  this->archive(archive);
+}
+
+void Emulation::restore(SnapshotReader& archive) {
+  this->archive(archive);
+  if (parts_.size() != pes_) refuse_snapshot("it has another number of PEs");
+  controller_.tell_all_changed();
+  resumed_ = true;
+}
+
+}  // namespace torolux
