@@ -85,7 +85,7 @@ struct RenderSession::Parts {
   std::optional<Machine> machine;
   std::optional<Solution> solved;
 
-  MachineSetup of_picture(Machine::Then then, SnapshotKeeper* keeper) {
+  MachineSetup of_picture(SnapshotKeeper* keeper, Machine::Then then) {
     MachineSetup machine_setup = torolux::machine_setup(*setup, quality, choice);
     machine_setup.watcher = choice.watcher;
     machine_setup.record_watcher = choice.follower;
@@ -156,7 +156,7 @@ RenderResult RenderSession::run(Machine::Then then) {
 
   RenderProgram program(std::move(job));
   if (p.choice.follower != nullptr) p.choice.follower->begin(p.scene, setup, p.quality, p.choice);
-  Machine& machine = p.machine.emplace(p.of_picture(then, watch.keeper()), p.image);
+  Machine& machine = p.machine.emplace(p.of_picture(watch.keeper(), then), p.image);
   const auto run_begin = Clock::now();
   try {
     watch.run(machine, program, setup, false, then);

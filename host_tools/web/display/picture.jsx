@@ -91,7 +91,7 @@ export function Picture({ feed, onPick, over, children }) {
       <h2>Picture</h2>
       <div class="frame">
       <canvas ref={canvas} role="img" {...(walk.handlers ?? { onClick: onPick && pick })}
-        aria-label={`${machine.title}: ${kind}, ${picture.width} by ${picture.height} pixels`} />
+          aria-label={`${machine.title}: ${kind}, ${picture.width} by ${picture.height} pixels`} />
       {over}
       </div>
       {words && <p class="soft">{words}</p>}

@@ -127,6 +127,7 @@ TEST(Stats, AreThoseOfThePage) {
   run.quality.layers = 1U << 1U;
   RenderFigures figures = testing_support::whole_figures();
   figures.layers_sha256 = {"abc"};
+  figures.path = {{5, "abc"}};
   json stats = json::parse(stats_json(run, figures));
   stats["settings"] = 0;
   stats["command_line"] = 0;
