@@ -56,9 +56,14 @@ RunEnd run_prepared(const RunOptions& options) {
   }
   const InputFile image_file{"image", options.image, sha256_of_file(options.image)};
   const auto begin = std::chrono::steady_clock::now();
-  const auto display = open_display(
-      options.display,
-      {"run", std::filesystem::path(options.image).filename().string(), setup.columns, setup.rows, setup.description.processor.clock_hertz, 0, 0, {}});
+  const auto display = open_display(options.display, {"run",
+                                                      std::filesystem::path(options.image).filename().string(),
+                                                      setup.columns,
+                                                      setup.rows,
+                                                      setup.description.processor.clock_hertz,
+                                                      0,
+                                                      0,
+                                                      {}});
   if (display) {
     setup.progress_seconds = DisplayFeed::kUpdateSeconds;
     setup.pacer = &display->pace();

@@ -127,6 +127,7 @@ async function checkKeys(page) {
 /** By keys and mouse elsewhere, and back: the picture is the first one to the byte, but for the page's own rounding. */
 async function checkWalk(page, file) {
   const done = async (what) => {
+    await page.waitForTimeout(500);  // the heading comes after the picture: it may still tell of the view before
     await until(what, () => page.textContent("#progress h2"), (text) => text === "Done", 30);
     await page.waitForTimeout(500);  // the exposure of all of it comes with the next painting
   };

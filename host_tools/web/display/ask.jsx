@@ -4,7 +4,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { themeColour } from "../shared/colours.js";
 import { bytes, grouped, percent, significant } from "../shared/format.js";
-import { stageName } from "../shared/words.js";
+import { kPhases, stageName, word } from "../shared/words.js";
 import { send } from "./feed.js";
 
 const kMostEvents = 400; // of a story, in the page
@@ -128,7 +128,8 @@ function Pixel({ of }) {
 
 function PeStage({ of }) {
   const own = of.subspaces.length;
-  const stores = Object.entries(of.stores).sort((a, b) => b[1] - a[1]);
+  const most = (all) => Object.entries(all).filter(([, value]) => value > 0).sort((a, b) => b[1] - a[1]);
+  const { figures } = of; // null: the stage was left out
   return (
     <>
       <h4>{stageName(of.name)}</h4>
@@ -136,8 +137,17 @@ function PeStage({ of }) {
         ["subspaces", `${grouped(own)} of its own, ${grouped(of.common_subspaces)} at every PE`],
         ["polygons", grouped(of.polygons)],
         ["local memory", `${bytes(of.used_bytes)} of ${bytes(of.available_bytes)}`],
-        ...stores.map(([name, size]) => [name, bytes(size)]),
+        ...most(of.stores).map(([name, size]) => [name, bytes(size)]),
       ]} />
+      {figures && (
+        <Rows rows={[
+          ["cycles", grouped(figures.cycles)],
+          ...most(figures.phase_cycles).map(([name, cycles]) => [word(kPhases, name), percent(cycles / figures.cycles)]),
+          ["packets sent, received", `${grouped(figures.packets_sent)}, ${grouped(figures.packets_delivered)}`],
+          ["record slots in use, at most", grouped(figures.record_slots_high_water)],
+          ["receive buffers, at most", grouped(figures.receive_buffers_high_water)],
+        ]} />
+      )}
     </>
   );
 }

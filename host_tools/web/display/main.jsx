@@ -32,7 +32,7 @@ function Display({ feed }) {
       {machine && (
         <main class={feed.picture ? "with-picture" : ""}>
           <Picture feed={feed} onPick={ready ? (at) => ask({ element: at, at }) : undefined}
-            over={lit.length > 0 && <Lit runs={lit} width={picture.width} height={picture.height} />} />
+            over={picture && lit.length > 0 && <Lit runs={lit} width={picture.width} height={picture.height} />} />
           <Progress feed={feed} />
           <Torus feed={feed} overlay={() => packetOverlay(feed.packets) ?? way} onPick={ready ? (pe) => ask({ pe }) : undefined}><Pace feed={feed} /></Torus>
           <Answers questions={questions} />
