@@ -60,7 +60,8 @@ struct Pieces {
 /// changes the machine before each piece.
 Pieces run_in_pieces(RenderCase render_case, unsigned messages,
                      const std::function<void(RenderCase&, unsigned piece)>& next = {}, bool ever_longer = true) {
-  const std::filesystem::path file = testing::TempDir() + "torolux_checkpoint_test.ckpt";
+  const std::filesystem::path file =
+      testing::TempDir() + "torolux_checkpoint_" + testing::UnitTest::GetInstance()->current_test_info()->name();
   std::filesystem::remove(file);
   Pieces pieces;
   for (;;) {

@@ -20,8 +20,10 @@ using Words = std::vector<std::string>;
 
 constexpr unsigned kKills = 20;
 
+/// Of this test alone: others may run at the same time.
 std::filesystem::path here(const std::string& name) {
-  return testing::TempDir() + "torolux_resume_" + name;
+  return testing::TempDir() + "torolux_resume_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+         name;
 }
 
 /// A scene that takes a second or two, and what more is given.

@@ -25,7 +25,7 @@ class RayTracingPhaseTest : public testing::Test {
                         const Vec3d& look_at = {0.5, 0.5, 1}) {
     const CameraRays rays({eye, look_at, {0, 1, 0}, 60}, mesh_.space, kWidth, kHeight,
                           PixelSamples(PixelFilter::box, 2, 5), 5);
-    return {placement_, rays, {credits, kWidth, kHeight, 2, true}};
+    return {placement_, rays, {credits, kWidth, kHeight, 2, {0, 2, 1}, true}};
   }
 
   Mesh mesh_ = make_mesh(room_with_box(), {.patch_length = 0.4, .element_length = 0.2});

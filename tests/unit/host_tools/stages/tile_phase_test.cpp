@@ -89,7 +89,7 @@ class TileMachine {
 TEST(TilePhase, EveryPixelIsDealtOnce) {
   for (const auto& [width, height, pes] :
        {std::array{1U, 1U, 7U}, std::array{97U, 61U, 6U}, std::array{640U, 3U, 2U}, std::array{256U, 256U, 64U}}) {
-    TilePhase phase(pes, {1000, width, height, kSamples, true});
+    TilePhase phase(pes, {1000, width, height, kSamples, {0, kSamples, 1}, true});
     TileMachine machine(phase, pes, width, height);
     machine.start();
     std::uint64_t lost = 0;
@@ -113,7 +113,7 @@ TEST(TilePhase, EveryPixelIsDealtOnce) {
 }
 
 TEST(TilePhase, WhoIsDoneGetsTheNext) {
-  TilePhase phase(4, {100, 64, 64, kSamples, true});
+  TilePhase phase(4, {100, 64, 64, kSamples, {0, kSamples, 1}, true});
   TileMachine machine(phase, 4, 64, 64);
   machine.start();
   for (PeNumber pe = 0; pe < 4; ++pe) EXPECT_EQ(machine.tiles_of(pe), protocol::kTilePlaces);
@@ -121,6 +121,31 @@ TEST(TilePhase, WhoIsDoneGetsTheNext) {
     machine.finish(2);
     EXPECT_EQ(machine.tiles_of(2), protocol::kTilePlaces) << "though others have not moved";
   }
+}
+
+// A view nobody wants any more: what is out comes home, and that is the end.
+TEST(TilePhase, GivenUpItDealsNothingMore) {
+  const protocol::View view{{}, 1, kSamples, 1};
+  TilePhase phase(4, {100, 64, 64, kSamples + 1, {1, kSamples, 1}, true}, view);
+  FakePort port(4);
+  phase.start(port);
+  std::vector<PeNumber> holders;
+  std::uint32_t credits = 0;
+  const auto sent = port.take();
+  ASSERT_TRUE(sent.at(0).is(MessageKind::view)) << "PEs are told of the pass before they get tiles";
+  EXPECT_EQ(sent.at(0).pe, protocol::kHost) << "all at once";
+  for (const Sent& one : sent) {
+    if (one.is(MessageKind::tile)) holders.push_back(one.pe);
+    if (one.is(MessageKind::grant)) credits += one.as<protocol::Grant>().credits;
+  }
+  phase.give_up();
+  EXPECT_FALSE(phase.done());
+  for (const PeNumber pe : holders) tell(phase, port, pe, MessageKind::work_done, protocol::WorkDone{1, 5});
+  EXPECT_TRUE(port.take().empty()) << "no tile is dealt any more";
+  EXPECT_FALSE(phase.done()) << "credits are out";
+  tell(phase, port, 0, MessageKind::credits, protocol::Credits{credits});
+  EXPECT_TRUE(phase.done());
+  EXPECT_LT(phase.made(), phase.count());
 }
 
 // So the end of the stage is even: at most about a tile's time in that of all tiles of a PE is lost.
@@ -145,7 +170,7 @@ TEST(TilePhase, TilesAreNoSmallerThanTheHostCanDeal) {
 }
 
 TEST(TilePhase, CreditsGoToWhoHasNone) {
-  TilePhase phase(3, {12, 64, 64, kSamples, true});
+  TilePhase phase(3, {12, 64, 64, kSamples, {0, kSamples, 1}, true});
   TileMachine machine(phase, 3, 64, 64);
   machine.start();
   for (PeNumber pe = 0; pe < 3; ++pe) EXPECT_EQ(machine.credits_of(pe), 4U) << "an equal share at first";
@@ -164,7 +189,7 @@ TEST(TilePhase, CreditsGoToWhoHasNone) {
 }
 
 TEST(TilePhase, OneCreditIsEnough) {
-  TilePhase phase(2, {1, 8, 8, kSamples, true});
+  TilePhase phase(2, {1, 8, 8, kSamples, {0, kSamples, 1}, true});
   TileMachine machine(phase, 2, 8, 8);
   machine.start();
   EXPECT_EQ(machine.credits_of(0), 1U);
@@ -179,7 +204,7 @@ TEST(TilePhase, OneCreditIsEnough) {
 }
 
 TEST(TilePhase, MessagesThatCannotBeAreRefused) {
-  TilePhase phase(2, {10, 8, 8, kSamples, true});
+  TilePhase phase(2, {10, 8, 8, kSamples, {0, kSamples, 1}, true});
   FakePort port(2);
   phase.start(port);
   EXPECT_THROW(tell(phase, port, 0, MessageKind::ready), MachineFailure);
