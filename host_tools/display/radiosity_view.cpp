@@ -58,7 +58,8 @@ std::uint32_t step_for(std::uint32_t width, std::uint32_t height, std::size_t tr
   const auto edge = std::max(width, height);
   std::uint32_t step = std::max(1U, (edge + RadiosityView::kMostEdge - 1) / RadiosityView::kMostEdge);
   const auto tests = [&] {
-    return static_cast<double>(width / step) * static_cast<double>(height / step) * static_cast<double>(triangles);
+    const std::uint64_t rays = std::uint64_t{width / step} * (height / step);
+    return static_cast<double>(rays) * static_cast<double>(triangles);
   };
   while (tests() > kMostTests && edge / (step + 1) >= RadiosityView::kLeastEdge) ++step;
   return step;
