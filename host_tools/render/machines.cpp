@@ -71,7 +71,7 @@ RenderJob job_of(const Scene& scene, const Camera& camera, const Quality& qualit
 
 Watch::Watch(Course course, Drafts& drafts, CheckpointKeeper* keeper, CheckpointReader* from,
              const std::function<bool(const RenderProgress&)>& progress)
-    : course_(std::move(course)), drafts_(drafts), keeper_(keeper), from_(from), progress_(progress) {
+    : course_(course), drafts_(drafts), keeper_(keeper), from_(from), progress_(progress) {
   if (from != nullptr) course_.skip_machines(drafts.over ? kDrafts : drafts.round * 2 + drafts.half);
 }
 
