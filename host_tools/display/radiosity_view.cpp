@@ -7,30 +7,24 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <numeric>
 #include <span>
 
+#include "host_tools/layout/golden_step.hpp"
 #include "host_tools/layout/stage_layout.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
 
 using protocol::Vec3f;
-using Vec = std::array<double, 3>;
 
 /// Rays times triangles: about a second's work.
 constexpr double kMostTests = 2e8;
 /// Between looks at the clock.
 constexpr double kTestsAtOnce = 1e5;
 
-Vec minus(const Vec3f& a, const Vec3f& b) {
+Vec3d minus(const Vec3f& a, const Vec3f& b) {
   return {double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]}, double{a[2]} - double{b[2]}};
-}
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec& a, const Vec& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 struct Hit {
@@ -39,17 +33,17 @@ struct Hit {
 };
 
 /// T. Moeller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
-std::optional<Hit> meets(const Vec3f& origin, const Vec& direction, const std::array<Vec3f, 3>& corner) {
-  const Vec edge1 = minus(corner[1], corner[0]), edge2 = minus(corner[2], corner[0]);
-  const Vec p = cross(direction, edge2);
-  const double determinant = dot(edge1, p);
+std::optional<Hit> meets(const Vec3f& origin, const Vec3d& direction, const std::array<Vec3f, 3>& corner) {
+  const Vec3d edge1 = minus(corner[1], corner[0]), edge2 = minus(corner[2], corner[0]);
+  const Vec3d p = vec::cross(direction, edge2);
+  const double determinant = vec::dot(edge1, p);
   if (determinant == 0) return std::nullopt;
-  const Vec t = minus(origin, corner[0]);
-  const double b1 = dot(t, p) / determinant;
+  const Vec3d t = minus(origin, corner[0]);
+  const double b1 = vec::dot(t, p) / determinant;
   if (!(b1 >= 0 && b1 <= 1)) return std::nullopt;
-  const Vec q = cross(t, edge1);
-  const double b2 = dot(direction, q) / determinant;
-  const double distance = dot(edge2, q) / determinant;
+  const Vec3d q = vec::cross(t, edge1);
+  const double b2 = vec::dot(direction, q) / determinant;
+  const double distance = vec::dot(edge2, q) / determinant;
   if (!(b2 >= 0 && b1 + b2 <= 1 && distance > 0)) return std::nullopt;
   return Hit{distance, b1, b2, determinant > 0};
 }
@@ -73,13 +67,6 @@ std::optional<Word> word_at(std::span<const std::byte> memory, std::uint64_t add
   return __atomic_load_n(reinterpret_cast<const Word*>(memory.data() + at), __ATOMIC_RELAXED);
 }
 
-/// The order in which pixels are found: all over the picture, each once.
-std::size_t spread(std::size_t i, std::size_t count) {
-  std::size_t stride = count * 618 / 1000 | 1U;
-  while (std::gcd(stride, count) != 1) stride += 2;
-  return i * stride % count;
-}
-
 }  // namespace
 
 RadiosityView::RadiosityView(const RunningRender& running)
@@ -99,9 +86,10 @@ void RadiosityView::work(const RunningRender& running, double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   const auto triangles = std::max<double>(1, static_cast<double>(running.setup.mesh.triangles.size()));
   const auto rays = static_cast<std::size_t>(std::max(1.0, kTestsAtOnce / triangles));
+  const std::uint64_t far_off = golden_step(seen_.size());  // pixels are found all over the picture
   while (!whole() && std::chrono::steady_clock::now() < end) {
     for (std::size_t i = 0; i < rays && !whole(); ++i) {
-      const std::size_t pixel = spread(next_++, seen_.size());
+      const std::size_t pixel = next_++ * far_off % seen_.size();
       seen_[pixel] = first_hit(running, pixel);
       if (seen_[pixel].any) home_of(running, running.setup.placement.patch_home[seen_[pixel].patch].pe);
     }
@@ -115,7 +103,7 @@ RadiosityView::Seen RadiosityView::first_hit(const RunningRender& running, std::
   const std::size_t of_picture =
       std::min<std::size_t>(y, picture.height - 1) * picture.width + std::min<std::size_t>(x, picture.width - 1);
   const CameraRay ray = running.program.job().rays.ray(static_cast<std::uint32_t>(of_picture), 0);
-  const Vec direction = {double{ray.direction[0]}, double{ray.direction[1]}, double{ray.direction[2]}};
+  const Vec3d direction = {double{ray.direction[0]}, double{ray.direction[1]}, double{ray.direction[2]}};
   std::optional<Hit> nearest;
   std::uint32_t triangle = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
