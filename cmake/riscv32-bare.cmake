@@ -27,10 +27,14 @@ set(CMAKE_C_FLAGS_INIT "${torolux_common}")
 set(CMAKE_CXX_FLAGS_INIT
     "${torolux_common} -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit -fno-asynchronous-unwind-tables"
 )
+set(CMAKE_C_FLAGS_RELEASE
+    "-O2 -DNDEBUG"
+    CACHE STRING "Optimisation of the images")
 set(CMAKE_CXX_FLAGS_RELEASE
     "-O2 -DNDEBUG"
     CACHE STRING "Optimisation of the images")
 
+set(CMAKE_C_STANDARD_INCLUDE_DIRECTORIES ${TOROLUX_SYSROOT}/include)
 set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES
     ${TOROLUX_SYSROOT}/c++ ${TOROLUX_SYSROOT}/c++/riscv64-unknown-elf ${TOROLUX_SYSROOT}/shim
     ${TOROLUX_SYSROOT}/include ${TOROLUX_SYSROOT}/glm)

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// What a program asks of messages: send, receive, exchange. How packets become messages is in arrivals.cpp.
+#include "firmware/kit/messenger.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <utility>
+
+namespace torolux::kit {
+
+Messenger::Messenger(pe::Niu& niu, const SlotLayout& slots)
+    : niu_(niu),
+      layout_(slots),
+      slots_(niu.memory().at<std::byte>(slots.first)),
+      staging_(niu.memory().at<std::byte>(slots.staging)) {
+  niu_.set_slots(slots.first, kRecordBytes, slots.own, slots.niu);
+  if (!peers_.begin(niu_.pes())) fail(Words() << "no memory for the table of " << niu_.pes() << " PEs");
+}
+
+Messenger::~Messenger() {
+  for (std::uint32_t pe = 0; pe < niu_.pes(); ++pe) {
+    Peer* peer = peers_.of(pe);
+    if (peer == nullptr) continue;
+    std::free(peer->open);
+    while (peer->early != nullptr) std::free(std::exchange(peer->early, peer->early->next));
+  }
+  for (Queue& queue : queues_) {
+    while (queue.first != nullptr) std::free(std::exchange(queue.first, queue.first->next));
+  }
+  peers_.end();
+}
+
+void Messenger::fail(const Words& words) const {
+  static Words all;
+  all = Words() << function_ << ": " << words.text();
+  pe::Niu niu = niu_;
+  const auto place = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(from_));
+  niu.fail(pe::FaultCode::words, niu.memory().address_of(all.text().data()),
+           static_cast<std::uint32_t>(all.text().size()), place);
+}
+
+void Messenger::check_pe(int pe) const {
+  if (pe >= 0 && static_cast<std::uint32_t>(pe) < niu_.pes()) return;
+  fail(Words() << "there is no PE " << pe << "; the machine has PEs 0 to " << niu_.pes() - 1);
+}
+
+void Messenger::check_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const {
+  if (bytes <= room) return;
+  fail(Words() << "the message of PE " << source << " has " << bytes << " bytes; there is room for " << room);
+}
+
+// ---- Sending ----
+
+void Messenger::send(Channel channel, int pe, std::span<const std::byte> data) {
+  check_pe(pe);
+  if (data.size() > kMostMessage) {
+    fail(Words() << "a message of " << data.size() << " bytes; the most is " << kMostMessage);
+  }
+  if (static_cast<std::uint32_t>(pe) == niu_.pe()) return send_to_self(channel, data);
+  send_packets(channel, static_cast<std::uint16_t>(pe), data);
+}
+
+/// As if one packet had brought it all.
+void Messenger::send_to_self(Channel channel, std::span<const std::byte> data) {
+  Peer& peer = peer_of(niu_.pe());
+  const auto bytes = static_cast<std::uint32_t>(data.size());
+  const PacketHead head{niu_.pe(), channel, 0, 0, bytes, 0};
+  std::byte* const to = place_for(peer, head);
+  if (bytes != 0) std::memcpy(to, data.data(), bytes);
+  placed(peer, head, bytes);
+}
+
+/// Between packets of a long message what has come is taken in: both sides of an exchange send at once.
+void Messenger::send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data) {
+  Peer& peer = peer_of(pe);
+  PacketHead head{niu_.pe(), channel, 0, peer.sent, static_cast<std::uint32_t>(data.size()), 0};
+  for (;;) {
+    const std::uint32_t payload = send_part(pe, head, data.subspan(head.offset));
+    peer.sent = ++head.number;
+    head.offset += payload;
+    if (head.offset == head.bytes) return;
+    drain();
+  }
+}
+
+/// One packet; the bytes that it takes along. What lies in local memory goes from its place, in whole records, once the
+/// bytes before the first of them have gone with the head.
+std::uint32_t Messenger::send_part(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest) {
+  const std::less<const std::byte*> before;
+  const bool small = rest.size() <= kMostLead;
+  if (small || before(rest.data(), slots_) || !before(rest.data() + rest.size(), staging_)) {
+    return send_staged(pe, head, rest.first(std::min<std::size_t>(rest.size(), kMostPayload)));
+  }
+  const auto lead = static_cast<std::uint32_t>(-(rest.data() - slots_)) % kRecordBytes;
+  if (lead > kMostLead) return send_staged(pe, head, rest.first(std::min<std::size_t>(rest.size(), lead)));
+  return send_from_place(pe, head, rest, lead);
+}
+
+/// In the staging slots; `data` fits.
+std::uint32_t Messenger::send_staged(std::uint16_t pe, PacketHead& head, std::span<const std::byte> data) {
+  const auto payload = static_cast<std::uint32_t>(data.size());
+  head.lead = static_cast<std::uint8_t>(std::min(payload, kMostLead));
+  std::memcpy(staging_, &head, sizeof head);
+  if (payload != 0) std::memcpy(staging_ + sizeof head, data.data(), payload);
+  std::array<pe::Slot, kRecordsPerPacket> slots;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in below
+  const std::uint32_t records = records_of(payload);
+  const std::uint32_t first = layout_.own - kRecordsPerPacket;
+  for (std::uint32_t i = 0; i < records; ++i) slots[i] = static_cast<pe::Slot>(first + i);
+  niu_.send_records(pe, std::span(slots).first(records));
+  return payload;
+}
+
+/// The last record may go beyond the message's end: the receiver knows its length.
+std::uint32_t Messenger::send_from_place(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest,
+                                         std::uint32_t lead) {
+  head.lead = static_cast<std::uint8_t>(lead);
+  std::memcpy(staging_, &head, sizeof head);
+  if (lead != 0) std::memcpy(staging_ + sizeof head, rest.data(), lead);
+  std::array<pe::Slot, kRecordsPerPacket> slots;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in below
+  slots[0] = static_cast<pe::Slot>(layout_.own - kRecordsPerPacket);
+  const auto whole = static_cast<std::uint32_t>(rest.size()) - lead;
+  const std::uint32_t records = std::min(kRecordsPerPacket - 1, (whole + kRecordBytes - 1) / kRecordBytes);
+  const auto first = static_cast<std::uint32_t>(rest.data() + lead - slots_) / kRecordBytes;
+  for (std::uint32_t i = 0; i < records; ++i) slots[i + 1] = static_cast<pe::Slot>(first + i);
+  niu_.send_records(pe, std::span(slots).first(records + 1));
+  return lead + std::min(whole, records * kRecordBytes);
+}
+
+// ---- Receiving ----
+
+std::size_t Messenger::receive(Channel channel, int pe, std::span<std::byte> room) {
+  if (pe != kAnyPe) check_pe(pe);
+  Waiting* before = nullptr;
+  if (Waiting* message = next_of(channel, pe, &before)) return hand_over(channel, message, before, room);
+  post(channel, pe, room);
+  return wait_for_posted();
+}
+
+std::size_t Messenger::exchange(int to, std::span<const std::byte> data, int from, std::span<std::byte> room) {
+  if (from != kAnyPe) check_pe(from);
+  const std::less<const std::byte*> before_in_memory;
+  if (!data.empty() && !room.empty() && before_in_memory(data.data(), room.data() + room.size()) &&
+      before_in_memory(room.data(), data.data() + data.size())) {
+    fail(Words() << "what is sent and where to receive overlap in memory");
+  }
+  Waiting* before = nullptr;
+  if (next_of(Channel::program, from, &before) != nullptr) {
+    send(Channel::program, to, data);
+    return receive(Channel::program, from, room);
+  }
+  post(Channel::program, from, room);
+  send(Channel::program, to, data);
+  return wait_for_posted();
+}
+
+std::int64_t Messenger::waiting(Channel channel, int pe) {
+  if (pe != kAnyPe) check_pe(pe);
+  drain();
+  Waiting* before = nullptr;
+  const Waiting* message = next_of(channel, pe, &before);
+  return message != nullptr ? static_cast<std::int64_t>(message->bytes) : -1;
+}
+
+/// The first whole message from there, and the one before it in the queue.
+Waiting* Messenger::next_of(Channel channel, int pe, Waiting** before) {
+  *before = nullptr;
+  for (Waiting* message = queue_of(channel).first; message != nullptr; message = message->next) {
+    if (pe == kAnyPe || message->source == static_cast<std::uint32_t>(pe)) return message;
+    *before = message;
+  }
+  return nullptr;
+}
+
+std::size_t Messenger::hand_over(Channel channel, Waiting* message, Waiting* before, std::span<std::byte> room) {
+  check_room(message->bytes, message->source, room.size());
+  Queue& queue = queue_of(channel);
+  (before != nullptr ? before->next : queue.first) = message->next;
+  if (queue.last == message) queue.last = before;
+  const std::size_t bytes = message->bytes;
+  if (bytes != 0) std::memcpy(room.data(), message->data(), bytes);
+  source_ = message->source;
+  forget(message);
+  return bytes;
+}
+
+/// A message of which a part is on the heap goes on in its place.
+void Messenger::post(Channel channel, int from, std::span<std::byte> room) {
+  posted_ = {true, false, false, channel, from, 0, 0, room};
+  if (from == kAnyPe) return;
+  Peer& peer = peer_of(static_cast<std::uint32_t>(from));
+  Waiting* const part = peer.open;
+  if (part == nullptr || part->channel != channel) return;
+  claim(part->source, part->bytes);
+  const auto have = static_cast<std::size_t>(peer.into - part->data());
+  std::memcpy(room.data(), part->data(), have);
+  peer.into = room.data() + have;
+  peer.open = nullptr;
+  forget(part);
+}
+
+std::size_t Messenger::wait_for_posted() {
+  while (!posted_.done) {
+    const auto& arrival = niu_.receive();
+    take(arrival);
+  }
+  posted_.open = false;
+  source_ = posted_.source;
+  return posted_.bytes;
+}
+
+bool Messenger::posted_takes(Channel channel, std::uint32_t source) const {
+  return posted_.open && !posted_.claimed && posted_.channel == channel &&
+         (posted_.from == kAnyPe || static_cast<std::uint32_t>(posted_.from) == source);
+}
+
+void Messenger::claim(std::uint32_t source, std::uint32_t bytes) {
+  check_room(bytes, source, posted_.room.size());
+  posted_.claimed = true;
+  posted_.source = static_cast<std::uint16_t>(source);
+  posted_.bytes = bytes;
+}
+
+const protocol::MessageHeader& Messenger::receive_from_host() {
+  for (;;) {
+    const auto& arrival = niu_.receive();
+    if (arrival.kind == protocol::ArrivalKind::message) return niu_.message();
+    take(arrival);
+  }
+}
+
+}  // namespace torolux::kit
