@@ -95,11 +95,11 @@ std::uint32_t Messenger::send_part(std::uint16_t pe, PacketHead& head, std::span
     return send_staged(pe, head, rest.first(std::min<std::size_t>(rest.size(), kMostPayload)));
   }
   const auto lead = static_cast<std::uint32_t>(-(rest.data() - slots_)) % kRecordBytes;
-  if (lead > kMostLead) return send_staged(pe, head, rest.first(std::min<std::size_t>(rest.size(), lead)));
+  if (lead > kMostLead) return send_staged(pe, head, rest.first(kMostLead));  // the next is nearer
   return send_from_place(pe, head, rest, lead);
 }
 
-/// In the staging slots; `data` fits.
+/// In the staging slots; `data` fits, and fills its records unless it ends the message.
 std::uint32_t Messenger::send_staged(std::uint16_t pe, PacketHead& head, std::span<const std::byte> data) {
   const auto payload = static_cast<std::uint32_t>(data.size());
   head.lead = static_cast<std::uint8_t>(std::min(payload, kMostLead));
