@@ -124,7 +124,7 @@ static void check(struct numbers sorted, struct numbers before) {
   }
   if (torolux_pe() + 1 != torolux_pes()) torolux_send((int)torolux_pe() + 1, &greatest, sizeof greatest);
 
-  uint64_t lost[2] = {before.count - sorted.count, 0};
+  uint64_t lost[2] = {(uint64_t)before.count - sorted.count, 0};
   for (size_t i = 0; i < before.count; ++i) lost[1] += before.number[i];
   for (size_t i = 0; i < sorted.count; ++i) lost[1] -= sorted.number[i];
   torolux_all_reduce(lost, 2, TOROLUX_UINT64, TOROLUX_SUM);
