@@ -55,6 +55,7 @@ std::string Emulation::where_pes_stand() {
   std::vector<Group> groups;
   const unsigned looked_at = std::min(pes_, kMostLookedAt);
   for (unsigned pe = 0; pe < looked_at; ++pe) {
+    nius_[pe].refresh(events_, pool_, times_);
     const WaitKind doing = nius_[pe].waits_for();
     CallStacks::Place place = doing == WaitKind::halted ? CallStacks::Place{} : stacks_.place_of(pe);
     const auto same = [&](const Group& group) { return group.doing == doing && group.place.words == place.words; };

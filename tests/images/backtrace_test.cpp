@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <regex>
 
 #include "emulator/engines/image/backtrace.hpp"
 #include "firmware/protocol/machine.hpp"
@@ -39,7 +40,7 @@ testing::Matcher<std::string> calls_from(const std::string& innermost) {
                HasSubstr(at("return middle(niu, how, depth + 1)")),
                HasSubstr("in torolux::pe::pe_main(torolux::pe::Niu&)" + at("tests::middle(niu, rows, 0)")),
                HasSubstr("in boot at firmware/boot/boot.cpp:"), HasSubstr("in _start at firmware/boot/start.S:"),
-               Not(HasSubstr("...")));
+               Not(HasSubstr("\n  ...")));
 }
 
 class Calls : public testing::TestWithParam<const char*> {};
@@ -77,12 +78,17 @@ TEST_P(Calls, ToWhereEachPeOfAHangWaitsAreTold) {
             calls_from(""), HasSubstr("in torolux::tests::(anonymous namespace)::wait_for_ever(")));
 }
 
+/// Without the cycle: after a trap QEMU's clock is ahead (emulator/engines/translated/README.md).
+std::string without_cycle(const std::string& text) {
+  return std::regex_replace(text, std::regex(" \\(cycle [0-9]+\\)"), "");
+}
+
 TEST(Backtraces, AreTheSameOnAllEnginesAndThreads) {
   for (unsigned how = 1; how <= 7; ++how) {
-    const std::string qemu = failure("qemu", how, 2);
-    EXPECT_EQ(failure("translated", how, 2), qemu);
-    EXPECT_EQ(failure("interpreted", how, 2), qemu);
-    EXPECT_EQ(tell(small_setup("translated", 2, how, 1), test_image("calls")).failure, qemu);
+    const std::string qemu = without_cycle(failure("qemu", how, 2));
+    EXPECT_EQ(without_cycle(failure("translated", how, 2)), qemu);
+    EXPECT_EQ(without_cycle(failure("interpreted", how, 2)), qemu);
+    EXPECT_EQ(without_cycle(tell(small_setup("translated", 2, how, 1), test_image("calls")).failure), qemu);
   }
 }
 

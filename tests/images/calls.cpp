@@ -24,7 +24,7 @@ volatile std::uint32_t never = 0;
     case 3:
       for (;;) asm volatile("");
     case 4:
-      niu.send_message(static_cast<PeNumber>(niu.pes()), 1, {});  // there is no such PE
+      niu.send_message(static_cast<protocol::PeNumber>(niu.pes()), 1, {});  // there is no such PE
       break;
     case 5:
       niu.receive();

@@ -150,27 +150,46 @@ TEST(Dump, IsRefusedWhereItIsNotInLocalMemory) {
 
 // ---- Timeouts ----
 
+/// Where PEs stand in a run that would never end, as soon as all have got there.
+std::string standing(const char* engine) {
+  MachineSetup setup = small_setup(engine, 2, 9);
+  setup.description.processor.most_cycles_between_hints = ~std::uint64_t{0} >> 2U;
+  std::string text;
+  const auto look = [&](const Machine& machine, Cycles) {
+    text = machine.where_pes_stand();
+    return text.find("17 PEs wait in receive") == std::string::npos ||
+           text.find("1 PE runs in pe_main") == std::string::npos;
+  };
+  EXPECT_THROW(run_image(
+                   setup, test_image("calls"), [](const PeText&) {}, look),
+               Interrupted);
+  return text;
+}
+
 TEST(Timeouts, TellWhereEachPeStands) {
   for (const char* engine : {"translated", "interpreted", "qemu"}) {
-    MachineSetup setup = small_setup(engine, 2, 9);
-    setup.description.processor.most_cycles_between_hints = ~std::uint64_t{0} >> 2U;
-    std::string failure;
-    try {
-      const Timeout timeout(1);
-      run_image(
-          setup, test_image("calls"), [](const PeText&) {},
-          [&](const Machine& machine, Cycles now) {
-            timeout.check(machine, now);
-            return true;
-          });
-    } catch (const MachineFailure& given_up) {
-      failure = given_up.what();
-    }
-    EXPECT_THAT(failure, AllOf(HasSubstr("has taken 1 s"),
-                               ContainsRegex("17 PEs wait in receive at tests/images/calls.cpp:[0-9]+, pc 0x"),
-                               ContainsRegex("1 PE runs in pe_main at tests/images/calls.cpp:[0-9]+, pc 0x[0-9a-f]+ "
-                                             "\\(0\\)\n  #0 0x")))
+    EXPECT_THAT(standing(engine),
+                AllOf(ContainsRegex("17 PEs wait in receive at tests/images/calls.cpp:[0-9]+, pc 0x"),
+                      ContainsRegex("1 PE runs in pe_main at tests/images/calls.cpp:[0-9]+, pc 0x[0-9a-f]+ "
+                                    "\\(0\\)\n  #0 0x")))
         << engine;
+  }
+}
+
+TEST(Timeouts, GiveARunUp) {
+  MachineSetup setup = small_setup("translated", 1, 9);
+  setup.description.processor.most_cycles_between_hints = ~std::uint64_t{0} >> 2U;
+  const Timeout timeout(1);
+  const auto check = [&](const Machine& machine, Cycles now) {
+    timeout.check(machine, now);
+    return true;
+  };
+  try {
+    run_image(
+        setup, test_image("calls"), [](const PeText&) {}, check);
+    ADD_FAILURE() << "it ended";
+  } catch (const MachineFailure& failure) {
+    EXPECT_THAT(failure.what(), AllOf(HasSubstr("has taken 1 s"), HasSubstr("(--timeout)\n  ")));
   }
 }
 

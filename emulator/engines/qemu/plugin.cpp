@@ -324,9 +324,9 @@ void Plugin::give_up(std::uint64_t clock, const NiuFault& fault) {
 /// At the start of a block, where QEMU has all registers in memory.
 void Plugin::tell_stack() {
   share_.stack.pc = block_.address;
-  if (!read_stack_registers(share_.stack.x)) return;
+  const std::uint32_t known = read_stack_registers(share_.stack.x) ? 1 : 2;
   share_.stack_wanted.store(0, std::memory_order_relaxed);
-  share_.stack_known.store(1, std::memory_order_release);
+  share_.stack_known.store(known, std::memory_order_release);
 }
 
 /// The HINT has ended the PE. It is executed once more, like one that waits, and then begins a block; unless it stands

@@ -38,7 +38,7 @@ struct PluginShare {
   std::atomic<std::uint32_t> stack_wanted;  ///< 1, by the engine: tell `stack` at the next block, wherever that is
 
   // Set by the plugin.
-  std::atomic<std::uint32_t> stack_known;  ///< 1: `stack` is where the PE stands, or has ended
+  std::atomic<std::uint32_t> stack_known;  ///< 1: `stack` is where the PE stands, or has ended; 2: it cannot be told
   StackRegisters stack;
   std::atomic<std::uint64_t> retry_clock;         ///< of the HINT that the PE repeats, at its first execution
   std::atomic<std::uint64_t> retry_instructions;  ///< likewise

@@ -98,7 +98,7 @@ class QemuPe {
   void check(std::uint64_t most_cycles_between_hints, Clock::duration tick);
   /// It waits in a HINT, or has halted.
   PeRegisters save();
-  std::optional<StackRegisters> stack_registers();
+  std::optional<StackRegisters> stack_registers(Clock::duration longest);
   void kill() { process_.kill(); }
   double cpu_seconds() const { return process_.cpu_seconds(); }
 
@@ -171,14 +171,14 @@ PeRegisters QemuPe::save() {
 }
 
 /// One that waits tells them within 50 ms, when it looks whether it may go on; one that runs, at its next block.
-std::optional<StackRegisters> QemuPe::stack_registers() {
-  const Clock::time_point end = Clock::now() + kLongestLook;
+std::optional<StackRegisters> QemuPe::stack_registers(Clock::duration longest) {
+  const Clock::time_point end = Clock::now() + longest;
   share_.stack_wanted.store(1, std::memory_order_relaxed);
   while (share_.stack_known.load(std::memory_order_acquire) == 0) {
     if (ended_ || share_.stopped.load(std::memory_order_acquire) != 0 || Clock::now() > end || process_.ended()) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  if (share_.stack_known.load(std::memory_order_acquire) == 0) return std::nullopt;
+  if (share_.stack_known.load(std::memory_order_acquire) != 1) return std::nullopt;
   return share_.stack;
 }
 
@@ -361,7 +361,11 @@ class QemuEngine final : public Engine {
   void will_be_saved() override { launch_.to_be_saved = true; }
   PeRegisters save(unsigned pe) override { return of(pe).save(); }
   std::optional<StackRegisters> stack_registers(unsigned pe) override {
-    return pes_.empty() ? std::nullopt : of(pe).stack_registers();
+    if (pes_.empty()) return std::nullopt;
+    const Clock::time_point begin = Clock::now();
+    const auto registers = of(pe).stack_registers(looks_ ? Clock::duration(kLongestLook) : Clock::duration::zero());
+    looks_ = looks_ && Clock::now() - begin < kLongestLook;
+    return registers;
   }
   void restore(unsigned pe, const PeRegisters& registers) override {
     launch_.restored.resize(launch_.setup.pes.size());
@@ -390,6 +394,7 @@ class QemuEngine final : public Engine {
   std::function<void(const GdbEndpoint&)> listens_;
   std::uint64_t most_cycles_between_hints_;
   std::vector<QemuPe> pes_;
+  bool looks_ = true;  // PEs have told their registers in time, so far
   Clock::time_point last_check_;
 };
 
