@@ -28,6 +28,7 @@ install(
   FILE_PERMISSIONS ${readable}
   FILES_MATCHING
   PATTERN "*.elf"
+  PATTERN "calls.elf" EXCLUDE
   PATTERN "faults.elf" EXCLUDE
   PATTERN "jumps.elf" EXCLUDE)
 install(

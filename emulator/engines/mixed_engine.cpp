@@ -36,6 +36,7 @@ class MixedEngine final : public Engine {
   }
   PeRegisters save(unsigned pe) override { return of(pe).save(pe); }
   void restore(unsigned pe, const PeRegisters& registers) override { of(pe).restore(pe, registers); }
+  std::optional<StackRegisters> stack_registers(unsigned pe) override { return of(pe).stack_registers(pe); }
   double cpu_seconds() const override { return qemu_->cpu_seconds() + most_->cpu_seconds(); }
   ProcessorWaker* waker(unsigned pe) override { return of(pe).waker(pe); }
   /// While QEMU runs the PE in question, others may run here.

@@ -215,8 +215,10 @@ void Emulation::fill_in(MachineFigures& figures) {
   for (unsigned pe = 0; pe < pes_; ++pe) {
     end = std::max(end, nius_[pe].channel().clock.load(std::memory_order_acquire));
   }
+  if (stopped_) end = std::max(end, until_);
   figures = network_figures(end);
   figures.trace_hash = trace_hash_;
+  figures.stopped = stopped_;
   for (std::size_t s = 0; s < stages_.size(); ++s) {
     const bool last = s + 1 == stages_.size();
     figures.stages.push_back({stages_[s].name, stages_[s].before.now, last ? figures : stages_[s + 1].before});

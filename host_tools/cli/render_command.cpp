@@ -200,7 +200,7 @@ void walk_about(const PreparedRender& prepared, RenderSession& session, Display&
 
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   Resolved& resolved = prepared.resolved;
-  resolved.machine.debugging.listens = announce_debugger(firmware_image());
+  resolved.machine.debugging.listens = announce_debugger([](unsigned) { return firmware_image(); });
   check_told_whole(options);
   check_results_distinct(prepared, options);
   check_results_writable(resolved, options);

@@ -148,6 +148,23 @@ Words render_words(const Json& settings) {
   return words;
 }
 
+/// One image of all PEs, or each one's PEs.
+Words run_words(const Json& settings) {
+  Words words = {"run"};
+  if (const auto images = settings.find("images"); images != settings.end()) {
+    for (const Json& image : *images) {
+      const Json& input = settings.at("inputs").at(image.at("input").get<std::size_t>());
+      add(words, "--image", text(image.at("pes")) + "=" + text(input.at("path")));
+    }
+  } else {
+    words.push_back(text(settings.at("image")));
+  }
+  add(words, "--pes", joined(settings.at("pes"), 'x'));
+  add(words, "--pe-memory", text(settings.at("pe_memory")));
+  if (const auto until = settings.find("until"); until != settings.end()) add(words, "--until", text(*until));
+  return words;
+}
+
 /// What the program reads, and may write: to nowhere, as results are not repeated. Arguments come last.
 void add_program(Words& words, const Json& settings) {
   constexpr std::string_view kInput = "input ";
@@ -170,8 +187,7 @@ Words command_line_of(const Json& settings) {
     if (settings.at("command") == "render") {
       words = render_words(settings);
     } else if (settings.at("command") == "run") {
-      words = {"run",         text(settings.at("image")),    "--pes", joined(settings.at("pes"), 'x'),
-               "--pe-memory", text(settings.at("pe_memory"))};
+      words = run_words(settings);
     } else {
       throw InputError("these are settings of the command '" + text(settings.at("command")) +
                        "'; only render and run are repeated");

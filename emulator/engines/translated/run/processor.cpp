@@ -53,7 +53,7 @@ static_assert(sizeof(Processor) <= 2048);
 Processor::Processor(const TranslatedImage& code, const EngineSetup& setup, unsigned number)
     : code_(code),
       channel_(*niu_channel_at(setup.pes[number].channel.bytes().data())),
-      niu_(channel_, local_memory(setup, number), setup.image.niu_window - protocol::kLocalMemoryBase,
+      niu_(channel_, local_memory(setup, number), setup.images.of(number).niu_window - protocol::kLocalMemoryBase,
            NiuProcessorSide::Waiting::returns) {
   code_.start(pe_, local_memory(setup, number), mapped_bytes_for(setup.pes[number].local_memory_bytes));
   pe_.marker = &Processor::marker;
@@ -114,6 +114,15 @@ PeRegisters Processor::save() const {
   registers.hint_immediate = pe_.hint_immediate;
   registers.halted = at_hint_ == AtHint::finished ? 1 : 0;
   copy_registers(pe_, registers, [](const auto& of_pe, auto& saved) { std::memcpy(&saved, &of_pe, sizeof saved); });
+  return registers;
+}
+
+StackRegisters Processor::stack_registers() const {
+  constexpr std::uint32_t kHintBytes = 4;
+  const bool behind_hint = at_hint_ != AtHint::none && !fault_;
+  StackRegisters registers{pe_.pc - (behind_hint ? kHintBytes : 0), {}};
+  static_assert(sizeof pe_.x == sizeof registers.x);
+  std::memcpy(registers.x.data(), pe_.x, sizeof pe_.x);
   return registers;
 }
 

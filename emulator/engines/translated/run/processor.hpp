@@ -45,6 +45,8 @@ class Processor {
   }
   /// While nobody runs it, and it waits or has finished without a fault.
   PeRegisters save() const;
+  /// While nobody runs it.
+  StackRegisters stack_registers() const;
   /// Before its first run.
   void restore(const PeRegisters& registers);
   /// To be looked at by others: its bound, and what it waits for.

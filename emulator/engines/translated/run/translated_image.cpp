@@ -17,9 +17,11 @@
 
 namespace torolux::translated {
 
-/// A loaded shared object.
+/// A loaded shared object. An open file that it came from stays open: the loader takes another one that gets the same
+/// descriptor, and so the same name, for this one.
 struct TranslatedImage::Library {
-  explicit Library(const std::string& file) : handle(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+  explicit Library(const std::string& file, std::optional<OpenFile> open_file = std::nullopt)
+      : kept(std::move(open_file)), handle(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (handle == nullptr) throw MachineFailure(std::string("translated code cannot be loaded: ") + dlerror());
   }
   Library(const Library&) = delete;
@@ -33,6 +35,7 @@ struct TranslatedImage::Library {
     return reinterpret_cast<Symbol>(found);
   }
 
+  std::optional<OpenFile> kept;
   void* handle;
 };
 
@@ -88,9 +91,10 @@ void TranslatedImage::load(const Image& image, const TranslationOptions& options
   const HostCompiler compiler;
   const Cache cache(options.cache_folder);
   const std::string key = key_of(compiler, headers, units);
-  if (const auto found = cache.find(key)) {
+  if (auto found = cache.find(key)) {
     from_cache_ = true;
-    library_ = std::make_unique<Library>(path_of(*found));
+    const std::string path = path_of(*found);
+    library_ = std::make_unique<Library>(path, std::move(found));
   } else {
     const TemporaryFolder folder;
     const std::filesystem::path built = compiler.build(headers, units, folder.path());
