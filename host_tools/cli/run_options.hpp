@@ -27,7 +27,7 @@ struct RunOptions {
   EndingOptions ending;
   std::string pes = "4x4";
   std::string pe_memory = "1M";
-  std::string engine = kDefaultEngine;
+  std::string engine = kAutomaticEngine;
   std::optional<std::string> machine, stats, stats_csv, report;
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
   Debugging debugging;

@@ -124,7 +124,8 @@ void add_machine(Words& words, const Json& machine) {
 }
 
 void add_engine(Words& words, const Json& settings) {
-  if (settings.at("engine") != kDefaultEngine) add(words, "--engine", text(settings.at("engine")));
+  const char* const usual = settings.at("command") == "run" ? kAutomaticEngine : kDefaultEngine;
+  if (settings.at("engine") != usual) add(words, "--engine", text(settings.at("engine")));
   if (const auto pes = settings.find("qemu_pes"); pes != settings.end()) add(words, "--qemu-pes", joined(*pes, ','));
 }
 

@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <iostream>
 
 #include "emulator/engines/isa/instruction_class.hpp"
 #include "emulator/engines/translated/analysis/blocks.hpp"
@@ -56,6 +57,10 @@ std::string path_of(const OpenFile& file) {
   return "/proc/self/fd/" + std::to_string(file.descriptor());
 }
 
+void tell_interpreted(const std::string& why) {
+  std::cerr << "torolux: note: the firmware is interpreted, which is slow: " + why + "\n" << std::flush;
+}
+
 /// False: the HINT at which the PE stands is no phase marker, or nobody wants to be called at those.
 bool call_marker(TranslatedPe& pe) {
   if (pe.marker == nullptr || !protocol::is_phase_marker(pe.hint_immediate)) {
@@ -74,7 +79,16 @@ TranslatedImage::TranslatedImage(const Image& image, const LatencyTable& latency
 
 TranslatedImage::~TranslatedImage() = default;
 
-void TranslatedImage::load(const Image& image, const TranslationOptions& options) {
+struct TranslatedImage::Source {
+  HostCompiler compiler;
+  Cache cache;
+  std::vector<SourceText> headers, units;
+  std::string key;
+};
+
+/// Nothing: there is no compiler, and it can be done without.
+std::optional<TranslatedImage::Source> TranslatedImage::source_of(const Image& image,
+                                                                  const TranslationOptions& options) {
   Blocks blocks(image, code_);
   const std::vector<GuestFunction> functions = make_functions(code_, blocks);
   ways_.resize((code_.end() - code_.begin()) / 2);
@@ -86,24 +100,55 @@ void TranslatedImage::load(const Image& image, const TranslationOptions& options
   }
   const Liveness liveness(code_, blocks);
   trap_handlers_ = liveness.trap_handlers();
-  const std::vector<SourceText> units = generate(code_, blocks, liveness, functions);
-  const std::vector<SourceText> headers = semantics_texts();
-  const HostCompiler compiler;
-  const Cache cache(options.cache_folder);
-  const std::string key = key_of(compiler, headers, units);
-  if (auto found = cache.find(key)) {
+  try {
+    Source source{HostCompiler(), Cache(options.cache_folder), semantics_texts(),
+                  generate(code_, blocks, liveness, functions), ""};
+    source.key = key_of(source.compiler, source.headers, source.units);
+    return source;
+  } catch (const MachineFailure& failure) {
+    if (!options.in_background) throw;
+    tell_interpreted(failure.what());
+    return std::nullopt;
+  }
+}
+
+void TranslatedImage::load(const Image& image, const TranslationOptions& options) {
+  std::optional<Source> source = source_of(image, options);
+  if (!source) return;
+  if (auto found = source->cache.find(source->key)) {
     from_cache_ = true;
     const std::string path = path_of(*found);
-    library_ = std::make_unique<Library>(path, std::move(found));
+    take(std::make_unique<Library>(path, std::move(found)));
+  } else if (options.in_background) {
+    compile_in_background(std::move(*source));
   } else {
-    const TemporaryFolder folder;
-    const std::filesystem::path built = compiler.build(headers, units, folder.path());
-    cache.store(key, built);
-    library_ = std::make_unique<Library>(built.string());
+    compile(*source, {});
   }
+}
+
+void TranslatedImage::compile(const Source& source, const std::stop_token& stop) {
+  const TemporaryFolder folder;
+  const std::filesystem::path built = source.compiler.build(source.headers, source.units, folder.path(), stop);
+  source.cache.store(source.key, built);
+  take(std::make_unique<Library>(built.string()));
+}
+
+void TranslatedImage::compile_in_background(Source source) {
+  background_ = std::jthread([this, source = std::move(source)](const std::stop_token& stop) {
+    try {
+      compile(source, stop);
+    } catch (const MachineFailure& failure) {
+      if (!stop.stop_requested()) tell_interpreted(failure.what());
+    }
+  });
+}
+
+void TranslatedImage::take(std::unique_ptr<Library> library) {
+  library_ = std::move(library);
   enter_ = library_->symbol<EnterFunction>(kEnter);
   called_ = library_->symbol<const HostFunction*>(kCalledTable);
   resumed_ = library_->symbol<const HostFunction*>(kResumedTable);
+  is_translated_.store(true, std::memory_order_release);
 }
 
 void TranslatedImage::find_ways(const Block& block, std::size_t function, bool begins_function) {
@@ -164,7 +209,7 @@ void TranslatedImage::refresh(TranslatedPe& pe) const {
 }
 
 bool TranslatedImage::may_run_translated(const TranslatedPe& pe) const {
-  return !pe.interpreted && pe.may_fetch && pe.frm == 0 && (!has_float_ || !float_is_off(pe));
+  return is_translated() && !pe.interpreted && pe.may_fetch && pe.frm == 0 && (!has_float_ || !float_is_off(pe));
 }
 
 Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
