@@ -15,9 +15,7 @@ namespace torolux {
 namespace {
 
 constexpr std::string_view kTranslated = "translated";
-constexpr std::string_view kInterpreted = "interpreted";
 
-/// Translates nothing: slow, but at once, and without a compiler.
 std::unique_ptr<Engine> make_interpreted_engine(const EngineSetup& setup) {
   translated::TranslationOptions options;
   options.interpret = true;
@@ -30,7 +28,7 @@ Registry& registry() {
   static Registry engines = {
       {kQemuEngine, [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
       {std::string(kTranslated), [](const EngineSetup& setup) { return make_translated_engine(setup); }},
-      {std::string(kInterpreted), make_interpreted_engine}};
+      {kInterpretedEngine, make_interpreted_engine}};
   return engines;
 }
 
@@ -42,7 +40,7 @@ void register_engine(std::string_view name, EngineFactory factory) {
 
 bool engine_runs_here(std::string_view name) {
   engine_named(name);
-  return name == kTranslated || name == kInterpreted;
+  return name == kTranslated || name == kInterpretedEngine;
 }
 
 const EngineFactory& engine_named(std::string_view name) {

@@ -15,6 +15,8 @@ using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>
 
 /// Where the user names none.
 inline constexpr const char* kDefaultEngine = "translated";
+/// Knows each instruction as it executes it: slow, but at once, and without a compiler.
+inline constexpr const char* kInterpretedEngine = "interpreted";
 
 /// Engines by name. `qemu`, `translated` and `interpreted` are always there; others register before main's work (tests
 /// add `native`).
