@@ -15,7 +15,6 @@ namespace torolux {
 namespace {
 
 constexpr std::string_view kTranslated = "translated";
-constexpr std::string_view kInterpreted = "interpreted";
 
 /// Interprets at once what has to be translated, and goes on translated.
 std::unique_ptr<Engine> make_automatic_engine(const EngineSetup& setup) {
@@ -24,7 +23,6 @@ std::unique_ptr<Engine> make_automatic_engine(const EngineSetup& setup) {
   return make_translated_engine(setup, options);
 }
 
-/// Translates nothing: slow, but at once, and without a compiler.
 std::unique_ptr<Engine> make_interpreted_engine(const EngineSetup& setup) {
   translated::TranslationOptions options;
   options.interpret = true;
@@ -37,7 +35,7 @@ Registry& registry() {
   static Registry engines = {
       {kQemuEngine, [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
       {std::string(kTranslated), [](const EngineSetup& setup) { return make_translated_engine(setup); }},
-      {std::string(kInterpreted), make_interpreted_engine},
+      {kInterpretedEngine, make_interpreted_engine},
       {kAutomaticEngine, make_automatic_engine}};
   return engines;
 }
@@ -50,7 +48,7 @@ void register_engine(std::string_view name, EngineFactory factory) {
 
 bool engine_runs_here(std::string_view name) {
   engine_named(name);
-  return name == kTranslated || name == kInterpreted || name == kAutomaticEngine;
+  return name == kTranslated || name == kInterpretedEngine || name == kAutomaticEngine;
 }
 
 const EngineFactory& engine_named(std::string_view name) {

@@ -17,6 +17,8 @@ using EngineFactory = std::function<std::unique_ptr<Engine>(const EngineSetup&)>
 inline constexpr const char* kDefaultEngine = "translated";
 /// And for images of one's own, which change often: interprets what is not translated yet, and translates meanwhile.
 inline constexpr const char* kAutomaticEngine = "auto";
+/// Knows each instruction as it executes it: slow, but at once, and without a compiler.
+inline constexpr const char* kInterpretedEngine = "interpreted";
 
 /// Engines by name. `qemu`, `translated`, `interpreted` and `auto` are always there; others register before main's work
 /// (tests add `native`).

@@ -37,9 +37,10 @@ RecordPacket packet_of(const Block& block) {
 }  // namespace
 
 Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, CallStacks& stacks,
-                     Engine& engine, HostProgram& program)
+                     Engine& engine, HostProgram& program, PhaseNames phases)
     : pes_(static_cast<std::uint32_t>(channels.size())),
       stacks_(stacks),
+      phases_(std::move(phases)),
       engine_(engine),
       program_(&program),
       events_(3 * std::size_t{pes_} + 4),
@@ -66,7 +67,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
   stages_.push_back({"run", network_figures(0)});
   if (setup.watcher == nullptr) return;
-  watch_.emplace(*setup.watcher, WatchedMachine{setup.description, setup.columns, setup.rows}, nius_, torus_,
+  watch_.emplace(*setup.watcher, WatchedMachine{setup.description, setup.columns, setup.rows, phases_}, nius_, torus_,
                  WatchedActors{[this](unsigned pe) { return parts_[pe].outgoing.size(); },
                                [this] { return controller_.waiting(); },
                                [this] { return static_cast<std::uint32_t>(host_.inbox()); }});

@@ -29,9 +29,9 @@ namespace torolux {
 /// Single-threaded. PEs run elsewhere, or when it asks their engine to; they meet it in their channels only.
 class Emulation final : private TorusClient, private BusClient, private HostClient, private EventWatcher {
  public:
-  /// channels: zeroed, one per PE. stacks: for messages about faults. All references outlive this.
+  /// channels: zeroed, one per PE. stacks: for messages about faults. All references outlive this. phases: their names.
   Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, CallStacks& stacks, Engine& engine,
-            HostProgram& program);
+            HostProgram& program, PhaseNames phases);
 
   /// Runs until the program has finished and the machine is empty, or until the set-up's end. attend: called at least
   /// some ten times a second, or as often as the setup's progress asks for; may throw to end the run. message_read:
@@ -131,6 +131,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   // side), bus, host, FBC, the routers' arbiters, the bus's arbiter: those decide at the end of a cycle.
   std::uint32_t pes_;
   CallStacks& stacks_;
+  PhaseNames phases_;
   Engine& engine_;
   HostProgram* program_;
   EventQueue events_;

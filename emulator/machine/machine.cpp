@@ -152,7 +152,7 @@ struct Machine::Parts {
       throw UsageError("a machine of the engine " + std::string(engine->name()) +
                        " can neither be saved nor go on from what was saved");
     }
-    emulation.emplace(setup, channels, *stacks, *engine, program);
+    emulation.emplace(setup, channels, *stacks, *engine, program, images.phase_names());
     if (setup.keeper != nullptr) engine->will_be_saved();
     if (from != nullptr) restore(*from);
     begin_wall = clock_seconds(CLOCK_MONOTONIC);
@@ -209,7 +209,8 @@ Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_
     p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
   }
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
-  p.engine = make_engine(setup.engine, {p.setup.description, p.images, p.pes, threads}, setup.debugging);
+  p.engine =
+      make_engine(setup.engine, {p.setup.description, p.images, p.pes, threads, {}, setup.profile}, setup.debugging);
   p.stacks.emplace(p.images, p.pes, *p.engine);
 }
 

@@ -20,6 +20,7 @@
 #include "emulator/machine/live_figures.hpp"
 #include "emulator/machine/time_line.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/phase_names.hpp"
 #include "emulator/torus/figures.hpp"
 #include "firmware/protocol/hints.hpp"
 
@@ -31,6 +32,9 @@ class Pacer;           // emulator/trace/pacer.hpp
 class HopWatcher;      // emulator/torus/hop_watcher.hpp
 class SnapshotKeeper;  // emulator/snapshot/keeper.hpp
 class SnapshotReader;  // emulator/snapshot/archive.hpp
+namespace profile {
+class CycleProfile;  // emulator/profile/cycle_profile.hpp
+}
 
 struct MachineSetup {
   MachineDescription description;
@@ -40,7 +44,7 @@ struct MachineSetup {
   std::string engine = kDefaultEngine;
   Debugging debugging;
   std::vector<std::string> arguments;  ///< of the program's main, from argv[1] on
-  unsigned threads = 0;  ///< 0: all cores
+  unsigned threads = 0;                ///< 0: all cores
   Cycles until = 0;  ///< the run ends at this virtual time, if it has not ended before (docs/virtual_time.md); 0: never
   std::uint32_t frame_width = 0;
   std::uint32_t frame_height = 0;
@@ -51,6 +55,8 @@ struct MachineSetup {
   Pacer* pacer = nullptr;                   ///< holds it back, so that somebody can follow; likewise
   HopWatcher* hop_watcher = nullptr;        ///< told of each hop of packets; likewise
   SnapshotKeeper* keeper = nullptr;         ///< given the machine's state whenever it wants that; likewise
+  profile::CycleProfile* profile =
+      nullptr;  ///< told of each instruction; likewise. With the engine `interpreted` alone
 };
 
 struct PeFigures {
@@ -97,9 +103,10 @@ struct StageFigures;
 
 /// Of a run, or of one stage of it.
 struct MachineFigures {
-  Cycles now = 0;                ///< virtual time at which nothing happens any more: event, PE or host
-  bool stopped = false;          ///< at MachineSetup::until; there would have been more
-  std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
+  Cycles now = 0;                              ///< virtual time at which nothing happens any more: event, PE or host
+  bool stopped = false;                        ///< at MachineSetup::until; there would have been more
+  std::uint64_t trace_hash = 0;                ///< of the sequence of all events: equal runs have equal ones
+  PhaseNames phases = built_in_phase_names();  ///< the images', and those that they have no name for but use
   std::vector<PeFigures> pes;
   std::vector<RouterFigures> routers;  ///< of each PE
   PacketFigures packets;               ///< that have left the torus

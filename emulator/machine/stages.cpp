@@ -26,6 +26,16 @@ void fill_between(PeFigures& out, const ProcessorMark& from, const ProcessorMark
   }
 }
 
+/// The names, and one for each phase that has none but cycles.
+PhaseNames phases_of(const std::vector<PeFigures>& pes, const PhaseNames& names) {
+  PhaseNames phases = names;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const bool used = std::any_of(pes.begin(), pes.end(), [i](const PeFigures& pe) { return pe.phase_cycles[i] != 0; });
+    if (used) phases[i] = phase_name(names, i);
+  }
+  return phases;
+}
+
 void subtract(BusTraffic& from, const BusTraffic& before) {
   from.transfers -= before.transfers;
   from.bytes -= before.bytes;
@@ -238,6 +248,8 @@ void Emulation::fill_in(MachineFigures& figures) {
     busy.push_back(state.busy);
     busy.back().add_interval(state.busy_since, mark.clock, 1);
   }
+  figures.phases = phases_of(figures.pes, phases_);
+  for (StageFigures& stage : figures.stages) stage.figures.phases = figures.phases;
   note_host_busy();
   figures.time_line = time_line_.figures(end, busy);
 }

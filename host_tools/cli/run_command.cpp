@@ -76,9 +76,15 @@ RunEnd run_prepared(const RunOptions& options) {
   const std::vector<MemoryDump> dumps = checked_dumps(options.ending, setup, images);
   ServedFiles files(std::move(read), options.program.outputs);
   const auto begin = std::chrono::steady_clock::now();
-  const auto display = open_display(
-      options.display,
-      {"run", inputs.images.names(), setup.columns, setup.rows, setup.description.processor.clock_hertz, 0, 0, {}});
+  const auto display = open_display(options.display, {"run",
+                                                      inputs.images.names(),
+                                                      setup.columns,
+                                                      setup.rows,
+                                                      setup.description.processor.clock_hertz,
+                                                      0,
+                                                      0,
+                                                      {},
+                                                      images.phase_names()});
   if (display) {
     setup.progress_seconds = DisplayFeed::kUpdateSeconds;
     setup.pacer = &display->pace();
@@ -117,7 +123,8 @@ RunEnd run_prepared(const RunOptions& options) {
     write_stats_tables(*options.stats_csv, stats_tables(figures));
   }
   if (options.report) {
-    write_file(*options.report, report_html({inputs.images.paths(), statistics, figures, nullptr, {}}));
+    const std::string profile = options.profile_for_report ? options.profile_for_report() : "";
+    write_file(*options.report, report_html({inputs.images.paths(), statistics, figures, nullptr, {}, profile}));
   }
   if (!options.quiet) {
     print_summary(setup, outcome, wall_seconds);

@@ -72,6 +72,7 @@ MachineSetup setup_from(const RunOptions& options) {
   for (const std::string& value : options.machine_values) set_machine_value(setup.description, value);
   setup.description.ideal = either(setup.description.ideal, options.ideal);
   options.faults.apply_to(setup.description);
+  setup.profile = options.profile;
   return setup;
 }
 

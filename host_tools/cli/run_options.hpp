@@ -2,6 +2,7 @@
 // The options of `torolux run`, and the machine that they ask for.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,9 @@ struct RunOptions {
   TraceOptions trace;
   DisplayOptions display;
   bool quiet = false;
+  profile::CycleProfile* profile = nullptr;  ///< to be filled in (`torolux profile`); null: none
+  std::function<std::string()>
+      profile_for_report;  ///< called when it is, for the report (ReportInput); none: no profile
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);

@@ -96,7 +96,7 @@ std::string run_stats_json(const MachineSetup& setup, const ProgramFiles& inputs
   json["stages"] = stages_json(figures, {});
   json["time_line"] = time_line_json(figures.time_line);
   json["links"] = links_json(figures);
-  json["pes"] = pes_json(figures.pes);
+  json["pes"] = pes_json(figures.pes, figures.phases);
   json["wall_seconds"] = wall_seconds;
   json["host"] = {{"threads", setup.threads},
                   {"scheduler_seconds", figures.scheduler_seconds},

@@ -17,6 +17,10 @@
 
 namespace torolux {
 
+namespace profile {
+class CycleProfile;  // emulator/profile/cycle_profile.hpp
+}
+
 /// One PE as engine and emulator share it: local memory with the image loaded and the NIU window filled in.
 struct PeMemory {
   SharedMemory channel;  ///< a NiuChannel
@@ -32,8 +36,9 @@ struct EngineSetup {
   const MachineDescription& machine;
   const ImageSet& images;
   std::vector<PeMemory>& pes;
-  unsigned threads;                  ///< host threads to use, >= 1
-  std::vector<bool> elsewhere = {};  ///< by number: PEs that another engine of this machine runs; empty: none
+  unsigned threads;                          ///< host threads to use, >= 1
+  std::vector<bool> elsewhere = {};          ///< by number: PEs that another engine of this machine runs; empty: none
+  profile::CycleProfile* profile = nullptr;  ///< filled in while the PEs run; null: none
 
   bool runs(std::size_t pe) const { return elsewhere.empty() || !elsewhere[pe]; }
 };

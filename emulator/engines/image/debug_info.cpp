@@ -183,6 +183,7 @@ std::optional<FrameRegisters> DebugInfo::caller(const FrameRegisters& frame, std
 }
 
 std::string demangled(const std::string& name) {
+  if (!name.starts_with("_Z")) return name;  // the library takes `f` for the type float
   int status = 0;
   const Freed<char> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status), &std::free);
   return status == 0 && text != nullptr ? std::string(text.get()) : name;

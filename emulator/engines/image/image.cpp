@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "emulator/engines/image/debug_info.hpp"
+#include "emulator/engines/image/phase_records.hpp"
 #include "emulator/errors.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -160,6 +161,24 @@ std::optional<std::string> name_at(std::span<const std::byte> strings, std::uint
   return name;
 }
 
+/// Of the section with the image's own phases; where it has none, those of Torolux.
+PhaseNames read_phases(const ElfReader& reader, const Elf32_Ehdr& header) {
+  const auto section_at = [&](std::uint64_t number) {
+    return reader.at<Elf32_Shdr>(header.e_shoff + number * sizeof(Elf32_Shdr), "section headers");
+  };
+  if (header.e_shstrndx == SHN_UNDEF || header.e_shstrndx >= header.e_shnum) return built_in_phase_names();
+  const Elf32_Shdr table = section_at(header.e_shstrndx);
+  const auto names = reader.bytes(table.sh_offset, table.sh_size, "section names");
+  for (std::uint64_t i = 0; i < header.e_shnum; ++i) {
+    const Elf32_Shdr section = section_at(i);
+    if (section.sh_type == SHT_NOBITS || name_at(names, section.sh_name) != kPhaseSection) continue;
+    PhaseRecords records = read_phase_records(reader.bytes(section.sh_offset, section.sh_size, "phase names"));
+    if (!records.wrong.empty()) reader.fail(records.wrong);
+    return std::move(records.names);
+  }
+  return built_in_phase_names();
+}
+
 /// Every named symbol that has an address, functions and objects as well as labels of assembly and linker scripts.
 std::vector<ImageSymbol> read_symbols(const ElfReader& reader, const Elf32_Ehdr& header) {
   if (header.e_shnum != 0 && header.e_shentsize != sizeof(Elf32_Shdr)) {
@@ -273,6 +292,7 @@ Image parse_image(std::span<const std::byte> contents, const std::filesystem::pa
   image.segments = read_segments(reader, header);
   check_segments(reader, image.segments);
   image.symbols = read_symbols(reader, header);
+  image.phase_names = read_phases(reader, header);
   image.niu_window = required_symbol(reader, image.symbols, "__niu_window");
   image.stores_begin = required_symbol(reader, image.symbols, "__stores_begin");
   tidy_symbols(image.symbols);

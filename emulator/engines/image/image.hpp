@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/phase_names.hpp"
+
 namespace torolux {
 
 struct ImageSymbol {
@@ -29,10 +31,11 @@ struct ImageSegment {
 struct Image {
   std::filesystem::path file;
   std::vector<ImageSegment> segments;
-  std::vector<ImageSymbol> symbols;  ///< functions and objects, ascending address
-  std::uint32_t entry;               ///< = kLocalMemoryBase
-  std::uint32_t niu_window;          ///< symbol __niu_window
-  std::uint32_t stores_begin;        ///< symbol __stores_begin: first byte that the image leaves free
+  std::vector<ImageSymbol> symbols;                 ///< functions and objects, ascending address
+  std::uint32_t entry;                              ///< = kLocalMemoryBase
+  std::uint32_t niu_window;                         ///< symbol __niu_window
+  std::uint32_t stores_begin;                       ///< symbol __stores_begin: first byte that the image leaves free
+  PhaseNames phase_names = built_in_phase_names();  ///< or those of its section .torolux.phases
 
   /// What the address lies in: by its size, or the last label before it. Null: nothing is near.
   const ImageSymbol* symbol_of(std::uint32_t address) const;

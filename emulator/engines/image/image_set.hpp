@@ -23,6 +23,8 @@ class ImageSet {
   const std::vector<Image>& images() const { return images_; }
   std::size_t number_of(std::size_t pe) const { return number_of_pe_.empty() ? 0 : number_of_pe_[pe]; }
   const Image& of(std::size_t pe) const { return images_[number_of(pe)]; }
+  /// Of all together: where they call one phase differently, "a / b". No two are the same.
+  PhaseNames phase_names() const;
 
  private:
   std::vector<Image> images_;

@@ -12,6 +12,7 @@
 #include "emulator/engines/translated/run/run_queue.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/pause.hpp"
+#include "emulator/profile/cycle_profile.hpp"
 
 namespace torolux {
 namespace {
@@ -60,7 +61,9 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   std::string_view name() const override { return interprets_ ? "interpreted" : "translated"; }
 
   void start() override {
+    if (setup_.profile != nullptr) setup_.profile->begin(setup_.pes.size());
     for (unsigned pe = 0; pe < setup_.pes.size(); ++pe) {
+      if (setup_.profile != nullptr) setup_.profile->add(setup_.images.of(pe));
       processors_.emplace_back(codes_[setup_.images.number_of(pe)], setup_, pe);
       if (pe < restored_.size() && restored_[pe]) processors_.back().restore(*restored_[pe]);
     }

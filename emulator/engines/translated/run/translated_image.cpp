@@ -243,6 +243,21 @@ Exit TranslatedImage::run_translated(TranslatedPe& pe, const Way& way) const {
   return static_cast<Exit>(left.at >> 32U);
 }
 
+/// Nothing where the PE goes on.
+std::optional<TranslatedImage::Stop> TranslatedImage::stop_of(Interpreter::Step step, TranslatedPe& pe) {
+  switch (step) {
+    case Interpreter::Step::stuck:
+      return Stop::stuck;
+    case Interpreter::Step::waits:
+      return Stop::waits;
+    case Interpreter::Step::hint:
+      return call_marker(pe) ? std::nullopt : std::optional(Stop::hint);
+    case Interpreter::Step::done:
+      break;
+  }
+  return std::nullopt;
+}
+
 TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
   while (pe.cycles < pe.cycle_limit) {
     const Way* way = may_run_translated(pe) ? way_at(pe.pc) : nullptr;
@@ -253,10 +268,8 @@ TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
       give_back_rest(pe);
     }
     const Interpreter::Step step = interpret(pe);
-    if (step == Interpreter::Step::stuck) return Stop::stuck;
-    if (step == Interpreter::Step::waits) return Stop::waits;
-    if (step != Interpreter::Step::hint) continue;
-    if (!call_marker(pe)) return Stop::hint;
+    if (step == Interpreter::Step::done) continue;
+    if (const auto stop = stop_of(step, pe)) return *stop;
   }
   return Stop::cycle_limit;
 }

@@ -20,6 +20,10 @@
 #include "emulator/engines/translated/run/interpreter.hpp"
 #include "emulator/engines/translated/semantics/pe_state.hpp"
 
+namespace torolux::profile {
+class PeProfile;
+}
+
 namespace torolux::translated {
 
 struct TranslationOptions {
@@ -60,6 +64,8 @@ class TranslatedImage {
   };
   /// Goes on from where the PE stands. Call it again after each HINT.
   Stop run(TranslatedPe& pe) const;
+  /// The same, one instruction after the other, each told to the profile, which has begun.
+  Stop run_profiled(TranslatedPe& pe, profile::PeProfile& profile) const;
 
  private:
   struct Library;
@@ -84,6 +90,7 @@ class TranslatedImage {
   const Way* way_at(std::uint32_t address) const;
   void find_ways(const Block& block, std::size_t function, bool begins_function);
   Exit run_translated(TranslatedPe& pe, const Way& way) const;
+  static std::optional<Stop> stop_of(Interpreter::Step step, TranslatedPe& pe);
 
   CodeMap code_;
   Interpreter interpreter_;
