@@ -18,7 +18,4 @@ std::vector<std::string> options_of(const std::string& command, const Place& pla
 /// The words after `torolux`: the command, its scene or image, options. Paths are relative to the plan's folder.
 std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> options);
 
-/// Words for a shell, quoted where it needs that.
-std::string shell_line(const std::vector<std::string>& words);
-
 }  // namespace torolux::study
