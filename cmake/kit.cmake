@@ -29,6 +29,7 @@ add_custom_command(
           ${PROJECT_SOURCE_DIR}/cmake/pe_flags.txt
           ${PROJECT_SOURCE_DIR}/cmake/print_regions.sh
           ${PROJECT_SOURCE_DIR}/cmake/stage_kit.sh
+          ${PROJECT_SOURCE_DIR}/cmake/torolux.mk
           ${PROJECT_SOURCE_DIR}/linker/pe.ld
           torolux_boot_archive
   VERBATIM)

@@ -49,9 +49,9 @@ std::vector<std::string> compiler_words(const std::filesystem::path& kit) {
   const std::vector<std::string> flags = flags_of(text, {"all", "compiled", "defaults"});
   words.insert(words.end(), flags.begin(), flags.end());
   const std::string folder = kit.string();
-  words.insert(words.end(), {"--sysroot=" + folder, "-specs=" + folder + "/torolux.specs", "-isystem",
-                             folder + "/include", "-isystem", folder + "/include/firmware/niu/riscv", "-idirafter",
-                             folder + "/libc/include"});
+  words.insert(words.end(),
+               {"--sysroot=" + folder, "-specs=" + folder + "/torolux.specs", "-isystem", folder + "/include",
+                "-isystem", folder + "/include/firmware/niu/riscv", "-idirafter", folder + "/libc/include"});
   return words;
 }
 

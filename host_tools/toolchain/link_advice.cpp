@@ -32,7 +32,8 @@ constexpr std::array kAdvice = std::to_array<Advice>({
      "objects of different ABIs cannot be one image. The kit's is ilp32f (-march=rv32imafc -mabi=ilp32f); compile "
      "everything for it. An image of ilp32 alone needs start-up code and libraries of its own: -nostdlib"},
     {{"__cxa_throw", "__cxa_begin_catch", "__cxa_allocate_exception", "__gxx_personality_v0", "_Unwind_Resume"},
-     "there are no exceptions on a PE: leave out -fexceptions, throw and try, or the object that was compiled with them"},
+     "there are no exceptions on a PE: leave out -fexceptions, throw and try, or the object that was compiled with "
+     "them"},
     {{"vtable for __cxxabiv1::", "__dynamic_cast", "undefined reference to `typeinfo for"},
      "there is no run-time type information on a PE: leave out -frtti, dynamic_cast and typeid, or the object that was "
      "compiled with them"},
