@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Builds the PEs' C library (newlib), the headers of libstdc++ and GLM from Debian's packages, and prints where they are:
+# Builds the PEs' C library (newlib), libstdc++'s headers and containers, and GLM from Debian's packages; prints where they are:
 # in this checkout's build folder, so that it is complete for whoever runs it. Enters: newlib-source, gcc-12-source,
 # libglm-dev, the cross compiler. Leaves: one folder, complete or not there at all, and a copy of it in the user's cache
 # where there is one, from which other checkouts take theirs; two builds at once do no harm.
@@ -63,14 +63,14 @@ build_newlib() {
   tar -xf "$newlib_archive" -C "$work/newlib" --strip-components=1
   cd "$work/newlib-build"
   "$work/newlib/configure" --target=$target --prefix="$stage" --disable-multilib \
-    --disable-newlib-supplied-syscalls --disable-nls --disable-libgloss --enable-newlib-nano-formatted-io \
-    --enable-newlib-reent-small --enable-lite-exit CFLAGS_FOR_TARGET="$newlib_flags"
+    --disable-newlib-supplied-syscalls --disable-nls --disable-libgloss --enable-newlib-io-long-long \
+    --enable-newlib-io-c99-formats --enable-newlib-reent-small CFLAGS_FOR_TARGET="$newlib_flags -ffile-prefix-map=$work/newlib/="
   make -j"$jobs" all-target-newlib
   make install-target-newlib
 }
 
-# Headers only: without exceptions, RTTI and streams nothing of the library itself is needed.
-build_libstdcxx_headers() {
+# Headers, and the few parts of the library that containers need; no exceptions, RTTI and streams.
+build_libstdcxx() {
   mkdir "$work/gcc"
   local part parts=()
   for part in libstdc++-v3 'config*' libgcc include libiberty install-sh ltmain.sh 'lt*.m4' libtool.m4 mkinstalldirs \
@@ -87,6 +87,13 @@ build_libstdcxx_headers() {
     CC="$target-gcc ${arch[*]} -isystem $include" CXX="$target-g++ ${arch[*]} -isystem $include"
   make -C include install
   make -C libsupc++ install-stdHEADERS install-bitsHEADERS
+  local source=$work/gcc/libstdc++-v3 part
+  for part in src/c++98/tree src/c++98/list src/c++11/hashtable_c++0x libsupc++/hash_bytes; do
+    "$target-g++" -O2 "${arch[@]}" -mcmodel=medany -ffunction-sections -fdata-sections -fno-exceptions -fno-rtti \
+      -isystem "$stage/c++" -isystem "$stage/c++/$target" -isystem "$include" -c "$source/$part.cc" \
+      -o "$work/$(basename "$part").o"
+  done
+  "$target-ar" rcs "$stage/$target/lib/libstdc++.a" "$work"/{tree,list,hashtable_c++0x,hash_bytes}.o
 }
 
 # newlib does not declare the C99 functions of long double for RISC-V, but <cmath> names them. They are never called.
@@ -131,7 +138,7 @@ echo "Building the PEs' C library once, about a minute and a half ..." >&2
 # In the background, as `set -e` does not hold inside a condition.
 (
   build_newlib
-  build_libstdcxx_headers
+  build_libstdcxx
   write_math_shim
   # Only GLM's own folder may be on the path, never the whole of /usr/include.
   mkdir "$stage/glm"

@@ -11,7 +11,7 @@ foreach(flag IN LISTS flags)
 endforeach()
 pe_flags(link link)
 list(JOIN link " " link)
-set(libraries "-ltorolux_boot -lm -lc")
+set(libraries "-ltorolux -ltorolux_boot -lstdc++ -lm -lc")
 configure_file(${PROJECT_SOURCE_DIR}/cmake/torolux.specs.in ${PROJECT_BINARY_DIR}/torolux.specs @ONLY)
 
 # An archive, so that an image with a start of its own leaves it out.
@@ -23,7 +23,7 @@ file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/firmware/*.h $
 add_custom_command(
   OUTPUT ${kit}/torolux.specs
   COMMAND ${PROJECT_SOURCE_DIR}/cmake/stage_kit.sh ${kit} ${PROJECT_BINARY_DIR}/torolux.specs ${TOROLUX_SYSROOT}
-          $<TARGET_FILE:torolux_boot_archive>
+          $<TARGET_FILE:torolux_boot_archive> $<TARGET_FILE:torolux_kit>
   DEPENDS ${headers}
           ${PROJECT_BINARY_DIR}/torolux.specs
           ${PROJECT_SOURCE_DIR}/cmake/pe_flags.txt
@@ -32,5 +32,6 @@ add_custom_command(
           ${PROJECT_SOURCE_DIR}/cmake/torolux.mk
           ${PROJECT_SOURCE_DIR}/linker/pe.ld
           torolux_boot_archive
+          torolux_kit
   VERBATIM)
 add_custom_target(kit ALL DEPENDS ${kit}/torolux.specs)

@@ -29,10 +29,14 @@ string(REPLACE "--" "-Wl,--" torolux_link "${torolux_link}")
 set(CMAKE_ASM_FLAGS_INIT "${torolux_all}")
 set(CMAKE_C_FLAGS_INIT "${torolux_all} ${torolux_compiled}")
 set(CMAKE_CXX_FLAGS_INIT "${torolux_all} ${torolux_compiled} ${torolux_c++}")
+set(CMAKE_C_FLAGS_RELEASE
+    "-O2 -DNDEBUG"
+    CACHE STRING "Optimisation of the images")
 set(CMAKE_CXX_FLAGS_RELEASE
     "-O2 -DNDEBUG"
     CACHE STRING "Optimisation of the images")
 
+set(CMAKE_C_STANDARD_INCLUDE_DIRECTORIES ${TOROLUX_SYSROOT}/include)
 set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES
     ${TOROLUX_SYSROOT}/c++ ${TOROLUX_SYSROOT}/c++/riscv64-unknown-elf ${TOROLUX_SYSROOT}/shim
     ${TOROLUX_SYSROOT}/include ${TOROLUX_SYSROOT}/glm)

@@ -28,10 +28,20 @@ torolux_goal := $(.DEFAULT_GOAL)
 %.o: %.s $(torolux_kit)
 	$(CC) $(ASFLAGS) -c $< -o $@
 
-%.elf: %.o
-	$(CC) $(CFLAGS) $(LDFLAGS) $(filter %.o %.a,$^) $(LDLIBS) -o $@
-%.elf:
-	$(CC) $(CFLAGS) $(LDFLAGS) $(filter %.o %.a,$^) $(LDLIBS) -o $@
+# An image: of the source of its name, and of whatever else is named for it. Headers are no part of a link.
+torolux_parts = $(filter %.c %.cpp %.cc %.S %.s %.o %.a,$^)
+torolux_compiled = $(CPPFLAGS) -MMD -MP -MT $@ $(LDFLAGS) $(torolux_parts) $(LDLIBS) -o $@
+
+%.elf: %.c $(torolux_kit)
+	$(CC) $(CFLAGS) $(torolux_compiled)
+%.elf: %.cpp $(torolux_kit)
+	$(CXX) $(CXXFLAGS) $(torolux_compiled)
+%.elf: %.cc $(torolux_kit)
+	$(CXX) $(CXXFLAGS) $(torolux_compiled)
+%.elf: %.S $(torolux_kit)
+	$(CC) $(ASFLAGS) $(torolux_compiled)
+%.elf: $(torolux_kit)
+	$(CC) $(CFLAGS) $(torolux_compiled)
 
 # Objects stay; what they were made of is known from the last time.
 .PRECIOUS: %.o

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "emulator/machine/faults.hpp"
@@ -35,9 +36,10 @@ RecordPacket packet_of(const Block& block) {
 }  // namespace
 
 Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image,
-                     Engine& engine, HostProgram& program)
+                     LocalMemory memory, Engine& engine, HostProgram& program)
     : pes_(static_cast<std::uint32_t>(channels.size())),
       image_(image),
+      memory_(std::move(memory)),
       engine_(engine),
       program_(&program),
       events_(3 * std::size_t{pes_} + 4),
@@ -198,7 +200,7 @@ void Emulation::send_message(unsigned pe, BlockIndex block) {
 void Emulation::fail_program(unsigned pe, BlockIndex block) {
   protocol::Fault fault{};
   std::memcpy(&fault, pool_[block].data.data(), sizeof fault);
-  fail(describe_fault(pe, fault, image_));
+  fail(describe_fault(pe, fault, image_, memory_(pe)));
 }
 
 void Emulation::fail_niu(unsigned pe, BlockIndex block) {

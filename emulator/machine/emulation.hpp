@@ -29,9 +29,12 @@ namespace torolux {
 /// Single-threaded. PEs run elsewhere, or when it asks their engine to; they meet it in their channels only.
 class Emulation final : private TorusClient, private BusClient, private HostClient, private EventWatcher {
  public:
-  /// channels: zeroed, one per PE. image: for messages about faults. All references outlive this.
-  Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image, Engine& engine,
-            HostProgram& program);
+  /// What a PE's local memory holds; to be asked once it has stopped.
+  using LocalMemory = std::function<std::span<const std::byte>(unsigned pe)>;
+
+  /// channels: zeroed, one per PE. image, memory: for messages about faults. All references outlive this.
+  Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image, LocalMemory memory,
+            Engine& engine, HostProgram& program);
 
   /// Runs until the program has finished and the machine is empty. attend: called at least some ten times a second,
   /// or as often as the setup's progress asks for; may throw to end the run. message_read: called after each message
@@ -128,6 +131,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   // side), bus, host, FBC, the routers' arbiters, the bus's arbiter: those decide at the end of a cycle.
   std::uint32_t pes_;
   const Image& image_;
+  LocalMemory memory_;
   Engine& engine_;
   HostProgram* program_;
   EventQueue events_;

@@ -78,6 +78,8 @@ std::string_view name_of(protocol::FaultCode code) {
       return "list of released slots full";
     case short_message:
       return "message too short";
+    case words:
+      return "a text that does not lie in local memory";
     default:
       return "fault of the program";
   }
@@ -173,12 +175,31 @@ std::string in_words(protocol::FaultCode code, const std::uint32_t (&detail)[3])
   }
 }
 
+/// What the program says itself, with the place; nothing where it has left no text.
+std::string own_words(const std::uint32_t (&detail)[3], const Image& image, std::span<const std::byte> local_memory) {
+  const std::uint64_t offset = std::uint64_t{detail[0]} - protocol::kLocalMemoryBase;
+  if (detail[0] < protocol::kLocalMemoryBase || detail[1] == 0 || detail[1] > protocol::kMostFaultWords ||
+      offset + detail[1] > local_memory.size()) {
+    return "";
+  }
+  std::string text;
+  for (const std::byte byte : local_memory.subspan(offset, detail[1])) {
+    const auto c = static_cast<unsigned char>(byte);
+    text += c < 0x20 || c == 0x7F ? '?' : static_cast<char>(c);
+  }
+  return text + (detail[2] != 0 ? "; called at " + place_in_words(detail[2], image) : "");
+}
+
 }  // namespace
 
-std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image) {
+std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image,
+                           std::span<const std::byte> local_memory) {
   const std::string who = "PE " + std::to_string(pe) + ": ";
   const auto code = static_cast<protocol::FaultCode>(fault.code);
   if (code == protocol::FaultCode::trap) return who + trap_in_words(fault.detail, image);
+  if (code == protocol::FaultCode::words) {
+    if (const std::string text = own_words(fault.detail, image, local_memory); !text.empty()) return who + text;
+  }
   return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
          in_words(code, fault.detail) + "), details " + details(fault.detail) + "; see docs/errors.md";
 }

@@ -14,6 +14,7 @@
 #include "emulator/cache_line.hpp"
 #include "emulator/engines/mixed_engine.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/machine/arguments.hpp"
 #include "emulator/machine/emulation.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
@@ -115,6 +116,7 @@ PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, con
   window.columns = setup.columns;
   window.rows = setup.rows;
   window.local_memory_bytes = setup.local_memory_bytes;
+  write_arguments(setup.arguments, image, local);
   return memory;
 }
 
@@ -149,7 +151,10 @@ struct Machine::Parts {
       throw UsageError("a machine of the engine " + std::string(engine->name()) +
                        " can neither be saved nor go on from what was saved");
     }
-    emulation.emplace(setup, channels, image, *engine, program);
+    const auto memory = [this](unsigned pe) -> std::span<const std::byte> {
+      return pes[pe].local.bytes().first(setup.local_memory_bytes);
+    };
+    emulation.emplace(setup, channels, image, memory, *engine, program);
     if (setup.keeper != nullptr) engine->will_be_saved();
     if (from != nullptr) restore(*from);
     begin_wall = clock_seconds(CLOCK_MONOTONIC);

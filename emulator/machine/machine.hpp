@@ -39,6 +39,7 @@ struct MachineSetup {
   std::uint32_t local_memory_bytes = protocol::kDefaultLocalMemory;
   std::string engine = kDefaultEngine;
   Debugging debugging;
+  std::vector<std::string> arguments;  ///< of the program's main, from argv[1] on
   unsigned threads = 0;  ///< 0: all cores
   std::uint32_t frame_width = 0;
   std::uint32_t frame_height = 0;

@@ -139,6 +139,9 @@ struct Credits {
   std::uint32_t count;
 };
 
+/// The longest text that a program ends with.
+inline constexpr std::uint32_t kMostFaultWords = 512;
+
 /// Reasons for Hint::fail, from pe.elf and from start.S.
 enum class FaultCode : std::uint32_t {
   trap = 1,             ///< detail: mcause, mepc, mtval
@@ -151,6 +154,7 @@ enum class FaultCode : std::uint32_t {
   own_slots_exhausted,  ///< detail: slots
   release_list_full,    ///< detail: slots released since the last send or receive
   short_message,        ///< detail: kind, bytes, bytes expected
+  words,                ///< detail: address and length of a text that says it all (1..kMostFaultWords); where: pc, or 0
 };
 
 }  // namespace torolux::protocol

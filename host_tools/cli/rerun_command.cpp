@@ -126,8 +126,8 @@ RunEnd run_image_again(const Json& was, const std::vector<std::string>& words, c
   run.engine = options.engine.value_or(run.engine);
   run.threads = options.threads;
   run.quiet = true;
-  const InputFile image{"image", run.image, with_hint(options, [&] { return sha256_of_file(run.image); })};
-  check_settings(was, settings_json(setup_from(run), image), options);
+  const ProgramFiles inputs = with_hint(options, [&] { return inputs_of(run); });
+  check_settings(was, settings_json(setup_from(run), inputs), options);
   return run_prepared(run);
 }
 
@@ -157,7 +157,7 @@ int run_rerun(const RerunOptions& options) {
   words.erase(words.begin());
   const RunEnd end = command == "render" ? run_render_again(was.at("settings"), words, options)
                                          : run_image_again(was.at("settings"), words, options);
-  if (end.exit_code != 0) return end.exit_code;
+  if (end.statistics.empty()) return end.exit_code;
   const bool same = report(was, Json::parse(end.statistics), options);
   return static_cast<int>(same ? ExitCode::done : ExitCode::machine_failure);
 }

@@ -19,7 +19,12 @@
 namespace torolux {
 namespace {
 
-void print_summary(const MachineSetup& setup, const MachineFigures& figures, double wall_seconds) {
+void print_summary(const MachineSetup& setup, const RunOutcome& outcome, double wall_seconds) {
+  const MachineFigures& figures = outcome.figures;
+  if (const auto& exit = outcome.first_exit) {
+    std::cerr << "torolux: PE " << exit->pe << " ended with exit status " << exit->status << " at cycle "
+              << grouped(exit->time) << ": the first that is not 0\n";
+  }
   std::uint64_t packets = 0;
   for (const PeFigures& pe : figures.pes) packets += pe.packets_delivered;
   std::cerr << "torolux: " << figures.pes.size() << " PEs halted at cycle " << grouped(figures.now) << " ("
@@ -30,21 +35,31 @@ void print_summary(const MachineSetup& setup, const MachineFigures& figures, dou
 
 /// Throws InputError where one result would be written over another, or over what is read.
 void check_results_distinct(const RunOptions& options) {
-  std::vector<NamedFile> written;
+  std::vector<NamedFile> written = written_files(options.program);
   if (options.stats) written.push_back({"--stats", *options.stats});
   if (options.trace.file) written.push_back({"--trace", *options.trace.file});
   if (options.report) written.push_back({"--report", *options.report});
-  std::vector<NamedFile> read = {{"a file that is read", options.image}};
+  std::vector<NamedFile> read = read_files(options.program);
+  read.push_back({"a file that is read", options.image});
   if (options.machine) read.push_back({"--machine", *options.machine});
   check_distinct(written, read);
 }
 
 }  // namespace
 
+ProgramFiles inputs_of(const RunOptions& options) {
+  ProgramFiles inputs;
+  inputs.files.push_back({"image", options.image, sha256_of_file(options.image)});
+  for (InputFile& input : digests_of(options.program.inputs)) inputs.files.push_back(std::move(input));
+  for (const GivenFile& output : options.program.outputs) inputs.outputs.push_back(output.name);
+  return inputs;
+}
+
 RunEnd run_prepared(const RunOptions& options) {
   MachineSetup setup = setup_from(options);
   const Image image = load_image(options.image);
   check_results_distinct(options);
+  check_files(options.program);
   if (options.stats) {
     check_file_writable(*options.stats);
   }
@@ -54,7 +69,8 @@ RunEnd run_prepared(const RunOptions& options) {
   if (options.report) {
     check_file_writable(*options.report);
   }
-  const InputFile image_file{"image", options.image, sha256_of_file(options.image)};
+  const ProgramFiles inputs = inputs_of(options);
+  ServedFiles files(options.program.inputs, options.program.outputs);
   const auto begin = std::chrono::steady_clock::now();
   const auto display = open_display(options.display, {"run",
                                                       std::filesystem::path(options.image).filename().string(),
@@ -69,8 +85,8 @@ RunEnd run_prepared(const RunOptions& options) {
     setup.pacer = &display->pace();
     setup.hop_watcher = &display->pace();
   }
-  const auto print = [&display](const PeText& text) {
-    std::cout << "PE " << text.pe << " @ " << text.time << ": " << text.text << std::endl;
+  const auto print = [&display, &options](const PeText& text) {
+    print_text(text, options.program.raw);
     if (display) display->say(text);
   };
   const auto progress = [&display](const Machine& machine, Cycles now) {
@@ -78,17 +94,20 @@ RunEnd run_prepared(const RunOptions& options) {
   };
   const auto trace = trace_file(options.trace, TracedRun::image, setup.columns * setup.rows);
   if (trace) setup.watcher = &trace->watcher();
-  const MachineFigures figures = run_displayed(
-      display.get(), [&] { return run_traced(trace.get(), [&] { return run_image(setup, image, print, progress); }); });
+  const RunOutcome outcome = run_displayed(display.get(), [&] {
+    return run_traced(trace.get(), [&] { return run_program(setup, image, files, print, progress); });
+  });
+  const MachineFigures& figures = outcome.figures;
   if (interrupted()) {
     return {kInterrupted, ""};
   }
+  files.finish();
   if (trace) {
     trace->finish();
     if (!trace->note().empty() && !options.quiet) std::cerr << "torolux: note: " << trace->note() << "\n";
   }
   const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::string statistics = run_stats_json(setup, image_file, figures, wall_seconds);
+  std::string statistics = run_stats_json(setup, inputs, figures, wall_seconds);
   if (options.stats) {
     write_file(*options.stats, statistics);
   }
@@ -99,13 +118,13 @@ RunEnd run_prepared(const RunOptions& options) {
     write_file(*options.report, report_html({options.image, statistics, figures, nullptr, {}}));
   }
   if (!options.quiet) {
-    print_summary(setup, figures, wall_seconds);
+    print_summary(setup, outcome, wall_seconds);
   }
   if (display) {
     display->finish(nullptr);
     keep_display(options.quiet, [&display](const std::function<bool()>& stop) { display->wait(stop); });
   }
-  return {0, std::move(statistics)};
+  return {outcome.first_exit ? outcome.first_exit->code() : 0, std::move(statistics)};
 }
 
 void add_run_command(CLI::App& app, CommandAction& action) {

@@ -19,6 +19,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("IMAGE", options.image, "A firmware image (ELF for rv32imafc); see docs/writing_firmware.md")
       ->required()
       ->type_name("");
+  add_program_options(command, options.program);
   command.add_option("--pes", options.pes, "PEs of the torus, columns x rows")->type_name("PxQ")->capture_default_str();
   command
       .add_option("--pe-memory", options.pe_memory, "Local memory of a PE in bytes, K = 1024, M = 1024 K; 256K to 64M")
@@ -62,6 +63,7 @@ MachineSetup setup_from(const RunOptions& options) {
   setup.debugging = options.debugging;
   setup.debugging.listens = announce_debugger(options.image);
   setup.threads = options.threads;
+  setup.arguments = options.program.arguments;
   if (options.machine) {
     setup.description = load_machine_description(*options.machine);
   }

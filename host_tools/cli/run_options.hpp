@@ -10,7 +10,9 @@
 #include "host_tools/cli/display_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/cli/program_options.hpp"
 #include "host_tools/cli/trace_options.hpp"
+#include "host_tools/report/settings_json.hpp"
 
 namespace CLI {
 class App;
@@ -29,6 +31,7 @@ struct RunOptions {
   FaultOptions faults;
   MachineDescription::Ideal ideal;
   unsigned threads = 0;
+  ProgramOptions program;
   TraceOptions trace;
   DisplayOptions display;
   bool quiet = false;
@@ -38,6 +41,9 @@ void add_run_options(CLI::App& command, RunOptions& options);
 
 /// words: what stands after `torolux run`. Throws UsageError, InputError.
 RunOptions parse_run_options(const std::vector<std::string>& words);
+
+/// What a run's statistics tell of its files. Throws InputError.
+ProgramFiles inputs_of(const RunOptions& options);
 
 /// Runs the image; writes and prints what the options ask for. Throws UsageError, InputError, MachineFailure.
 RunEnd run_prepared(const RunOptions& options);

@@ -150,7 +150,7 @@ bool Display::show(const Machine& machine, Cycles now) {
 }
 
 void Display::say(const PeText& text) {
-  texts_.push_back("PE " + std::to_string(text.pe) + " @ " + std::to_string(text.time) + ": " + text.text);
+  texts_.push_back("PE " + std::to_string(text.pe) + " @ " + std::to_string(text.time) + ": " + printable(text.text));
   if (texts_.size() > kMostTexts) texts_.pop_front();
   feed_.put(MessageType::texts, text_of(nlohmann::json(texts_)));
 }

@@ -133,6 +133,18 @@ void FileWriter::append(std::span<const std::byte> contents) {
   if (!write_all(open.get(), contents)) refuse(file_, "cannot be written", errno);
 }
 
+void FileWriter::write_at(std::uint64_t position, std::span<const std::byte> contents) {
+  if (!parts_->device && ::lseek(parts_->temporary->descriptor().get(), static_cast<off_t>(position), SEEK_SET) < 0)
+    refuse(file_, "cannot be written", errno);
+  append(contents);
+}
+
+void FileWriter::empty() {
+  if (parts_->device) return;
+  const int open = parts_->temporary->descriptor().get();
+  if (::ftruncate(open, 0) != 0 || ::lseek(open, 0, SEEK_SET) < 0) refuse(file_, "cannot be written", errno);
+}
+
 void FileWriter::finish() {
   if (parts_->device) return;
   if (!parts_->temporary->descriptor().close() || !parts_->temporary->rename_to(parts_->target))

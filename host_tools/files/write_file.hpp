@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -25,6 +26,10 @@ class FileWriter {
   FileWriter& operator=(const FileWriter&) = delete;
   ~FileWriter();
   void append(std::span<const std::byte> contents);
+  /// At a place of its own; what lies between is zeros. To a device: behind what was written before.
+  void write_at(std::uint64_t position, std::span<const std::byte> contents);
+  /// All that was written so far is gone; not of a device.
+  void empty();
   void finish();
 
  private:

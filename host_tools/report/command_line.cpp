@@ -148,6 +148,20 @@ Words render_words(const Json& settings) {
   return words;
 }
 
+/// What the program reads, and may write: to nowhere, as results are not repeated. Arguments come last.
+void add_program(Words& words, const Json& settings) {
+  constexpr std::string_view kInput = "input ";
+  for (const Json& input : settings.at("inputs")) {
+    const std::string role = text(input.at("role"));
+    if (role.starts_with(kInput)) add(words, "--input", role.substr(kInput.size()) + "=" + text(input.at("path")));
+  }
+  for (const Json& output : settings.value("outputs", Json::array()))
+    add(words, "--output", text(output) + "=/dev/null");
+  const Json arguments = settings.value("arguments", Json::array());
+  if (!arguments.empty()) words.emplace_back("--");
+  for (const Json& argument : arguments) words.push_back(text(argument));
+}
+
 }  // namespace
 
 Words command_line_of(const Json& settings) {
@@ -164,6 +178,7 @@ Words command_line_of(const Json& settings) {
     }
     add_engine(words, settings);
     add_machine(words, settings.at("machine"));
+    if (settings.at("command") == "run") add_program(words, settings);
     return words;
   } catch (const Json::exception& error) {
     throw InputError(std::string("the settings are not whole: ") + error.what());

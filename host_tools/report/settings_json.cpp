@@ -132,13 +132,15 @@ Json settings_json(const RunDescription& run, const RenderFigures* figures) {
   return json;
 }
 
-Json settings_json(const MachineSetup& setup, const InputFile& image) {
+Json settings_json(const MachineSetup& setup, const ProgramFiles& inputs) {
   Json json;
   json["command"] = "run";
   json["versions"] = versions_json();
   json["engine"] = setup.engine;
-  json["image"] = image.path;
-  json["inputs"] = inputs_json({image});
+  json["image"] = inputs.files.at(0).path;
+  json["inputs"] = inputs_json(inputs.files);
+  if (!inputs.outputs.empty()) json["outputs"] = inputs.outputs;
+  if (!setup.arguments.empty()) json["arguments"] = setup.arguments;
   json["pes"] = {setup.columns, setup.rows};
   json["pe_memory"] = setup.local_memory_bytes;
   if (!setup.debugging.qemu_pes.empty()) json["qemu_pes"] = setup.debugging.qemu_pes;

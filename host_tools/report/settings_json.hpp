@@ -19,8 +19,14 @@ inline constexpr unsigned kStatisticsVersion = 2;
 /// where they are left to the program.
 nlohmann::ordered_json settings_json(const RunDescription& run, const RenderFigures* figures);
 
+/// Files of `torolux run` that bear on it: the image first, then what programs may read; and the names by which they may
+/// write others.
+struct ProgramFiles {
+  std::vector<InputFile> files;
+  std::vector<std::string> outputs;
+};
 /// Those of `torolux run`.
-nlohmann::ordered_json settings_json(const MachineSetup& setup, const InputFile& image);
+nlohmann::ordered_json settings_json(const MachineSetup& setup, const ProgramFiles& inputs);
 
 /// `settings` without what cannot change cycles or bytes: versions, names and paths (inputs stay as digests), and what
 /// a run chooses by itself from the rest. Equal for equal runs, before and after.

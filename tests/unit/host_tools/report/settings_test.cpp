@@ -210,7 +210,7 @@ TEST(Settings, HoldEveryKeyOfTheMachine) {
   set_machine_value(description, "torus.link_error_rate=0.1");
   MachineSetup setup;
   setup.description = description;
-  const Json machine = settings_json(setup, {"image", "a.elf", ""}).at("machine");
+  const Json machine = settings_json(setup, {{{"image", "a.elf", ""}}, {}}).at("machine");
   for (const std::string& key : machine_description_keys()) {
     std::string pointer = "/" + key;
     std::ranges::replace(pointer, '.', '/');

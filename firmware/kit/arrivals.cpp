@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Packets that the NIU brings become messages: each sender's in the order of their numbers, whenever they come.
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "firmware/kit/messenger.hpp"
+
+namespace torolux::kit {
+
+void Messenger::drain() {
+  for (;;) {
+    const auto& arrival = niu_.receive_if_any();
+    if (arrival.kind == protocol::ArrivalKind::none) return;
+    take(arrival);
+  }
+}
+
+void Messenger::take(const protocol::NiuWindow::Arrival& arrival) {
+  if (arrival.kind == protocol::ArrivalKind::records) return take_packet(arrival);
+  fail(Words() << "the host has sent a message that nobody has asked for, of kind " << niu_.message().kind);
+}
+
+/// Its slots are the NIU's again before anything else happens.
+void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
+  PacketHead head;  // NOLINT(cppcoreguidelines-pro-type-member-init): read below
+  std::memcpy(&head, slot(arrival.slots[0]), sizeof head);
+  const bool ours = head.source < niu_.pes() && static_cast<std::size_t>(head.channel) < kChannels &&
+                    head.bytes <= kMostMessage && head.offset <= head.bytes;
+  if (!ours) fail(Words() << "a packet that is none of this library's has come from PE " << arrival.source);
+  const std::uint32_t room = arrival.count * kRecordBytes - static_cast<std::uint32_t>(sizeof head);
+  const std::uint32_t payload = std::min(room, head.bytes - head.offset);
+  Peer& peer = peer_of(head.source);
+  const bool early = head.number != peer.taken;
+  copy_payload(arrival, payload, early ? keep_early(peer, head, payload)->data() : place_for(peer, head));
+  for (std::uint32_t i = 0; i < arrival.count; ++i) niu_.release(arrival.slots[i]);
+  if (early) return;
+  ++peer.taken;
+  placed(peer, head, payload);
+  take_early(peer);
+}
+
+/// The packet that was missing has come: those behind it that are here.
+void Messenger::take_early(Peer& peer) {
+  while (peer.early != nullptr && peer.early->head.number == peer.taken) {
+    Early* const next = peer.early;
+    peer.early = next->next;
+    ++peer.taken;
+    std::byte* const to = place_for(peer, next->head);
+    if (next->payload != 0) std::memcpy(to, next->data(), next->payload);
+    placed(peer, next->head, next->payload);
+    std::free(next);
+  }
+}
+
+/// The first record has the head, and so fewer bytes.
+void Messenger::copy_payload(const protocol::NiuWindow::Arrival& arrival, std::uint32_t payload, std::byte* to) const {
+  std::uint32_t skip = sizeof(PacketHead);
+  for (std::uint32_t i = 0; payload != 0; ++i) {
+    const std::uint32_t part = std::min(payload, kRecordBytes - skip);
+    std::memcpy(to, slot(arrival.slots[i]) + skip, part);
+    to += part;
+    payload -= part;
+    skip = 0;
+  }
+}
+
+/// Where the packet's bytes go: the first of a message finds a place for the whole.
+std::byte* Messenger::place_for(Peer& peer, const PacketHead& head) {
+  if (head.offset != 0) return peer.into;
+  if (posted_takes(head.channel, head.source)) {
+    claim(head.source, head.bytes);
+    peer.open = nullptr;
+    peer.into = posted_.room.data();
+  } else {
+    peer.open = new_waiting(head);
+    peer.into = peer.open->data();
+  }
+  return peer.into;
+}
+
+void Messenger::placed(Peer& peer, const PacketHead& head, std::uint32_t payload) {
+  peer.into += payload;
+  if (head.offset + payload == head.bytes) end_message(peer, head);
+}
+
+/// A message that began before `receive` waited may be the first to end.
+void Messenger::end_message(Peer& peer, const PacketHead& head) {
+  Waiting* const message = std::exchange(peer.open, nullptr);
+  peer.into = nullptr;
+  if (message == nullptr) {
+    posted_.done = true;
+  } else if (posted_takes(head.channel, head.source)) {
+    claim(head.source, head.bytes);
+    if (message->bytes != 0) std::memcpy(posted_.room.data(), message->data(), message->bytes);
+    posted_.done = true;
+    forget(message);
+  } else {
+    Queue& queue = queue_of(head.channel);
+    (queue.last != nullptr ? queue.last->next : queue.first) = message;
+    queue.last = message;
+  }
+}
+
+Early* Messenger::keep_early(Peer& peer, const PacketHead& head, std::uint32_t payload) {
+  auto* const early = static_cast<Early*>(std::malloc(sizeof(Early) + payload));
+  if (early == nullptr) {
+    fail(Words() << "no memory for a packet of PE " << head.source << " that came before others; " << waiting_bytes_
+                 << " bytes of messages wait to be received");
+  }
+  Early** place = &peer.early;
+  const auto behind = [&](const Early* other) {  // numbers go around
+    return static_cast<std::int32_t>(head.number - other->head.number) > 0;
+  };
+  while (*place != nullptr && behind(*place)) place = &(*place)->next;
+  *early = {*place, head, payload};
+  *place = early;
+  return early;
+}
+
+Peer& Messenger::peer_of(std::uint32_t pe) {
+  Peer* const peer = peers_.of(pe);
+  if (peer == nullptr) fail(Words() << "no memory for what is to be known of PE " << pe);
+  return *peer;
+}
+
+Waiting* Messenger::new_waiting(const PacketHead& head) {
+  auto* const message = static_cast<Waiting*>(std::malloc(sizeof(Waiting) + head.bytes));
+  if (message == nullptr) {
+    fail(Words() << "no memory for a message of " << head.bytes << " bytes from PE " << head.source << ", which must wait; "
+                 << waiting_bytes_ << " bytes of messages wait to be received: receive them sooner, or give PEs more "
+                 << "memory (--pe-memory)");
+  }
+  *message = {nullptr, head.bytes, head.source, head.channel};
+  waiting_bytes_ += head.bytes;
+  return message;
+}
+
+void Messenger::forget(Waiting* message) {
+  waiting_bytes_ -= message->bytes;
+  std::free(message);
+}
+
+}  // namespace torolux::kit

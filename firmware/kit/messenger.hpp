@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Messages of any length between PEs, in order. Enters: bytes to send, packets that the NIU brings; leaves: packets,
+// and messages in their receiver's memory. What comes while nobody asks for it waits on the heap, never in record slots.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "firmware/kit/packet.hpp"
+#include "firmware/kit/peers.hpp"
+#include "firmware/kit/words.hpp"
+#include "firmware/niu/niu.hpp"
+
+namespace torolux::kit {
+
+/// PEs as torolux.h names them.
+inline constexpr int kAnyPe = -1;
+
+class Messenger {
+ public:
+  /// Takes kSlotBytes from `slots` on [address] for record slots. Fails the run where there is no memory for the table
+  /// of PEs. It lives as long as the program.
+  Messenger(pe::Niu& niu, std::uint32_t slots);
+  Messenger(const Messenger&) = delete;
+  Messenger& operator=(const Messenger&) = delete;
+  ~Messenger();
+
+  pe::Niu& niu() { return niu_; }
+  /// From now on, who is at fault: the function's name, and where it was called.
+  void called(std::string_view function, const void* from) {
+    function_ = function;
+    from_ = from;
+  }
+  /// Ends the run: "function: words", and the place.
+  [[noreturn]] void fail(const Words& words) const;
+
+  /// To a PE of the machine, this one too; copied. Waits while the NIU's queue is full; what comes meanwhile is taken in.
+  void send(Channel channel, int pe, std::span<const std::byte> data);
+  /// Waits for the next message from `pe` or kAnyPe; the bytes that it had.
+  std::size_t receive(Channel channel, int pe, std::span<std::byte> room);
+  /// Both; what comes in goes to its place while the rest goes out. The two must not overlap.
+  std::size_t exchange(int to, std::span<const std::byte> data, int from, std::span<std::byte> room);
+  /// Bytes of the message that `receive` would return at once, or -1.
+  std::int64_t waiting(Channel channel, int pe);
+  /// Who sent what was received last.
+  std::uint32_t source() const { return source_; }
+
+  /// Waits for a message of the host; packets that come meanwhile are taken in. Valid until the next call.
+  const protocol::MessageHeader& receive_from_host();
+
+ private:
+  /// Where `receive` waits, and how far it is.
+  struct Posted {
+    bool open = false;
+    bool claimed = false;  ///< a message has begun to come here
+    bool done = false;
+    Channel channel{};
+    int from = kAnyPe;
+    std::uint16_t source = 0;
+    std::uint32_t bytes = 0;
+    std::span<std::byte> room;
+  };
+  /// Of one channel, whole messages in the order in which they came.
+  struct Queue {
+    Waiting* first = nullptr;
+    Waiting* last = nullptr;
+  };
+
+  void check_pe(int pe) const;
+  void check_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const;
+  void send_to_self(Channel channel, std::span<const std::byte> data);
+  void send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data);
+  void post(Channel channel, int from, std::span<std::byte> room);
+  std::size_t wait_for_posted();
+  bool posted_takes(Channel channel, std::uint32_t source) const;
+  void claim(std::uint32_t source, std::uint32_t bytes);
+  Waiting* next_of(Channel channel, int pe, Waiting** before);
+  std::size_t hand_over(Channel channel, Waiting* message, Waiting* before, std::span<std::byte> room);
+
+  void drain();
+  void take(const protocol::NiuWindow::Arrival& arrival);
+  void take_packet(const protocol::NiuWindow::Arrival& arrival);
+  void take_early(Peer& peer);
+  void copy_payload(const protocol::NiuWindow::Arrival& arrival, std::uint32_t payload, std::byte* to) const;
+  std::byte* place_for(Peer& peer, const PacketHead& head);
+  void placed(Peer& peer, const PacketHead& head, std::uint32_t payload);
+  void end_message(Peer& peer, const PacketHead& head);
+  Early* keep_early(Peer& peer, const PacketHead& head, std::uint32_t payload);
+  Peer& peer_of(std::uint32_t pe);
+  std::byte* slot(std::uint32_t number) const { return slots_ + std::size_t{number} * kRecordBytes; }
+  Queue& queue_of(Channel channel) { return queues_[static_cast<std::size_t>(channel)]; }
+  Waiting* new_waiting(const PacketHead& head);
+  void forget(Waiting* message);
+
+  pe::Niu niu_;
+  std::byte* slots_;
+  Peers peers_;
+  Posted posted_;
+  std::array<Queue, kChannels> queues_{};
+  std::uint32_t source_ = 0;
+  std::uint32_t waiting_bytes_ = 0;  ///< of messages on the heap
+  std::string_view function_ = "main";
+  const void* from_ = nullptr;
+};
+
+}  // namespace torolux::kit

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Files that PEs open by names which the user has given. Enters: requests of PEs, checked here; leaves: answers, bytes,
+// and the user's output files, which are there once the run has ended well.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "emulator/host/host_program.hpp"
+#include "firmware/protocol/host_services.hpp"
+#include "host_tools/files/digest.hpp"
+#include "host_tools/files/write_file.hpp"
+
+namespace torolux {
+
+/// --input NAME=FILE or --output NAME=FILE.
+struct GivenFile {
+  std::string name;  ///< by which programs open it, 1..kMostFileName bytes
+  std::filesystem::path file;
+};
+
+class ServedFiles {
+ public:
+  /// Of an input that is served [bytes].
+  static constexpr std::size_t kMostInputBytes = std::size_t{1} << 30U;
+  /// The output that takes what PEs send to TOROLUX_HOST.
+  static constexpr const char* kHostFile = "host";
+
+  /// Reads the inputs, and opens the outputs under other names. Throws InputError.
+  ServedFiles(const std::vector<GivenFile>& inputs, const std::vector<GivenFile>& outputs);
+
+  /// Requests of a PE. A request that no program of the kit makes throws MachineFailure.
+  protocol::FileAnswer open(PeNumber pe, std::uint32_t access, const std::string& name);
+  /// Valid until the next call.
+  std::span<const std::byte> read(PeNumber pe, const protocol::FileRead& request);
+  void write(PeNumber pe, std::uint32_t file, std::span<const std::byte> bytes);
+  protocol::FileAnswer seek(PeNumber pe, const protocol::FileSeek& request);
+  void close(PeNumber pe, std::uint32_t file);
+  void append_to_host_file(PeNumber pe, std::span<const std::byte> bytes);
+
+  /// The outputs get their names. Throws InputError.
+  void finish();
+
+ private:
+  struct Input {
+    std::string name;
+    std::vector<std::byte> contents;
+  };
+  struct Output {
+    std::string name;
+    std::unique_ptr<FileWriter> writer;
+    std::uint64_t bytes = 0;
+    std::set<PeNumber> opened_by;
+  };
+  /// A PE's open file: one of the two.
+  struct Open {
+    const Input* input = nullptr;
+    Output* output = nullptr;
+    std::uint64_t position = 0;
+    bool appends = false;
+  };
+  using OpenFiles = std::array<std::optional<Open>, protocol::kMostOpenFiles>;
+
+  Open& open_file(PeNumber pe, std::uint32_t file);
+  Output* output_named(const std::string& name);
+  static void put(Output& output, std::uint64_t position, std::span<const std::byte> bytes);
+
+  std::vector<Input> inputs_;
+  std::vector<Output> outputs_;
+  std::unordered_map<PeNumber, OpenFiles> open_;
+};
+
+/// Digests of what the inputs hold, for the run's settings. Throws InputError.
+std::vector<InputFile> digests_of(const std::vector<GivenFile>& inputs);
+
+}  // namespace torolux
