@@ -27,14 +27,14 @@ void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
   PacketHead head;  // NOLINT(cppcoreguidelines-pro-type-member-init): read below
   std::memcpy(&head, slot(arrival.slots[0]), sizeof head);
   const bool ours = head.source < niu_.pes() && static_cast<std::size_t>(head.channel) < kChannels &&
-                    head.bytes <= kMostMessage && head.offset <= head.bytes;
+                    head.bytes <= kMostMessage && head.offset <= head.bytes && head.lead <= kMostLead;
   if (!ours) fail(Words() << "a packet that is none of this library's has come from PE " << arrival.source);
-  const std::uint32_t room = arrival.count * kRecordBytes - static_cast<std::uint32_t>(sizeof head);
+  const std::uint32_t room = head.lead + (arrival.count - 1U) * kRecordBytes;
   const std::uint32_t payload = std::min(room, head.bytes - head.offset);
   Peer& peer = peer_of(head.source);
   const bool early = head.number != peer.taken;
-  copy_payload(arrival, payload, early ? keep_early(peer, head, payload)->data() : place_for(peer, head));
-  for (std::uint32_t i = 0; i < arrival.count; ++i) niu_.release(arrival.slots[i]);
+  copy_payload(arrival, head, payload, early ? keep_early(peer, head, payload)->data() : place_for(peer, head));
+  for (std::uint32_t i = arrival.count; i != 0; --i) niu_.release(arrival.slots[i - 1]);  // taken again in this order
   if (early) return;
   ++peer.taken;
   placed(peer, head, payload);
@@ -54,15 +54,22 @@ void Messenger::take_early(Peer& peer) {
   }
 }
 
-/// The first record has the head, and so fewer bytes.
-void Messenger::copy_payload(const protocol::NiuWindow::Arrival& arrival, std::uint32_t payload, std::byte* to) const {
-  std::uint32_t skip = sizeof(PacketHead);
-  for (std::uint32_t i = 0; payload != 0; ++i) {
-    const std::uint32_t part = std::min(payload, kRecordBytes - skip);
-    std::memcpy(to, slot(arrival.slots[i]) + skip, part);
+/// Slots that follow each other, as they mostly do, are copied as one.
+void Messenger::copy_payload(const protocol::NiuWindow::Arrival& arrival, const PacketHead& head, std::uint32_t payload,
+                             std::byte* to) const {
+  const std::uint32_t lead = std::min<std::uint32_t>(head.lead, payload);
+  if (lead != 0) std::memcpy(to, slot(arrival.slots[0]) + sizeof head, lead);
+  to += lead;
+  payload -= lead;
+  for (std::uint32_t i = 1; payload != 0;) {
+    const std::uint32_t first = arrival.slots[i];
+    std::uint32_t run = 1;
+    while (i + run < arrival.count && arrival.slots[i + run] == first + run) ++run;
+    const std::uint32_t part = std::min(payload, run * kRecordBytes);
+    std::memcpy(to, slot(first), part);
     to += part;
     payload -= part;
-    skip = 0;
+    i += run;
   }
 }
 

@@ -16,8 +16,8 @@ constinit Words last_words;
 }  // namespace
 
 void begin(pe::Niu& niu) {
-  const std::uint32_t slots = niu.memory().stores_begin();
-  begin_heap(slots + kSlotBytes, niu.memory_end());
+  const SlotLayout slots = slot_layout(protocol::kLocalMemoryBase, niu.memory_end());
+  begin_heap(niu.memory().stores_begin(), slots.staging);
   the_messenger = new (memory.data()) Messenger(niu, slots);
 }
 

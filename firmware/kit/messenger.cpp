@@ -11,12 +11,12 @@
 
 namespace torolux::kit {
 
-Messenger::Messenger(pe::Niu& niu, std::uint32_t slots) : niu_(niu), slots_(niu.memory().at<std::byte>(slots)) {
-  if (std::uint64_t{slots} + kSlotBytes > niu_.memory_end()) {
-    fail(Words() << "no memory for " << kSlotBytes << " bytes of record slots: the machine has " <<
-         niu_.window().local_memory_bytes << " bytes for each PE (--pe-memory)");
-  }
-  niu_.set_slots(slots, kRecordBytes, kRecordsPerPacket, kNiuSlots);
+Messenger::Messenger(pe::Niu& niu, const SlotLayout& slots)
+    : niu_(niu),
+      layout_(slots),
+      slots_(niu.memory().at<std::byte>(slots.first)),
+      staging_(niu.memory().at<std::byte>(slots.staging)) {
+  niu_.set_slots(slots.first, kRecordBytes, slots.own, slots.niu);
   if (!peers_.begin(niu_.pes())) fail(Words() << "no memory for the table of " << niu_.pes() << " PEs");
 }
 
@@ -73,23 +73,60 @@ void Messenger::send_to_self(Channel channel, std::span<const std::byte> data) {
   placed(peer, head, bytes);
 }
 
-/// Long messages leave room for what comes: both sides of an exchange send at once.
+/// Between packets of a long message what has come is taken in: both sides of an exchange send at once.
 void Messenger::send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data) {
-  constexpr std::array<pe::Slot, kRecordsPerPacket> slots = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   Peer& peer = peer_of(pe);
   PacketHead head{niu_.pe(), channel, 0, peer.sent, static_cast<std::uint32_t>(data.size()), 0};
   for (;;) {
-    const auto payload = static_cast<std::uint32_t>(std::min<std::size_t>(kMostPayload, head.bytes - head.offset));
-    std::memcpy(slots_, &head, sizeof head);
-    if (payload != 0) std::memcpy(slots_ + sizeof head, data.data() + head.offset, payload);
-    niu_.send_records(pe, std::span(slots).first(records_of(payload)));
-    ++head.number;
+    const std::uint32_t payload = send_part(pe, head, data.subspan(head.offset));
+    peer.sent = ++head.number;
     head.offset += payload;
-    if (head.offset == head.bytes) break;
-    peer.sent = head.number;
+    if (head.offset == head.bytes) return;
     drain();
   }
-  peer.sent = head.number;
+}
+
+/// One packet; the bytes that it takes along. What lies in local memory goes from its place, in whole records, once the
+/// bytes before the first of them have gone with the head.
+std::uint32_t Messenger::send_part(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest) {
+  const std::less<const std::byte*> before;
+  const bool small = rest.size() <= kMostLead;
+  if (small || before(rest.data(), slots_) || !before(rest.data() + rest.size(), staging_)) {
+    return send_staged(pe, head, rest.first(std::min<std::size_t>(rest.size(), kMostPayload)));
+  }
+  const auto lead = static_cast<std::uint32_t>(-(rest.data() - slots_)) % kRecordBytes;
+  if (lead > kMostLead) return send_staged(pe, head, rest.first(kMostLead));  // the next is nearer
+  return send_from_place(pe, head, rest, lead);
+}
+
+/// In the staging slots; `data` fits, and fills its records unless it ends the message.
+std::uint32_t Messenger::send_staged(std::uint16_t pe, PacketHead& head, std::span<const std::byte> data) {
+  const auto payload = static_cast<std::uint32_t>(data.size());
+  head.lead = static_cast<std::uint8_t>(std::min(payload, kMostLead));
+  std::memcpy(staging_, &head, sizeof head);
+  if (payload != 0) std::memcpy(staging_ + sizeof head, data.data(), payload);
+  std::array<pe::Slot, kRecordsPerPacket> slots;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in below
+  const std::uint32_t records = records_of(payload);
+  const std::uint32_t first = layout_.own - kRecordsPerPacket;
+  for (std::uint32_t i = 0; i < records; ++i) slots[i] = static_cast<pe::Slot>(first + i);
+  niu_.send_records(pe, std::span(slots).first(records));
+  return payload;
+}
+
+/// The last record may go beyond the message's end: the receiver knows its length.
+std::uint32_t Messenger::send_from_place(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest,
+                                         std::uint32_t lead) {
+  head.lead = static_cast<std::uint8_t>(lead);
+  std::memcpy(staging_, &head, sizeof head);
+  if (lead != 0) std::memcpy(staging_ + sizeof head, rest.data(), lead);
+  std::array<pe::Slot, kRecordsPerPacket> slots;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in below
+  slots[0] = static_cast<pe::Slot>(layout_.own - kRecordsPerPacket);
+  const auto whole = static_cast<std::uint32_t>(rest.size()) - lead;
+  const std::uint32_t records = std::min(kRecordsPerPacket - 1, (whole + kRecordBytes - 1) / kRecordBytes);
+  const auto first = static_cast<std::uint32_t>(rest.data() + lead - slots_) / kRecordBytes;
+  for (std::uint32_t i = 0; i < records; ++i) slots[i + 1] = static_cast<pe::Slot>(first + i);
+  niu_.send_records(pe, std::span(slots).first(records + 1));
+  return lead + std::min(whole, records * kRecordBytes);
 }
 
 // ---- Receiving ----

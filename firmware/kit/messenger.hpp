@@ -21,9 +21,8 @@ inline constexpr int kAnyPe = -1;
 
 class Messenger {
  public:
-  /// Takes kSlotBytes from `slots` on [address] for record slots. Fails the run where there is no memory for the table
-  /// of PEs. It lives as long as the program.
-  Messenger(pe::Niu& niu, std::uint32_t slots);
+  /// Sets the record slots. Fails the run where there is no memory for the table of PEs.
+  Messenger(pe::Niu& niu, const SlotLayout& slots);
   Messenger(const Messenger&) = delete;
   Messenger& operator=(const Messenger&) = delete;
   ~Messenger();
@@ -73,6 +72,9 @@ class Messenger {
   void check_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const;
   void send_to_self(Channel channel, std::span<const std::byte> data);
   void send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data);
+  std::uint32_t send_part(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest);
+  std::uint32_t send_staged(std::uint16_t pe, PacketHead& head, std::span<const std::byte> data);
+  std::uint32_t send_from_place(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest, std::uint32_t lead);
   void post(Channel channel, int from, std::span<std::byte> room);
   std::size_t wait_for_posted();
   bool posted_takes(Channel channel, std::uint32_t source) const;
@@ -84,7 +86,8 @@ class Messenger {
   void take(const protocol::NiuWindow::Arrival& arrival);
   void take_packet(const protocol::NiuWindow::Arrival& arrival);
   void take_early(Peer& peer);
-  void copy_payload(const protocol::NiuWindow::Arrival& arrival, std::uint32_t payload, std::byte* to) const;
+  void copy_payload(const protocol::NiuWindow::Arrival& arrival, const PacketHead& head, std::uint32_t payload,
+                    std::byte* to) const;
   std::byte* place_for(Peer& peer, const PacketHead& head);
   void placed(Peer& peer, const PacketHead& head, std::uint32_t payload);
   void end_message(Peer& peer, const PacketHead& head);
@@ -96,7 +99,9 @@ class Messenger {
   void forget(Waiting* message);
 
   pe::Niu niu_;
-  std::byte* slots_;
+  SlotLayout layout_;
+  std::byte* slots_;    ///< slot 0
+  std::byte* staging_;  ///< the last of the program's own slots
   Peers peers_;
   Posted posted_;
   std::array<Queue, kChannels> queues_{};

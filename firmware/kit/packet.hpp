@@ -18,7 +18,7 @@ inline constexpr std::size_t kChannels = 2;
 struct PacketHead {
   std::uint16_t source;  ///< PE
   Channel channel;
-  std::uint8_t unused;
+  std::uint8_t lead;     ///< bytes of the message behind this head in its record, 0..kMostLead; then whole records
   std::uint32_t number;  ///< of the packets from this source to this receiver, from 0 on, modulo 2^32
   std::uint32_t bytes;   ///< of the whole message
   std::uint32_t offset;  ///< of this packet's first byte in it
@@ -34,13 +34,38 @@ inline constexpr std::uint32_t kRecordsPerPacket = protocol::kMostRecordsPerPack
 static_assert(kRecordBytes * kRecordsPerPacket == protocol::kMostPacketBytes);
 /// The most bytes of a message in one packet: 1008.
 inline constexpr std::uint32_t kMostPayload = kRecordBytes * kRecordsPerPacket - sizeof(PacketHead);
-/// Records that the NIU fills by itself: eight of the largest packets.
-inline constexpr std::uint32_t kNiuSlots = 8 * kRecordsPerPacket;
-/// At the beginning of what the image leaves free: the slots of the outgoing packet, then the NIU's.
-inline constexpr std::uint32_t kSlotBytes = (kRecordsPerPacket + kNiuSlots) * kRecordBytes;
+inline constexpr std::uint32_t kMostLead = kRecordBytes - sizeof(PacketHead);
 
 constexpr std::uint32_t records_of(std::uint32_t payload) {
   return (static_cast<std::uint32_t>(sizeof(PacketHead)) + payload + kRecordBytes - 1) / kRecordBytes;
 }
+
+/// Where record slots lie. The program's own cover local memory up to the NIU's, as far as slots have numbers: so what
+/// is sent need not be copied first. The last of them, `staging`, hold heads, and what cannot be sent from its place.
+struct SlotLayout {
+  static constexpr std::uint32_t kMostSlots = 65534;    // of all, as the NIU numbers them
+  static constexpr std::uint32_t kMostNiuSlots = 4096;  // likewise
+  /// Of local memory, one part in so many takes what arrives: what finds no room there comes later, by way of the host.
+  static constexpr std::uint32_t kPartForArrivals = 8;
+  static constexpr std::uint32_t kStagingBytes = kRecordsPerPacket * kRecordBytes;
+
+  std::uint32_t first;    ///< address of slot 0
+  std::uint32_t own;      ///< slots of the program
+  std::uint32_t niu;      ///< slots of the NIU behind them
+  std::uint32_t staging;  ///< address of the first of kRecordsPerPacket: memory is the heap's up to here
+};
+
+constexpr SlotLayout slot_layout(std::uint32_t memory_begin, std::uint32_t memory_end) {
+  const std::uint32_t wanted = (memory_end - memory_begin) / SlotLayout::kPartForArrivals / kRecordBytes;
+  const std::uint32_t niu = wanted < SlotLayout::kMostNiuSlots ? wanted : SlotLayout::kMostNiuSlots;
+  const std::uint32_t niu_begin = memory_end - niu * kRecordBytes;
+  const std::uint32_t all = (niu_begin - memory_begin) / kRecordBytes;
+  const std::uint32_t own = all + niu < SlotLayout::kMostSlots ? all : SlotLayout::kMostSlots - niu;
+  return {niu_begin - own * kRecordBytes, own, niu, niu_begin - SlotLayout::kStagingBytes};
+}
+static_assert(slot_layout(protocol::kLocalMemoryBase, protocol::kLocalMemoryBase + protocol::kSmallestLocalMemory).niu ==
+              512);
+static_assert(slot_layout(protocol::kLocalMemoryBase, protocol::kLocalMemoryBase + protocol::kLargestLocalMemory).niu ==
+              SlotLayout::kMostNiuSlots);
 
 }  // namespace torolux::kit

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ * Wrong uses of the kit: the argument says which; each ends the run with a message. */
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <torolux.h>
+
+static char buffer[2048];
+
+static void too_long_for_receiver(void) {
+  if (torolux_pe() == 0) torolux_send(1, buffer, 200);
+  if (torolux_pe() == 1) torolux_receive(0, buffer, 100); /* no room */
+}
+
+static void no_memory_for_messages(void) {
+  if (torolux_pe() == 0) {
+    for (int i = 0; i < 2000; ++i) torolux_send(1, buffer, sizeof buffer);
+  } else {
+    torolux_receive(1, buffer, 1);
+  }
+}
+
+static int deep(int depth) {
+  volatile char frame[1024];
+  frame[depth % 1024] = (char)depth;
+  return depth == 0 ? 0 : deep(depth - 1) + frame[depth % 1024];
+}
+
+int main(int argc, char** argv) {
+  const char* what = argc > 1 ? argv[1] : "";
+  if (strcmp(what, "pe") == 0) torolux_send(70, buffer, 1);
+  if (strcmp(what, "negative") == 0) torolux_receive(-5, buffer, 1);
+  if (strcmp(what, "bytes") == 0) torolux_send(0, buffer, TOROLUX_MOST_BYTES + 1);
+  if (strcmp(what, "room") == 0) too_long_for_receiver();
+  if (strcmp(what, "memory") == 0) no_memory_for_messages();
+  if (strcmp(what, "deadlock") == 0) torolux_receive(TOROLUX_ANY, buffer, 1);
+  if (strcmp(what, "stack") == 0) return deep(100000);
+  if (strcmp(what, "assert") == 0) assert(argc == 7);
+  if (strcmp(what, "abort") == 0) abort();
+  if (strcmp(what, "fail") == 0) torolux_fail("the sort is wrong");
+  if (strcmp(what, "host") == 0) torolux_send(TOROLUX_HOST, buffer, 3);
+  if (strcmp(what, "overlap") == 0) torolux_exchange(0, buffer, 100, 0, buffer + 50, 100);
+  if (strcmp(what, "broadcast") == 0) torolux_broadcast(0, buffer, torolux_pe() == 0 ? 100 : 50);
+  if (strcmp(what, "root") == 0) torolux_reduce(9, buffer, 1, TOROLUX_FLOAT, TOROLUX_SUM);
+  if (strcmp(what, "exit") == 0) exit(torolux_pe() == 1 ? 258 : 0);
+  return 0;
+}

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// HINTs in, packets out, in an order drawn by chance.
+#include "tests/unit/firmware/kit/fake_torus.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <thread>
+
+namespace torolux::test {
+namespace {
+
+using protocol::Hint;
+
+/// Of HINTs after which another PE goes on.
+constexpr double kYields = 0.3;
+/// Of HINTs before which a packet is brought.
+constexpr double kBrings = 0.5;
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(std::string("the NIU's rules are broken: ") + what);
+}
+
+}  // namespace
+
+FakeNode::FakeNode(FakeTorus& torus, std::uint16_t number, unsigned columns, unsigned rows)
+    : torus_(torus),
+      number_(number),
+      bytes_(std::make_unique<std::byte[]>(FakeTorus::kMemoryBytes)),
+      page_(new (bytes_.get()) pe::NiuPage{}),
+      niu_(*page_, pe::Memory(pe::LocalBase(bytes_.get(), protocol::kLocalMemoryBase + protocol::kPageBytes)),
+           pe::HintGate(*this)) {
+  page_->window.pe = number;
+  page_->window.columns = columns;
+  page_->window.rows = rows;
+  page_->window.local_memory_bytes = FakeTorus::kMemoryBytes;
+}
+
+std::span<std::byte> FakeNode::memory() {
+  return std::span(bytes_.get(), FakeTorus::kMemoryBytes / 2).subspan(protocol::kPageBytes);
+}
+
+std::byte* FakeNode::slot(std::uint32_t number) {
+  require(number < slots_.own + slots_.niu, "slot number");
+  return bytes_.get() + (slots_.address - protocol::kLocalMemoryBase) + std::size_t{number} * slots_.bytes;
+}
+
+void FakeNode::hint(std::int32_t immediate) {
+  if (torus_.chance(kBrings)) torus_.bring_one();
+  switch (static_cast<Hint>(immediate)) {
+    case Hint::send_records:
+      send_records();
+      break;
+    case Hint::receive:
+      receive(true);
+      break;
+    case Hint::receive_if_any:
+      receive(false);
+      break;
+    case Hint::set_slots: {
+      slots_ = page_->window.slots;
+      const std::uint64_t end = std::uint64_t{slots_.address} + std::uint64_t{slots_.own + slots_.niu} * slots_.bytes;
+      require(slots_.address >= protocol::kLocalMemoryBase && end <= niu_.memory_end(), "slots inside local memory");
+      in_use_.assign(slots_.own + slots_.niu, false);
+      for (std::uint32_t s = slots_.own + slots_.niu; s-- > slots_.own;) free_.push_back(static_cast<std::uint16_t>(s));
+      break;
+    }
+    case Hint::fail:
+      throw FakeTorus::Failed(page_->window.fault);
+    default:
+      throw std::logic_error("a HINT that messages do not need: " + std::to_string(immediate));
+  }
+  if (torus_.chance(kYields)) torus_.let_others(number_);
+}
+
+void FakeNode::release() {
+  for (std::uint32_t i = 0; i < page_->window.released; ++i) {
+    const std::uint16_t s = page_->window.release[i];
+    require(s >= slots_.own && s < slots_.own + slots_.niu && in_use_[s], "released a slot that it did not have");
+    in_use_[s] = false;
+    free_.push_back(s);
+  }
+  page_->window.released = 0;
+}
+
+void FakeNode::send_records() {
+  release();
+  const auto& out = page_->window.send;
+  require(out.count >= 1 && out.count <= protocol::kMostRecordsPerPacket, "records of a packet");
+  require(out.destination < torus_.nodes_.size() && out.destination != number_, "destination");
+  Packet packet{number_, {}};
+  for (std::uint32_t i = 0; i < out.count; ++i) {
+    require(out.slots[i] < slots_.own, "a record of its own");
+    packet.records.insert(packet.records.end(), slot(out.slots[i]), slot(out.slots[i]) + slots_.bytes);
+  }
+  torus_.send(number_, out.destination, std::move(packet));
+}
+
+bool FakeNode::take(const Packet& packet) {
+  const std::size_t records = slots_.bytes != 0 ? packet.records.size() / slots_.bytes : 1;
+  if (free_.size() < records) return false;
+  Item item{packet.source, {}};
+  for (std::size_t i = 0; i < records; ++i) {
+    const std::uint16_t s = free_.back();
+    free_.pop_back();
+    in_use_[s] = true;
+    std::memcpy(slot(s), &packet.records[i * slots_.bytes], slots_.bytes);
+    item.slots.push_back(s);
+  }
+  arrivals_.push_back(std::move(item));
+  return true;
+}
+
+void FakeNode::receive(bool wait) {
+  release();
+  auto& arrival = page_->window.arrival;
+  arrival.kind = protocol::ArrivalKind::none;
+  while (wait && arrivals_.empty()) {
+    asleep_ = true;
+    torus_.let_others(number_);
+    asleep_ = false;
+  }
+  if (arrivals_.empty()) return;
+  const Item item = std::move(arrivals_.front());
+  arrivals_.pop_front();
+  arrival.kind = protocol::ArrivalKind::records;
+  arrival.source = item.source;
+  arrival.count = static_cast<std::uint16_t>(item.slots.size());
+  std::ranges::copy(item.slots, arrival.slots.begin());
+}
+
+// ---- All of them ----
+
+FakeTorus::FakeTorus(unsigned columns, unsigned rows, double divert, std::uint32_t seed)
+    : divert_(divert), random_(seed) {
+  for (unsigned pe = 0; pe < columns * rows; ++pe) {
+    nodes_.push_back(std::make_unique<FakeNode>(*this, static_cast<std::uint16_t>(pe), columns, rows));
+  }
+}
+
+void FakeTorus::send(std::uint16_t from, std::uint16_t to, FakeNode::Packet packet) {
+  if (chance(divert_)) {
+    packet.source = protocol::kHost;
+    ++diverted_;
+    late_.push_back({to, std::move(packet)});
+  } else {
+    under_way_[{from, to}].push_back(std::move(packet));
+  }
+}
+
+/// Of one pair the oldest, or any that was diverted. False: there is nothing for which there is room.
+bool FakeTorus::bring_one() {
+  std::vector<std::pair<std::uint16_t, std::uint16_t>> pairs;
+  for (const auto& [pair, packets] : under_way_) {
+    if (!packets.empty()) pairs.push_back(pair);
+  }
+  const std::size_t choices = pairs.size() + late_.size();
+  if (choices == 0) return false;
+  const std::size_t choice = below(choices);
+  if (choice < pairs.size()) {
+    auto& packets = under_way_[pairs[choice]];
+    FakeNode::Packet packet = std::move(packets.front());
+    packets.pop_front();
+    if (nodes_[pairs[choice].second]->take(packet)) return true;
+    packet.source = protocol::kHost;
+    ++diverted_;
+    late_.push_back({pairs[choice].second, std::move(packet)});
+    return true;
+  }
+  const auto place = late_.begin() + static_cast<std::ptrdiff_t>(choice - pairs.size());
+  if (nodes_[place->destination]->take(place->packet)) late_.erase(place);
+  return true;
+}
+
+/// Somebody who can go on.
+std::optional<std::uint16_t> FakeTorus::next() {
+  for (int tries = 0; tries < 100'000; ++tries) {
+    std::vector<std::uint16_t> able;
+    for (const auto& node : nodes_) {
+      if (!node->done_ && (!node->asleep_ || !node->arrivals_.empty())) able.push_back(node->number_);
+    }
+    if (!able.empty()) return able[below(able.size())];
+    if (!bring_one()) break;
+  }
+  return std::nullopt;
+}
+
+void FakeTorus::fail(std::exception_ptr error) {
+  if (!error_) error_ = std::move(error);
+  stopping_ = true;
+  turn_changed_.notify_all();
+}
+
+/// Called by the thread whose turn it is; returns when it is again.
+void FakeTorus::let_others(std::uint16_t self) {
+  const auto chosen = next();
+  if (!chosen) throw std::logic_error("all PEs wait, and nothing is under way");
+  if (*chosen == self) return;
+  turn_ = *chosen;
+  turn_changed_.notify_all();
+  std::unique_lock lock(mutex_, std::adopt_lock);
+  turn_changed_.wait(lock, [&] { return turn_ == self || stopping_; });
+  lock.release();
+  if (stopping_) throw Stopped{};
+}
+
+void FakeTorus::run(const Program& program) {
+  std::vector<std::thread> threads;
+  for (const auto& node : nodes_) {
+    threads.emplace_back([this, &program, node = node.get()] {
+      std::unique_lock lock(mutex_);
+      turn_changed_.wait(lock, [&] { return turn_ == node->number_ || stopping_; });
+      lock.release();
+      try {
+        if (!stopping_) program(*node);
+        node->done_ = true;
+        if (const auto chosen = next()) {
+          turn_ = *chosen;
+          turn_changed_.notify_all();
+        } else if (!std::ranges::all_of(nodes_, [](const auto& each) { return each->done_; })) {
+          throw std::logic_error("the others wait, and nothing is under way");
+        }
+      } catch (const Stopped&) {  // another has failed
+      } catch (...) {
+        fail(std::current_exception());
+      }
+      mutex_.unlock();
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  if (error_) std::rethrow_exception(error_);
+}
+
+}  // namespace torolux::test
