@@ -6,8 +6,10 @@ pe_flags(c++ flags)
 set(cxx "")
 foreach(flag IN LISTS flags)
   # Unless the user asks for the opposite.
-  string(REPLACE "-fno-" "f" opposite ${flag})
-  string(APPEND cxx " %{!${opposite}:${flag}}")
+  if(flag MATCHES "^-fno-(.*)")
+    set(flag "%{!f${CMAKE_MATCH_1}:${flag}}")
+  endif()
+  string(APPEND cxx " ${flag}")
 endforeach()
 pe_flags(link link)
 list(JOIN link " " link)
@@ -25,6 +27,7 @@ add_custom_command(
   COMMAND ${PROJECT_SOURCE_DIR}/cmake/stage_kit.sh ${kit} ${PROJECT_BINARY_DIR}/torolux.specs ${TOROLUX_SYSROOT}
           $<TARGET_FILE:torolux_boot_archive> $<TARGET_FILE:torolux_kit>
   DEPENDS ${headers}
+          ${PROJECT_SOURCE_DIR}/firmware/niu/native/fake_torus.cpp
           ${PROJECT_BINARY_DIR}/torolux.specs
           ${PROJECT_SOURCE_DIR}/cmake/pe_flags.txt
           ${PROJECT_SOURCE_DIR}/cmake/print_regions.sh

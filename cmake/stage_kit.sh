@@ -13,7 +13,8 @@ cp -r "$sysroot"/{c++,glm,include,lib,shim} "$staged/libc/"
 cp "$@" "$staged/lib/"
 riscv64-unknown-elf-strip --strip-debug "$staged"/libc/lib/*.a  # lines of a folder that is gone
 cp "$root/firmware/kit/include/torolux.h" "$staged/include/"
-(cd "$root" && cp --parents firmware/{boot,examples,niu,protocol}/*.hpp firmware/niu/*/platform/*.hpp "$staged/include/")
+(cd "$root" && cp --parents firmware/{boot,examples,niu,protocol}/*.hpp firmware/niu/*/platform/*.hpp \
+  firmware/niu/native/fake_torus.?pp "$staged/include/")
 cp "$root/linker/pe.ld" "$root/cmake/pe_flags.txt" "$root/cmake/print_regions.sh" "$root/cmake/torolux.mk" "$staged/"
 chmod -R u+w,go+rX "$staged"
 # Last of all, so that what is newer than this file is not in the kit yet.
