@@ -126,7 +126,7 @@ RunEnd run_image_again(const Json& was, const std::vector<std::string>& words, c
   run.engine = options.engine.value_or(run.engine);
   run.threads = options.threads;
   run.quiet = true;
-  const ProgramFiles inputs = with_hint(options, [&] { return inputs_of(run); });
+  const ProgramFiles inputs = with_hint(options, [&] { return program_files(run, read_inputs(run.program.inputs)); });
   check_settings(was, settings_json(setup_from(run), inputs), options);
   return run_prepared(run);
 }

@@ -47,10 +47,10 @@ void check_results_distinct(const RunOptions& options) {
 
 }  // namespace
 
-ProgramFiles inputs_of(const RunOptions& options) {
+ProgramFiles program_files(const RunOptions& options, const std::vector<Input>& read) {
   ProgramFiles inputs;
   inputs.files.push_back({"image", options.image, sha256_of_file(options.image)});
-  for (InputFile& input : digests_of(options.program.inputs)) inputs.files.push_back(std::move(input));
+  for (InputFile& input : digests_of(read)) inputs.files.push_back(std::move(input));
   for (const GivenFile& output : options.program.outputs) inputs.outputs.push_back(output.name);
   return inputs;
 }
@@ -69,8 +69,9 @@ RunEnd run_prepared(const RunOptions& options) {
   if (options.report) {
     check_file_writable(*options.report);
   }
-  const ProgramFiles inputs = inputs_of(options);
-  ServedFiles files(options.program.inputs, options.program.outputs);
+  std::vector<Input> read = read_inputs(options.program.inputs);
+  const ProgramFiles inputs = program_files(options, read);
+  ServedFiles files(std::move(read), options.program.outputs);
   const auto begin = std::chrono::steady_clock::now();
   const auto display = open_display(options.display, {"run",
                                                       std::filesystem::path(options.image).filename().string(),

@@ -42,8 +42,8 @@ void add_run_options(CLI::App& command, RunOptions& options);
 /// words: what stands after `torolux run`. Throws UsageError, InputError.
 RunOptions parse_run_options(const std::vector<std::string>& words);
 
-/// What a run's statistics tell of its files. Throws InputError.
-ProgramFiles inputs_of(const RunOptions& options);
+/// What a run's statistics tell of its files; read: its inputs. Throws InputError.
+ProgramFiles program_files(const RunOptions& options, const std::vector<Input>& read);
 
 /// Runs the image; writes and prints what the options ask for. Throws UsageError, InputError, MachineFailure.
 RunEnd run_prepared(const RunOptions& options);

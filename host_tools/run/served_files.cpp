@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "emulator/errors.hpp"
 
@@ -24,8 +25,23 @@ FileAnswer refused(FileError error) {
 
 }  // namespace
 
-ServedFiles::ServedFiles(const std::vector<GivenFile>& inputs, const std::vector<GivenFile>& outputs) {
-  for (const GivenFile& given : inputs) inputs_.push_back({given.name, read_file(given.file, kMostInputBytes)});
+std::vector<Input> read_inputs(const std::vector<GivenFile>& files) {
+  std::vector<Input> inputs;
+  for (const GivenFile& given : files) inputs.push_back({given, read_file(given.file, kMostInputBytes)});
+  return inputs;
+}
+
+std::vector<InputFile> digests_of(const std::vector<Input>& inputs) {
+  std::vector<InputFile> digests;
+  for (const auto& [given, contents] : inputs) {
+    digests.push_back({"input " + given.name, given.file.string(),
+                       sha256({reinterpret_cast<const char*>(contents.data()), contents.size()})});
+  }
+  return digests;
+}
+
+ServedFiles::ServedFiles(std::vector<Input> inputs, const std::vector<GivenFile>& outputs)
+    : inputs_(std::move(inputs)) {
   for (const GivenFile& given : outputs)
     outputs_.push_back({given.name, std::make_unique<FileWriter>(given.file), 0, {}});
 }
@@ -36,7 +52,7 @@ ServedFiles::Output* ServedFiles::output_named(const std::string& name) {
 }
 
 FileAnswer ServedFiles::open(PeNumber pe, std::uint32_t access, const std::string& name) {
-  const auto input = std::ranges::find(inputs_, name, &Input::name);
+  const auto input = std::ranges::find(inputs_, name, [](const Input& each) { return each.given.name; });
   Output* const output = output_named(name);
   const bool is_input = input != inputs_.end();
   if (!is_input && output == nullptr) return refused(FileError::no_such_file);
@@ -142,16 +158,6 @@ void ServedFiles::append_to_host_file(PeNumber pe, std::span<const std::byte> by
 
 void ServedFiles::finish() {
   for (const Output& output : outputs_) output.writer->finish();
-}
-
-std::vector<InputFile> digests_of(const std::vector<GivenFile>& inputs) {
-  std::vector<InputFile> digests;
-  for (const GivenFile& given : inputs) {
-    const std::vector<std::byte> contents = read_file(given.file, ServedFiles::kMostInputBytes);
-    digests.push_back({"input " + given.name, given.file.string(),
-                       sha256({reinterpret_cast<const char*>(contents.data()), contents.size()})});
-  }
-  return digests;
 }
 
 }  // namespace torolux

@@ -28,15 +28,25 @@ struct GivenFile {
   std::filesystem::path file;
 };
 
+/// An input with what it holds: read once, as it may be a pipe.
+struct Input {
+  GivenFile given;
+  std::vector<std::byte> contents;
+};
+/// Of one input [bytes].
+inline constexpr std::size_t kMostInputBytes = std::size_t{1} << 30U;
+/// Throws InputError.
+std::vector<Input> read_inputs(const std::vector<GivenFile>& files);
+/// For the run's settings.
+std::vector<InputFile> digests_of(const std::vector<Input>& inputs);
+
 class ServedFiles {
  public:
-  /// Of an input that is served [bytes].
-  static constexpr std::size_t kMostInputBytes = std::size_t{1} << 30U;
   /// The output that takes what PEs send to TOROLUX_HOST.
   static constexpr const char* kHostFile = "host";
 
-  /// Reads the inputs, and opens the outputs under other names. Throws InputError.
-  ServedFiles(const std::vector<GivenFile>& inputs, const std::vector<GivenFile>& outputs);
+  /// Opens the outputs under other names. Throws InputError.
+  ServedFiles(std::vector<Input> inputs, const std::vector<GivenFile>& outputs);
 
   /// Requests of a PE. A request that no program of the kit makes throws MachineFailure.
   protocol::FileAnswer open(PeNumber pe, std::uint32_t access, const std::string& name);
@@ -51,10 +61,6 @@ class ServedFiles {
   void finish();
 
  private:
-  struct Input {
-    std::string name;
-    std::vector<std::byte> contents;
-  };
   struct Output {
     std::string name;
     std::unique_ptr<FileWriter> writer;
@@ -78,8 +84,5 @@ class ServedFiles {
   std::vector<Output> outputs_;
   std::unordered_map<PeNumber, OpenFiles> open_;
 };
-
-/// Digests of what the inputs hold, for the run's settings. Throws InputError.
-std::vector<InputFile> digests_of(const std::vector<GivenFile>& inputs);
 
 }  // namespace torolux

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/fuzz/send_messages.hpp"
+#include "tests/fuzz/send_to_listener.hpp"
 #include "tests/fuzz/smoke.hpp"
 
 namespace torolux {
@@ -15,6 +16,10 @@ namespace {
 TEST(FuzzSmoke, MessagesToTheHost) {
   smoke("host_messages", 20'000,
         [](const std::string& input) { return send_to_host(std::as_bytes(std::span(input))); });
+}
+TEST(FuzzSmoke, MessagesToTheHostOfAnyImage) {
+  smoke("run_messages", 20'000,
+        [](const std::string& input) { return send_to_listener(std::as_bytes(std::span(input))); });
 }
 TEST(FuzzSmoke, RecordsToAPe) {
   smoke("records", 2'000, [](const std::string& input) { return send_to_pe(std::as_bytes(std::span(input))); });

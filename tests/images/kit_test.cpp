@@ -137,7 +137,7 @@ TEST(Kit, FilesAreReadWrittenAppendedAndTheSameOnAllEngines) {
     const std::vector<GivenFile> inputs = {{"data", folder.path() / "data"}, {"stdin", folder.path() / "in"}};
     const std::vector<GivenFile> outputs = {
         {"table", folder.path() / "table"}, {"log", folder.path() / "log"}, {"host", folder.path() / "host"}};
-    ServedFiles files(inputs, outputs);
+    ServedFiles files(read_inputs(inputs), outputs);
     MachineSetup setup = machine(engine, 3, 1);
     setup.arguments = {"one", "7"};
     const Outcome outcome = run(setup, "kit_files", files);

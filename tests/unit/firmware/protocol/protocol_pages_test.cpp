@@ -254,7 +254,7 @@ std::vector<std::string> numbered(const std::string& header, const std::string& 
 TEST(PageOfErrors, HasEachFaultCodeWithItsNumberAndNoOthers) {
   const std::string page_of_errors = text_of("docs/errors.md");
   std::vector<std::string> codes = numbered("firmware/protocol/messages.hpp", "FaultCode");
-  ASSERT_EQ(codes.size(), static_cast<std::size_t>(protocol::FaultCode::short_message));
+  ASSERT_EQ(codes.size(), static_cast<std::size_t>(protocol::FaultCode::words));
   const std::vector<std::string> of_niu = numbered("emulator/niu/channel.hpp", "NiuFaultCode");
   ASSERT_EQ(of_niu.size(), static_cast<std::size_t>(NiuFaultCode::wait_for_interrupt));
   codes.insert(codes.end(), of_niu.begin(), of_niu.end());

@@ -199,10 +199,19 @@ RC_GTEST_PROP(Settings, OfAnImageLeadToThemselves, ()) {
   perhaps([&] { options.pes = "3x5"; });
   perhaps([&] { options.pe_memory = "256K"; });
   options.machine_values = any_machine_values();
-  const InputFile image{"image", options.image, sha256("image")};
-  const Json settings = settings_json(setup_from(options), image);
+  perhaps([&] { options.program.arguments = {"-x", "two words", "--pes"}; });
+  perhaps([&] { options.program.inputs = {{"data", "some file"}, {"stdin", "a=b"}}; });
+  perhaps([&] { options.program.outputs = {{"out", "/dev/null"}}; });
+  ProgramFiles files{{{"image", options.image, sha256("image")}}, {}};
+  for (const GivenFile& input : options.program.inputs) {
+    files.files.push_back({"input " + input.name, input.file.string(), sha256("input")});
+  }
+  for (const GivenFile& output : options.program.outputs) files.outputs.push_back(output.name);
+  const Json settings = settings_json(setup_from(options), files);
   const RunOptions again = parse_run_options(after_command(command_line_of(Json::parse(settings.dump()))));
-  RC_ASSERT(settings_json(setup_from(again), image).dump(1) == settings.dump(1));
+  RC_ASSERT(settings_json(setup_from(again), files).dump(1) == settings.dump(1));
+  RC_ASSERT(again.program.inputs.size() == options.program.inputs.size());
+  RC_ASSERT(again.program.outputs.size() == options.program.outputs.size());
 }
 
 TEST(Settings, HoldEveryKeyOfTheMachine) {

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Numbers that lie on all PEs are sorted over all of them: afterwards each PE's are in order, and none is greater than
+// any of the next PE's. Argument: how many numbers in all. PE 0 prints the cycles, and how evenly they lie.
+//
+// By samples (Shi and Schaeffer 1992): each PE sorts its own and tells some that lie evenly in them; from the samples
+// of all come the borders between PEs; each PE sends each other one what lies between that one's borders, and sorts
+// what came.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <torolux.h>
+
+TOROLUX_PHASE_NAME(0, "sort");
+TOROLUX_PHASE_NAME(1, "borders");
+TOROLUX_PHASE_NAME(2, "exchange");
+
+enum { kSamples = 16 };  // of each PE
+
+struct numbers {
+  uint32_t* number;
+  size_t count;
+};
+
+static void* memory_for(size_t bytes) {
+  void* const memory = malloc(bytes == 0 ? 1 : bytes);
+  if (memory == NULL) torolux_fail("no memory: give the PEs more (--pe-memory), or sort fewer numbers");
+  return memory;
+}
+
+static int compare(const void* a, const void* b) {
+  const uint32_t x = *(const uint32_t*)a;
+  const uint32_t y = *(const uint32_t*)b;
+  return (x > y) - (x < y);
+}
+
+static void sort(struct numbers numbers) {
+  TOROLUX_ENTER_PHASE(0);
+  qsort(numbers.number, numbers.count, sizeof *numbers.number, compare);
+  TOROLUX_LEAVE_PHASE(0);
+}
+
+// A hash (the finaliser of MurmurHash3): the numbers are the same on any torus.
+static uint32_t hash(uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x85EBCA6BU;
+  x = (x ^ (x >> 13)) * 0xC2B2AE35U;
+  return x ^ (x >> 16);
+}
+
+// Each PE's equal part of `all` numbers.
+static struct numbers make_numbers(size_t all) {
+  const size_t begin = (size_t)((uint64_t)all * torolux_pe() / torolux_pes());
+  const size_t end = (size_t)((uint64_t)all * (torolux_pe() + 1) / torolux_pes());
+  struct numbers made = {memory_for((end - begin) * sizeof(uint32_t)), end - begin};
+  for (size_t i = 0; i < made.count; ++i) made.number[i] = hash((uint32_t)(begin + i));
+  return made;
+}
+
+// The first number of each PE but 0, found by PE 0 and told to all.
+static void find_borders(struct numbers own, uint32_t* borders) {
+  TOROLUX_ENTER_PHASE(1);
+  const unsigned pes = torolux_pes();
+  uint32_t samples[kSamples];
+  for (size_t i = 0; i < kSamples; ++i) {
+    samples[i] = own.count == 0 ? UINT32_MAX : own.number[(2 * i + 1) * own.count / (2 * kSamples)];
+  }
+  if (torolux_pe() == 0) {
+    struct numbers all = {memory_for(pes * sizeof samples), (size_t)pes * kSamples};
+    memcpy(all.number, samples, sizeof samples);
+    for (unsigned pe = 1; pe < pes; ++pe) torolux_receive((int)pe, all.number + pe * kSamples, sizeof samples);
+    sort(all);
+    for (unsigned pe = 1; pe < pes; ++pe) borders[pe - 1] = all.number[pe * kSamples];
+    free(all.number);
+  } else {
+    torolux_send(0, samples, sizeof samples);
+  }
+  torolux_broadcast(0, borders, (pes - 1) * sizeof *borders);
+  TOROLUX_LEAVE_PHASE(1);
+}
+
+// Sends each PE its part of the sorted numbers; returns what has come from all. In step s everybody sends to the PE
+// that is s further on, so that nobody is flooded.
+static struct numbers exchange(struct numbers own, const uint32_t* borders) {
+  TOROLUX_ENTER_PHASE(2);
+  const unsigned pes = torolux_pes();
+  const unsigned pe = torolux_pe();
+  size_t* const first = memory_for((pes + 1) * sizeof *first);  // of each PE's part
+  first[0] = 0;
+  first[pes] = own.count;
+  for (unsigned p = 1; p < pes; ++p) {
+    size_t at = first[p - 1];
+    while (at < own.count && own.number[at] < borders[p - 1]) ++at;
+    first[p] = at;
+  }
+  struct numbers come = {NULL, 0};
+  for (unsigned step = 0; step < pes; ++step) {
+    const unsigned to = (pe + step) % pes;
+    const int from = (int)((pe + pes - step) % pes);
+    torolux_send((int)to, own.number + first[to], (first[to + 1] - first[to]) * sizeof *own.number);
+    while (torolux_waiting(from) < 0) {
+    }
+    const size_t bytes = (size_t)torolux_waiting(from);
+    uint32_t* const more = realloc(come.number, come.count * sizeof *come.number + bytes + 1);
+    if (more == NULL) torolux_fail("no memory for the numbers that come: give the PEs more (--pe-memory)");
+    come.number = more;
+    torolux_receive(from, come.number + come.count, bytes);
+    come.count += bytes / sizeof *come.number;
+  }
+  free(first);
+  TOROLUX_LEAVE_PHASE(2);
+  return come;
+}
+
+// In order here, and from PE to PE; none lost: their number and their sum are those of the beginning.
+static void check(struct numbers sorted, struct numbers before) {
+  for (size_t i = 1; i < sorted.count; ++i) {
+    if (sorted.number[i - 1] > sorted.number[i]) torolux_fail("two numbers are out of order");
+  }
+  uint32_t greatest = sorted.count == 0 ? 0 : sorted.number[sorted.count - 1];
+  if (torolux_pe() != 0) {
+    uint32_t below = 0;
+    torolux_receive((int)torolux_pe() - 1, &below, sizeof below);
+    if (sorted.count != 0 && below > sorted.number[0]) torolux_fail("the PE before has a greater number");
+    if (below > greatest) greatest = below;
+  }
+  if (torolux_pe() + 1 != torolux_pes()) torolux_send((int)torolux_pe() + 1, &greatest, sizeof greatest);
+
+  uint64_t lost[2] = {before.count - sorted.count, 0};
+  for (size_t i = 0; i < before.count; ++i) lost[1] += before.number[i];
+  for (size_t i = 0; i < sorted.count; ++i) lost[1] -= sorted.number[i];
+  torolux_all_reduce(lost, 2, TOROLUX_UINT64, TOROLUX_SUM);
+  if (lost[0] != 0 || lost[1] != 0) torolux_fail("numbers were lost");
+}
+
+int main(int argc, char** argv) {
+  const size_t all = argc == 2 ? strtoul(argv[1], NULL, 10) : 0;
+  if (all == 0) {
+    if (torolux_pe() == 0) fprintf(stderr, "argument: how many numbers\n");
+    return 1;
+  }
+  struct numbers own = make_numbers(all);
+  uint32_t* const borders = memory_for(torolux_pes() * sizeof *borders);
+
+  torolux_barrier();
+  const uint64_t begin = torolux_clock();
+  sort(own);
+  find_borders(own, borders);
+  struct numbers sorted = exchange(own, borders);
+  sort(sorted);
+  torolux_barrier();
+  const uint64_t cycles = torolux_clock() - begin;
+
+  check(sorted, own);
+  uint32_t most = (uint32_t)sorted.count;
+  torolux_reduce(0, &most, 1, TOROLUX_UINT32, TOROLUX_MAXIMUM);
+  if (torolux_pe() == 0) {
+    printf("%lu numbers sorted in %llu cycles; the most on a PE: %lu, %.2f of the mean\n", (unsigned long)all,
+           (unsigned long long)cycles, (unsigned long)most, (double)most * torolux_pes() / (double)all);
+  }
+  return 0;
+}
