@@ -87,6 +87,33 @@ TEST_F(OwnProject, FindsThePackageByItsRootAndInTheBuild) {
   folder.succeed("rm main.cpp; ! cmake --build two");
 }
 
+TEST_F(OwnProject, TestsItsHandlersNatively) {
+  folder.write("CMakeLists.txt", R"(
+cmake_minimum_required(VERSION 3.20)
+project(own LANGUAGES CXX)
+find_package(Torolux REQUIRED)
+enable_testing()
+add_executable(handlers_test main.cpp handlers_test.cpp)
+target_link_libraries(handlers_test PRIVATE Torolux::native)
+add_test(NAME handlers COMMAND handlers_test)
+)");
+  // The image's own source, but for the part in C.
+  folder.write("handlers_test.cpp", R"(
+#include "firmware/boot/boot.hpp"
+#include "firmware/niu/native/fake_torus.hpp"
+extern "C" int more(int number) { return 10 * number; }
+int main() {
+  torolux::native::FakeTorus torus(2, 2);
+  torus.run([](torolux::native::FakeNode& node) { torolux::pe::pe_main(node.niu()); });
+  if (torus.sent().size() != 4) return 1;
+  for (const auto& message : torus.sent()) {
+    if (message.text() != "number 30") return 2;
+  }
+}
+)");
+  folder.succeed("cmake -S . -B build && cmake --build build && ctest --test-dir build --no-tests=error");
+}
+
 TEST_F(OwnProject, IsBuiltByMakeWithTheRulesOfTheKit) {
   // make takes no blanks in names of files: a prefix without.
   folder.succeed(shell_line({"cp", "-r", prefix().string(), "torolux"}));

@@ -57,7 +57,7 @@ mmdebstrap --quiet --variant=apt --mode=root --include="$package,gcc-riscv64-unk
   --hook-dir=/usr/share/mmdebstrap/hooks/file-mirror-automount "$suite" "$work/root" >"$work/mmdebstrap.log" 2>&1 ||
   { cat "$work/mmdebstrap.log"; fail 'the package cannot be installed'; }
 for file in man/man1/torolux.1 bash-completion/completions/torolux zsh/site-functions/_torolux \
-  fish/vendor_completions.d/torolux.fish torolux/firmware/pe.elf torolux/scenes/cornell_box/scene.toml; do
+  fish/vendor_completions.d/torolux.fish torolux/firmware/pe.elf torolux/kit/torolux.specs torolux/scenes/cornell_box/scene.toml; do
   [[ -r $work/root/usr/share/$file ]] || fail "the package lacks $file"
 done
 
