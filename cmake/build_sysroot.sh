@@ -64,7 +64,7 @@ build_newlib() {
   cd "$work/newlib-build"
   "$work/newlib/configure" --target=$target --prefix="$stage" --disable-multilib \
     --disable-newlib-supplied-syscalls --disable-nls --disable-libgloss --enable-newlib-io-long-long \
-    --enable-newlib-io-c99-formats --enable-newlib-reent-small CFLAGS_FOR_TARGET="$newlib_flags"
+    --enable-newlib-io-c99-formats --enable-newlib-reent-small CFLAGS_FOR_TARGET="$newlib_flags -ffile-prefix-map=$work/newlib/="
   make -j"$jobs" all-target-newlib
   make install-target-newlib
 }

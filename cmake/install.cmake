@@ -12,6 +12,16 @@ add_custom_command(
 add_custom_target(manual ALL DEPENDS ${manual}/torolux.1)
 add_custom_target(installed DEPENDS manual torolux torolux_qemu_plugin)
 
+file(STRINGS ${PROJECT_SOURCE_DIR}/host_tools/report/version.hpp version REGEX "kVersion = ")
+string(REGEX REPLACE ".*\"(.*)\".*" "\\1" version "${version}")
+set(torolux_package ${PROJECT_BINARY_DIR}/lib/cmake/Torolux)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/ToroluxConfig.cmake ${torolux_package}/ToroluxConfig.cmake COPYONLY)
+include(CMakePackageConfigHelpers)
+write_basic_package_version_file(
+  ${torolux_package}/ToroluxConfigVersion.cmake
+  VERSION ${version}
+  COMPATIBILITY SameMinorVersion)
+
 set(firmware ${PROJECT_SOURCE_DIR}/build/firmware/bin)
 install(CODE "if(NOT EXISTS \"${firmware}/pe.elf\")
   message(FATAL_ERROR \"${firmware}/pe.elf is missing: cmake --preset firmware && cmake --build --preset firmware\")
@@ -31,6 +41,13 @@ install(
   PATTERN "calls.elf" EXCLUDE
   PATTERN "faults.elf" EXCLUDE
   PATTERN "jumps.elf" EXCLUDE)
+# What images of one's own are made of, and the CMake package, whose place in the build is like that in the prefix.
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/build/firmware/kit
+  DESTINATION share/torolux
+  FILE_PERMISSIONS ${readable}
+  PATTERN "*.sh" PERMISSIONS ${readable} OWNER_EXECUTE GROUP_EXECUTE WORLD_EXECUTE)
+install(DIRECTORY ${torolux_package}/ DESTINATION lib/cmake/Torolux FILE_PERMISSIONS ${readable})
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/scenes
   DESTINATION share/torolux
@@ -61,8 +78,7 @@ install(FILES ${manual}/torolux.fish DESTINATION share/fish/vendor_completions.d
 # The package: `cpack --config build/native/CPackConfig.cmake`. Libraries are found by dpkg-shlibdeps; g++ translates.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME torolux)
-file(STRINGS ${PROJECT_SOURCE_DIR}/host_tools/report/version.hpp version REGEX "kVersion = ")
-string(REGEX REPLACE ".*\"(.*)\".*" "\\1" CPACK_PACKAGE_VERSION "${version}")
+set(CPACK_PACKAGE_VERSION ${version})
 set(CPACK_PACKAGE_CONTACT "The Torolux authors <torolux@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "massively parallel machine for image synthesis, emulated")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -71,7 +87,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS g++)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, gcc-riscv64-unknown-elf")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "qemu-system-misc, binutils-riscv64-unknown-elf")
 set(CPACK_VERBATIM_VARIABLES ON)
 include(CPack)

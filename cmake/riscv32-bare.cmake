@@ -19,14 +19,16 @@ set(CMAKE_C_COMPILER riscv64-unknown-elf-gcc)
 set(CMAKE_CXX_COMPILER riscv64-unknown-elf-g++)
 set(CMAKE_ASM_COMPILER riscv64-unknown-elf-gcc)
 
-set(torolux_arch "-march=rv32imafc -mabi=ilp32f -mcmodel=medany")
-# No contraction and no errno: a PE computes what the host computes from the same source, bit for bit.
-set(torolux_common "${torolux_arch} -ffp-contract=off -fno-math-errno -ffunction-sections -fdata-sections")
-set(CMAKE_ASM_FLAGS_INIT "${torolux_arch}")
-set(CMAKE_C_FLAGS_INIT "${torolux_common}")
-set(CMAKE_CXX_FLAGS_INIT
-    "${torolux_common} -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit -fno-asynchronous-unwind-tables"
-)
+# pe_flags.txt, as words of a command line.
+include(${CMAKE_CURRENT_LIST_DIR}/pe_flags.cmake)
+foreach(section IN ITEMS all compiled c++ link)
+  pe_flags(${section} flags)
+  list(JOIN flags " " torolux_${section})
+endforeach()
+string(REPLACE "--" "-Wl,--" torolux_link "${torolux_link}")
+set(CMAKE_ASM_FLAGS_INIT "${torolux_all}")
+set(CMAKE_C_FLAGS_INIT "${torolux_all} ${torolux_compiled}")
+set(CMAKE_CXX_FLAGS_INIT "${torolux_all} ${torolux_compiled} ${torolux_c++}")
 set(CMAKE_C_FLAGS_RELEASE
     "-O2 -DNDEBUG"
     CACHE STRING "Optimisation of the images")
@@ -38,7 +40,7 @@ set(CMAKE_C_STANDARD_INCLUDE_DIRECTORIES ${TOROLUX_SYSROOT}/include)
 set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES
     ${TOROLUX_SYSROOT}/c++ ${TOROLUX_SYSROOT}/c++/riscv64-unknown-elf ${TOROLUX_SYSROOT}/shim
     ${TOROLUX_SYSROOT}/include ${TOROLUX_SYSROOT}/glm)
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--no-warn-rwx-segments")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -Wl,--fatal-warnings ${torolux_link}")
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)

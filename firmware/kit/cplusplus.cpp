@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <new>
 
 #include "firmware/kit/kit.hpp"
@@ -163,5 +164,14 @@ void __throw_system_error(int error) {
 void __throw_bad_function_call() {
   end_run(Words() << "std::bad_function_call: an empty std::function was called", TOROLUX_CALLER);
 }
+
+/// Of shared_ptr where there are no types at run time: whether it is this one.
+bool _Sp_make_shared_tag::_S_eq(const type_info& /*type*/) noexcept {
+  return false;
+}
+
+// Code that is not optimised expects these two from the library.
+template class allocator<char>;
+template class allocator<wchar_t>;
 
 }  // namespace std

@@ -15,6 +15,7 @@ namespace torolux::pe {
 class Memory {
  public:
   Memory() = default;  ///< the PE's own; natively an empty one, to be assigned to
+  /// base: what an address means here; made by start-up code, or by a test.
   explicit Memory(LocalBase base) : base_(base) {}
 
   /// The object at `address`, which is in local memory and aligned for T.

@@ -47,15 +47,20 @@ struct NiuPage {
 };
 static_assert(sizeof(NiuPage) <= protocol::kPageBytes);
 
+/// The NIU of this PE: each operation is one function. A value that may be copied; all copies are the same NIU.
 class Niu {
  public:
   /// page: at `__niu_window` in `memory`. It outlives this.
   Niu(NiuPage& page, Memory memory, HintGate gate) : page_(&page), memory_(memory), gate_(gate) {}
 
+  /// What processor and NIU share: own place in the torus, the last arrival, arguments of HINTs.
   NiuWindow& window() const { return page_->window; }
+  /// The PE's local memory.
   const Memory& memory() const { return memory_; }
+  /// A buffer that the program may fill piece by piece and give to send_message; the driver leaves it alone.
   MessageBuffer& batch() const { return page_->batch; }
 
+  /// Own number, and the number of PEs of the torus.
   PeNumber pe() const { return static_cast<PeNumber>(window().pe); }
   std::uint32_t pes() const { return window().columns * window().rows; }
   /// First address after local memory.
@@ -154,6 +159,7 @@ class Niu {
     return window().clock;
   }
 
+  /// The program has ended; the run ends when all have.
   [[noreturn]] void halt() {
     execute<Hint::halt>();
     gate_.end();
@@ -166,6 +172,7 @@ class Niu {
     gate_.end();
   }
 
+  /// Cycles from here on belong to this phase, until it is left; phases may nest. Costs no cycles.
   template <Phase kPhase>
   void enter_phase() {
     gate_.mark<static_cast<std::int32_t>(Hint::enter_phase) + static_cast<std::int32_t>(kPhase)>(window());
@@ -190,6 +197,7 @@ class Niu {
 template <Phase kPhase>
 class PhaseMark {
  public:
+  /// The phase lasts as long as this object.
   explicit PhaseMark(Niu& niu) : niu_(niu) { niu_.enter_phase<kPhase>(); }
   ~PhaseMark() { niu_.leave_phase<kPhase>(); }
   PhaseMark(const PhaseMark&) = delete;

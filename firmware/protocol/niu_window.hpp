@@ -11,7 +11,7 @@
 
 namespace torolux::protocol {
 
-enum class ArrivalKind : std::uint32_t { none = 0, records = 1, message = 2 };
+enum class ArrivalKind : std::uint32_t { none = 0, records = 1, message = 2 };  ///< what has come
 
 /// Head of every bus message.
 struct MessageHeader {
@@ -28,7 +28,7 @@ struct Fault {
 };
 static_assert(sizeof(Fault) == 16);
 
-struct NiuWindow {
+struct NiuWindow {  ///< at the symbol `__niu_window`; whoever is not named as setting a field only reads it
   // Set by the emulator before the start.
   std::uint32_t protocol_version;
   std::uint32_t pe;             ///< own number

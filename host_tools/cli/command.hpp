@@ -3,6 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -29,9 +32,14 @@ void add_bench_command(CLI::App& app, CommandAction& action);
 void add_rerun_command(CLI::App& app, CommandAction& action);
 void add_study_command(CLI::App& app, CommandAction& action);
 void add_manual_command(CLI::App& app, CommandAction& action);
+void add_cc_command(CLI::App& app, CommandAction& action);
 
 /// All of them.
 void add_commands(CLI::App& app, CommandAction& action);
+
+/// `torolux cc`: words: what follows `cc`, which is a compiler's command line and not for the parser of the others.
+/// Returns an exit code, or throws as a CommandAction; absent: the help of the command was asked for.
+std::optional<int> run_cc_command(const std::vector<std::string>& words);
 
 /// True after SIGINT or SIGTERM. Long work asks for it in its progress callback, cleans up and ends; torolux_main then
 /// returns kInterrupted, whatever the action returned or threw.

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,10 @@ int run(CLI::App& app, const CommandAction& action, int argc, const char* const*
     std::cout << first_steps();
     return code(ExitCode::done);
   }
+  if (words[0] == "cc") {
+    if (const std::optional<int> done = run_cc_command({words.begin() + 1, words.end()})) return *done;
+    words = {"cc", "--help"};
+  }
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them
   } catch (const CLI::Success& asked) {
@@ -125,6 +130,7 @@ void add_commands(CLI::App& app, CommandAction& action) {
   add_rerun_command(app, action);
   add_study_command(app, action);
   add_manual_command(app, action);
+  add_cc_command(app, action);
 }
 
 int torolux_main(int argc, const char* const* argv) {

@@ -22,7 +22,4 @@ inline constexpr const char* kEndOfOptions = "--";
 /// arguments. Paths are relative to the plan's folder.
 std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> options);
 
-/// Words for a shell, quoted where it needs that.
-std::string shell_line(const std::vector<std::string>& words);
-
 }  // namespace torolux::study

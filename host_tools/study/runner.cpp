@@ -14,6 +14,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/files/shell_line.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/study/child.hpp"
 #include "host_tools/study/claim.hpp"

@@ -11,6 +11,7 @@
 #include "emulator/errors.hpp"
 #include "emulator/nearest_name.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/files/shell_line.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/study/claim.hpp"

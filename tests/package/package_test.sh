@@ -32,6 +32,19 @@ cmp "$work/built.exr" "$work/of_nobody/moved.exr" || fail 'the moved program mak
 grep -rlF "$root" "$work/moved/bin" "$work/moved/share/torolux" "$work/moved/share/man" &&
   fail 'an installed file names the checkout'
 
+step 'an image of one of nobody'"'"'s own sources, by the moved program'
+cat >"$work/of_nobody/main.c" <<'SOURCE'
+#include <stdio.h>
+#include <torolux.h>
+int main(void) {
+  printf("%u of %u\n", torolux_pe(), torolux_pes());
+  return 0;
+}
+SOURCE
+readonly own_image='torolux cc main.c -o main.elf && torolux run main.elf --pes 4x4 --raw --quiet | grep -c " of 16$" | grep -qx 16'
+(cd "$work/of_nobody" && setpriv --reuid=nobody --regid=nogroup --clear-groups env -i PATH="$work/moved/bin:/usr/bin" \
+  HOME=/nonexistent bash -euo pipefail -c "$own_image") || fail 'the moved program makes no image'
+
 step 'a Debian package'
 (cd "$work" && cpack --config "$build/CPackConfig.cmake" -B "$work/package" >/dev/null)
 package=$(echo "$work"/package/*.deb)
@@ -40,15 +53,16 @@ dpkg-deb --info "$package" | grep -E '^ (Depends|Installed-Size)'
 step 'a clean root with it'
 # shellcheck disable=SC1091
 suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
-mmdebstrap --quiet --variant=apt --mode=root --include="$package" \
+mmdebstrap --quiet --variant=apt --mode=root --include="$package,gcc-riscv64-unknown-elf" \
   --hook-dir=/usr/share/mmdebstrap/hooks/file-mirror-automount "$suite" "$work/root" >"$work/mmdebstrap.log" 2>&1 ||
   { cat "$work/mmdebstrap.log"; fail 'the package cannot be installed'; }
 for file in man/man1/torolux.1 bash-completion/completions/torolux zsh/site-functions/_torolux \
-  fish/vendor_completions.d/torolux.fish torolux/firmware/pe.elf torolux/scenes/cornell_box/scene.toml; do
+  fish/vendor_completions.d/torolux.fish torolux/firmware/pe.elf torolux/kit/torolux.specs torolux/scenes/cornell_box/scene.toml; do
   [[ -r $work/root/usr/share/$file ]] || fail "the package lacks $file"
 done
 
 step 'renders there, as nobody, from a file system that cannot be written to'
+cp "$work/of_nobody/main.c" "$work/root/main.c"
 cat >"$work/inside.sh" <<'INSIDE'
 set -euo pipefail
 mount --bind "$1/root" "$1/root"
@@ -64,9 +78,11 @@ chroot --userspec=nobody:nogroup "$1/root" /usr/bin/env -i PATH=/usr/bin:/bin HO
   torolux render $2 --output box.exr --stats box.json
   torolux rerun box.json >/dev/null
   torolux render $2 --output interpreted.exr --engine interpreted --max-shots 1 --samples 1
-  test -d home/.cache/torolux"
+  test -d home/.cache/torolux
+  cp /main.c main.c
+  $3"
 cp "$1/root/tmp/box.exr" "$1/clean.exr"
 INSIDE
-unshare --mount --propagation private bash "$work/inside.sh" "$work" "$scene"
+unshare --mount --propagation private bash "$work/inside.sh" "$work" "$scene" "$own_image"
 cmp "$work/built.exr" "$work/clean.exr" || fail 'the installed program makes another picture'
 step 'done'

@@ -125,10 +125,13 @@ void torolux_fail(const char* why) __attribute__((noreturn));
 
 #endif /* not assembler */
 
-/* ---- For assembler, and for drivers of one's own: HINTs are `slti x0, x0, number` ---- */
+/* ---- For assembler, and for drivers of one's own ---- */
 
+/** Of the NIU window: a start of one's own compares it with what stands at TOROLUX_WINDOW_PROTOCOL_VERSION. */
 #define TOROLUX_PROTOCOL_VERSION 15
 
+/** HINTs are the 4-byte instruction `slti x0, x0, number`, executed again while the word at TOROLUX_WINDOW_RETRY is not
+ * 0. Their arguments and results lie in the NIU window; which, Hint (firmware/protocol/hints.hpp) says. */
 #define TOROLUX_HINT_SEND_RECORDS 1
 #define TOROLUX_HINT_SEND_MESSAGE 2
 #define TOROLUX_HINT_RECEIVE 3
@@ -139,9 +142,62 @@ void torolux_fail(const char* why) __attribute__((noreturn));
 #define TOROLUX_HINT_FAIL 8
 #define TOROLUX_HINT_RECEIVE_MORE 9
 #define TOROLUX_HINT_RECEIVE_DUE 10
+
+/** Markers of phases, never repeated: the sum of one of these and the phase. Those of TOROLUX_ENTER_PHASE begin at
+ * TOROLUX_FIRST_PHASE. */
 #define TOROLUX_HINT_ENTER_PHASE 64
 #define TOROLUX_HINT_LEAVE_PHASE 128
-/* Of the phases of TOROLUX_ENTER_PHASE, in the profile's numbers. */
 #define TOROLUX_FIRST_PHASE 9
+
+/** The NIU window's fields, in bytes from the symbol `__niu_window`, as NiuWindow (firmware/protocol/niu_window.hpp)
+ * describes them. Set before the start: */
+#define TOROLUX_WINDOW_PROTOCOL_VERSION 0
+#define TOROLUX_WINDOW_PE 4
+#define TOROLUX_WINDOW_COLUMNS 8
+#define TOROLUX_WINDOW_ROWS 12
+#define TOROLUX_WINDOW_MEMORY_BYTES 16
+
+/** Set by the NIU: of 4 bytes, of 8, of 4, of 2, of 2 and of 2 each. */
+#define TOROLUX_WINDOW_RETRY 20
+#define TOROLUX_WINDOW_CLOCK 24
+#define TOROLUX_WINDOW_ARRIVAL_KIND 32
+#define TOROLUX_WINDOW_ARRIVAL_SOURCE 36
+#define TOROLUX_WINDOW_ARRIVAL_COUNT 38
+#define TOROLUX_WINDOW_ARRIVAL_SLOTS 40
+
+/** Where the record slots are, for TOROLUX_HINT_SET_SLOTS: of 4 bytes each. */
+#define TOROLUX_WINDOW_SLOTS_ADDRESS 72
+#define TOROLUX_WINDOW_SLOTS_BYTES 76
+#define TOROLUX_WINDOW_SLOTS_OWN 80
+#define TOROLUX_WINDOW_SLOTS_NIU 84
+
+/** What is sent: of 2 bytes, of 2, of 4, and of 2 each. */
+#define TOROLUX_WINDOW_SEND_DESTINATION 88
+#define TOROLUX_WINDOW_SEND_COUNT 90
+#define TOROLUX_WINDOW_SEND_ADDRESS 92
+#define TOROLUX_WINDOW_SEND_SLOTS 96
+
+/** How long records gather: of 4 bytes each. */
+#define TOROLUX_WINDOW_GATHER_CYCLES 128
+#define TOROLUX_WINDOW_GATHER_RECORDS 132
+
+/** Slots that are given back: how many (4 bytes), and which (2 bytes each, up to 64). */
+#define TOROLUX_WINDOW_RELEASED 136
+#define TOROLUX_WINDOW_RELEASE 140
+
+/** Why TOROLUX_HINT_FAIL ends the run: of 4 bytes, and three of 4 bytes. */
+#define TOROLUX_WINDOW_FAULT_CODE 268
+#define TOROLUX_WINDOW_FAULT_DETAIL 272
+
+/** The last message that came: of 2 bytes, of 2, of 4, and its bytes. */
+#define TOROLUX_WINDOW_MESSAGE_KIND 288
+#define TOROLUX_WINDOW_MESSAGE_SOURCE 290
+#define TOROLUX_WINDOW_MESSAGE_BYTES 292
+#define TOROLUX_WINDOW_MESSAGE 296
+
+/** Destinations beside the PEs; and the kind of a message to the host that `torolux run` prints. */
+#define TOROLUX_TO_HOST 0xFFF1
+#define TOROLUX_TO_FRAME_BUFFER 0xFFF2
+#define TOROLUX_MESSAGE_TEXT 1
 
 #endif /* TOROLUX_H */

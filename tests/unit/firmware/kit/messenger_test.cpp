@@ -10,13 +10,15 @@
 
 #include "firmware/kit/messenger.hpp"
 #include "firmware/kit/together.hpp"
-#include "tests/unit/firmware/kit/fake_torus.hpp"
+#include "firmware/niu/native/fake_torus.hpp"
 
 namespace torolux::test {
 namespace {
 
 using kit::Channel;
 using kit::Messenger;
+using native::FakeNode;
+using native::FakeTorus;
 using Bytes = std::vector<std::byte>;
 
 kit::SlotLayout layout() {

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "emulator/errors.hpp"
+#include "host_tools/files/shell_line.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/study/options.hpp"
 #include "host_tools/study/points.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // HINTs in, packets out, in an order drawn by chance.
-#include "tests/unit/firmware/kit/fake_torus.hpp"
+#include "firmware/niu/native/fake_torus.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <new>
 #include <thread>
 
-namespace torolux::test {
+namespace torolux::native {
 namespace {
 
 using protocol::Hint;
@@ -46,31 +46,49 @@ std::byte* FakeNode::slot(std::uint32_t number) {
 }
 
 void FakeNode::hint(std::int32_t immediate) {
+  if (protocol::is_phase_marker(immediate)) return;
+  ++clock_;
   if (torus_.chance(kBrings)) torus_.bring_one();
   switch (static_cast<Hint>(immediate)) {
     case Hint::send_records:
       send_records();
       break;
+    case Hint::send_message:
+      send_message();
+      break;
     case Hint::receive:
       receive(true);
       break;
     case Hint::receive_if_any:
+    case Hint::receive_more:
+    case Hint::receive_due:
       receive(false);
       break;
-    case Hint::set_slots: {
-      slots_ = page_->window.slots;
-      const std::uint64_t end = std::uint64_t{slots_.address} + std::uint64_t{slots_.own + slots_.niu} * slots_.bytes;
-      require(slots_.address >= protocol::kLocalMemoryBase && end <= niu_.memory_end(), "slots inside local memory");
-      in_use_.assign(slots_.own + slots_.niu, false);
-      for (std::uint32_t s = slots_.own + slots_.niu; s-- > slots_.own;) free_.push_back(static_cast<std::uint16_t>(s));
+    case Hint::clock:
+      page_->window.clock = clock_;
       break;
-    }
+    case Hint::set_slots:
+      set_slots();
+      break;
+    case Hint::halt:
+      throw FakeTorus::Halted();
     case Hint::fail:
       throw FakeTorus::Failed(page_->window.fault);
     default:
-      throw std::logic_error("a HINT that messages do not need: " + std::to_string(immediate));
+      throw std::logic_error("there is no HINT " + std::to_string(immediate));
   }
   if (torus_.chance(kYields)) torus_.let_others(number_);
+}
+
+void FakeNode::set_slots() {
+  require(std::ranges::find(in_use_, true) == in_use_.end(), "all slots free before they are set");
+  slots_ = page_->window.slots;
+  const std::uint64_t end = std::uint64_t{slots_.address} + std::uint64_t{slots_.own + slots_.niu} * slots_.bytes;
+  require(slots_.address >= protocol::kLocalMemoryBase && end <= niu_.memory_end(), "slots inside local memory");
+  require(slots_.bytes % 8 == 0 && slots_.bytes <= protocol::kMostPacketBytes, "bytes of a slot");
+  in_use_.assign(slots_.own + slots_.niu, false);
+  free_.clear();
+  for (std::uint32_t s = slots_.own + slots_.niu; s-- > slots_.own;) free_.push_back(static_cast<std::uint16_t>(s));
 }
 
 void FakeNode::release() {
@@ -90,16 +108,33 @@ void FakeNode::send_records() {
   require(out.destination < torus_.nodes_.size() && out.destination != number_, "destination");
   Packet packet{number_, {}};
   for (std::uint32_t i = 0; i < out.count; ++i) {
-    require(out.slots[i] < slots_.own, "a record of its own");
-    packet.records.insert(packet.records.end(), slot(out.slots[i]), slot(out.slots[i]) + slots_.bytes);
+    const std::uint16_t s = out.slots[i];
+    packet.records.insert(packet.records.end(), slot(s), slot(s) + slots_.bytes);
+    if (s < slots_.own) continue;
+    require(in_use_[s], "a slot of the NIU's that holds a record");
+    in_use_[s] = false;
+    free_.push_back(s);
   }
   torus_.send(number_, out.destination, std::move(packet));
+}
+
+void FakeNode::send_message() {
+  release();
+  const auto& out = page_->window.send;
+  require(out.destination == protocol::kHost || out.destination == protocol::kFrameBuffer, "destination");
+  require(out.address % 8 == 0 && out.address >= protocol::kLocalMemoryBase &&
+              out.address < niu_.memory_end() - sizeof(protocol::MessageHeader),
+          "a message in local memory, aligned to 8");
+  const auto& header = *niu_.memory().at<protocol::MessageHeader>(out.address);
+  require(header.bytes <= protocol::kMostMessageBytes, "bytes of a message");
+  const auto* const contents = reinterpret_cast<const std::byte*>(&header + 1);
+  torus_.sent_.push_back({number_, out.destination, header.kind, {contents, contents + header.bytes}});
 }
 
 bool FakeNode::take(const Packet& packet) {
   const std::size_t records = slots_.bytes != 0 ? packet.records.size() / slots_.bytes : 1;
   if (free_.size() < records) return false;
-  Item item{packet.source, {}};
+  Item item{packet.source, {}, std::nullopt};
   for (std::size_t i = 0; i < records; ++i) {
     const std::uint16_t s = free_.back();
     free_.pop_back();
@@ -123,8 +158,14 @@ void FakeNode::receive(bool wait) {
   if (arrivals_.empty()) return;
   const Item item = std::move(arrivals_.front());
   arrivals_.pop_front();
-  arrival.kind = protocol::ArrivalKind::records;
   arrival.source = item.source;
+  if (item.message) {
+    arrival.kind = protocol::ArrivalKind::message;
+    page_->window.message = {item.message->kind, item.source, static_cast<std::uint32_t>(item.message->bytes.size())};
+    std::ranges::copy(item.message->bytes, page_->window.message_bytes.begin());
+    return;
+  }
+  arrival.kind = protocol::ArrivalKind::records;
   arrival.count = static_cast<std::uint16_t>(item.slots.size());
   std::ranges::copy(item.slots, arrival.slots.begin());
 }
@@ -136,6 +177,18 @@ FakeTorus::FakeTorus(unsigned columns, unsigned rows, double divert, std::uint32
   for (unsigned pe = 0; pe < columns * rows; ++pe) {
     nodes_.push_back(std::make_unique<FakeNode>(*this, static_cast<std::uint16_t>(pe), columns, rows));
   }
+}
+
+FakeTorus::Failed::Failed(const protocol::Fault& fault)
+    : std::runtime_error("a PE has failed with code " + std::to_string(fault.code) + ", details " +
+                         std::to_string(fault.detail[0]) + ", " + std::to_string(fault.detail[1]) + ", " +
+                         std::to_string(fault.detail[2])),
+      code(fault.code) {}
+
+void FakeTorus::message(protocol::PeNumber pe, std::uint16_t kind, std::span<const std::byte> bytes) {
+  require(pe < nodes_.size() && bytes.size() <= protocol::kMostMessageBytes, "a message of the host");
+  nodes_[pe]->arrivals_.push_back(
+      {protocol::kHost, {}, BusMessage{protocol::kHost, pe, kind, {bytes.begin(), bytes.end()}}});
 }
 
 void FakeTorus::send(std::uint16_t from, std::uint16_t to, FakeNode::Packet packet) {
@@ -204,6 +257,21 @@ void FakeTorus::let_others(std::uint16_t self) {
   if (stopping_) throw Stopped{};
 }
 
+/// On a thread of its own, with the turn when it begins.
+void FakeTorus::work(FakeNode& node, const Program& program) {
+  try {
+    if (!stopping_) program(node);
+  } catch (const Halted&) {  // as good as returning
+  }
+  node.done_ = true;
+  if (const auto chosen = next()) {
+    turn_ = *chosen;
+    turn_changed_.notify_all();
+  } else if (!stopping_ && !std::ranges::all_of(nodes_, [](const auto& each) { return each->done_; })) {
+    throw std::logic_error("the others wait, and nothing is under way");
+  }
+}
+
 void FakeTorus::run(const Program& program) {
   std::vector<std::thread> threads;
   for (const auto& node : nodes_) {
@@ -212,14 +280,7 @@ void FakeTorus::run(const Program& program) {
       turn_changed_.wait(lock, [&] { return turn_ == node->number_ || stopping_; });
       lock.release();
       try {
-        if (!stopping_) program(*node);
-        node->done_ = true;
-        if (const auto chosen = next()) {
-          turn_ = *chosen;
-          turn_changed_.notify_all();
-        } else if (!std::ranges::all_of(nodes_, [](const auto& each) { return each->done_; })) {
-          throw std::logic_error("the others wait, and nothing is under way");
-        }
+        work(*node, program);
       } catch (const Stopped&) {  // another has failed
       } catch (...) {
         fail(std::current_exception());
@@ -231,4 +292,4 @@ void FakeTorus::run(const Program& program) {
   if (error_) std::rethrow_exception(error_);
 }
 
-}  // namespace torolux::test
+}  // namespace torolux::native
