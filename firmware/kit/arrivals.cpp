@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "firmware/kit/messenger.hpp"
@@ -10,6 +11,7 @@
 namespace torolux::kit {
 
 void Messenger::drain() {
+  sent_since_drain_ = 0;
   for (;;) {
     const auto& arrival = niu_.receive_if_any();
     if (arrival.kind == protocol::ArrivalKind::none) return;
@@ -25,7 +27,7 @@ void Messenger::take(const protocol::NiuWindow::Arrival& arrival) {
 /// Its slots are the NIU's again before anything else happens.
 void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
   PacketHead head;  // NOLINT(cppcoreguidelines-pro-type-member-init): read below
-  std::memcpy(&head, slot(arrival.slots[0]), sizeof head);
+  std::memcpy(&head, std::assume_aligned<alignof(PacketHead)>(slot(arrival.slots[0])), sizeof head);
   const bool ours = head.source < niu_.pes() && static_cast<std::size_t>(head.channel) < kChannels &&
                     head.bytes <= kMostMessage && head.offset <= head.bytes && head.lead <= kMostLead;
   if (!ours) fail(Words() << "a packet that is none of this library's has come from PE " << arrival.source);
@@ -34,7 +36,7 @@ void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
   Peer& peer = peer_of(head.source);
   const bool early = head.number != peer.taken;
   copy_payload(arrival, head, payload, early ? keep_early(peer, head, payload)->data() : place_for(peer, head));
-  for (std::uint32_t i = arrival.count; i != 0; --i) niu_.release(arrival.slots[i - 1]);  // taken again in this order
+  niu_.release_arrival();
   if (early) return;
   ++peer.taken;
   placed(peer, head, payload);

@@ -3,19 +3,27 @@
 #include "firmware/kit/messenger.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace torolux::kit {
+namespace {
+
+/// Of the NIU's slots, so many for each packet sent before what has come is taken in: while one is made and sent (200
+/// cycles or more) two or three may come, of 16 records each.
+constexpr std::uint32_t kSlotsForAPacket = 64;
+
+}  // namespace
 
 Messenger::Messenger(pe::Niu& niu, const SlotLayout& slots)
     : niu_(niu),
       layout_(slots),
       slots_(niu.memory().at<std::byte>(slots.first)),
-      staging_(niu.memory().at<std::byte>(slots.staging)) {
+      staging_(niu.memory().at<std::byte>(slots.staging)),
+      staging_slot_(static_cast<pe::Slot>(slots.own - kRecordsPerPacket)) {
   niu_.set_slots(slots.first, kRecordBytes, slots.own, slots.niu);
   if (!peers_.begin(niu_.pes())) fail(Words() << "no memory for the table of " << niu_.pes() << " PEs");
 }
@@ -73,7 +81,7 @@ void Messenger::send_to_self(Channel channel, std::span<const std::byte> data) {
   placed(peer, head, bytes);
 }
 
-/// Between packets of a long message what has come is taken in: both sides of an exchange send at once.
+/// What has come meanwhile is best taken when it is asked for, into its place; but it must not fill all slots.
 void Messenger::send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data) {
   Peer& peer = peer_of(pe);
   PacketHead head{niu_.pe(), channel, 0, peer.sent, static_cast<std::uint32_t>(data.size()), 0};
@@ -81,8 +89,8 @@ void Messenger::send_packets(Channel channel, std::uint16_t pe, std::span<const 
     const std::uint32_t payload = send_part(pe, head, data.subspan(head.offset));
     peer.sent = ++head.number;
     head.offset += payload;
+    if (++sent_since_drain_ >= layout_.niu / kSlotsForAPacket) drain();
     if (head.offset == head.bytes) return;
-    drain();
   }
 }
 
@@ -99,17 +107,17 @@ std::uint32_t Messenger::send_part(std::uint16_t pe, PacketHead& head, std::span
   return send_from_place(pe, head, rest, lead);
 }
 
+void Messenger::put_head(const PacketHead& head) {
+  std::memcpy(std::assume_aligned<alignof(PacketHead)>(staging_), &head, sizeof head);
+}
+
 /// In the staging slots; `data` fits, and fills its records unless it ends the message.
 std::uint32_t Messenger::send_staged(std::uint16_t pe, PacketHead& head, std::span<const std::byte> data) {
   const auto payload = static_cast<std::uint32_t>(data.size());
   head.lead = static_cast<std::uint8_t>(std::min(payload, kMostLead));
-  std::memcpy(staging_, &head, sizeof head);
+  put_head(head);
   if (payload != 0) std::memcpy(staging_ + sizeof head, data.data(), payload);
-  std::array<pe::Slot, kRecordsPerPacket> slots;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in below
-  const std::uint32_t records = records_of(payload);
-  const std::uint32_t first = layout_.own - kRecordsPerPacket;
-  for (std::uint32_t i = 0; i < records; ++i) slots[i] = static_cast<pe::Slot>(first + i);
-  niu_.send_records(pe, std::span(slots).first(records));
+  niu_.send_records(pe, staging_slot_, static_cast<pe::Slot>(staging_slot_ + 1), records_of(payload) - 1);
   return payload;
 }
 
@@ -117,15 +125,12 @@ std::uint32_t Messenger::send_staged(std::uint16_t pe, PacketHead& head, std::sp
 std::uint32_t Messenger::send_from_place(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest,
                                          std::uint32_t lead) {
   head.lead = static_cast<std::uint8_t>(lead);
-  std::memcpy(staging_, &head, sizeof head);
+  put_head(head);
   if (lead != 0) std::memcpy(staging_ + sizeof head, rest.data(), lead);
-  std::array<pe::Slot, kRecordsPerPacket> slots;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in below
-  slots[0] = static_cast<pe::Slot>(layout_.own - kRecordsPerPacket);
   const auto whole = static_cast<std::uint32_t>(rest.size()) - lead;
   const std::uint32_t records = std::min(kRecordsPerPacket - 1, (whole + kRecordBytes - 1) / kRecordBytes);
   const auto first = static_cast<std::uint32_t>(rest.data() + lead - slots_) / kRecordBytes;
-  for (std::uint32_t i = 0; i < records; ++i) slots[i + 1] = static_cast<pe::Slot>(first + i);
-  niu_.send_records(pe, std::span(slots).first(records + 1));
+  niu_.send_records(pe, staging_slot_, static_cast<pe::Slot>(first), records);
   return lead + std::min(whole, records * kRecordBytes);
 }
 

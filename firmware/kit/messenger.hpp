@@ -72,6 +72,7 @@ class Messenger {
   void check_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const;
   void send_to_self(Channel channel, std::span<const std::byte> data);
   void send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data);
+  void put_head(const PacketHead& head);
   std::uint32_t send_part(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest);
   std::uint32_t send_staged(std::uint16_t pe, PacketHead& head, std::span<const std::byte> data);
   std::uint32_t send_from_place(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest, std::uint32_t lead);
@@ -102,10 +103,12 @@ class Messenger {
   SlotLayout layout_;
   std::byte* slots_;    ///< slot 0
   std::byte* staging_;  ///< the last of the program's own slots
+  pe::Slot staging_slot_;
   Peers peers_;
   Posted posted_;
   std::array<Queue, kChannels> queues_{};
   std::uint32_t source_ = 0;
+  std::uint32_t sent_since_drain_ = 0;  ///< packets
   std::uint32_t waiting_bytes_ = 0;  ///< of messages on the heap
   std::string_view function_ = "main";
   const void* from_ = nullptr;

@@ -76,6 +76,16 @@ class Niu {
     execute<Hint::send_records>();
   }
 
+  /// The same: the record in `head`, and those in `more` slots that follow each other from `first` on.
+  void send_records(PeNumber destination, Slot head, Slot first, std::uint32_t more) {
+    NiuWindow::Send& send = window().send;
+    send.destination = destination;
+    send.count = static_cast<std::uint16_t>(more + 1);
+    send.slots[0] = head;
+    for (std::uint32_t i = 0; i < more; ++i) send.slots[i + 1] = static_cast<Slot>(first + i);
+    execute<Hint::send_records>();
+  }
+
   /// Sends a message (kind and bytes set in its header, contents right after it, in local memory, aligned to 8)
   /// to kHost or kFrameBuffer. It is copied. Waits while the outgoing queue is full.
   void send_message(PeNumber destination, const protocol::MessageHeader& header) {
@@ -145,6 +155,15 @@ class Niu {
     if (w.released >= w.release.size()) fail(FaultCode::release_list_full, w.released);
     w.release[w.released] = slot;
     ++w.released;
+  }
+
+  /// All slots of the last arrival, its first to be filled first again. The list must be empty.
+  void release_arrival() {
+    NiuWindow& w = window();
+    if (w.released != 0) fail(FaultCode::release_list_full, w.released);
+    const std::uint32_t count = w.arrival.count;
+    for (std::uint32_t i = 0; i < count; ++i) w.release[i] = w.arrival.slots[count - 1 - i];
+    w.released = count;
   }
 
   /// Tells the NIU where the record slots are. All slots must be free.

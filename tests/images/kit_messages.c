@@ -72,6 +72,25 @@ static void flood(unsigned char* out, unsigned char* in) {
   check(torolux_waiting(TOROLUX_ANY) == -1, "flood: something is left");
 }
 
+/* PE 0 is busy while all others send it more than its NIU has slots for, on a large torus. */
+static void late(unsigned char* out, unsigned char* in) {
+  enum { EACH = 5, BYTES = 1000 };
+  const unsigned pe = torolux_pe(), pes = torolux_pes();
+  if (pe == 0) {
+    for (volatile int i = 0; i < 50000; ++i) continue;
+    for (unsigned from = pes; from-- > 1;) {
+      for (unsigned i = 0; i < EACH; ++i) {
+        check(torolux_receive((int)from, in, BYTES) == BYTES - i && holds(in, BYTES - i, from + i), "late: contents");
+      }
+    }
+  } else {
+    for (unsigned i = 0; i < EACH; ++i) {
+      fill(out, BYTES - i, pe + i);
+      torolux_send(0, out, BYTES - i);
+    }
+  }
+}
+
 /* From whomever: as many from each as were sent. */
 static void any(unsigned char* in) {
   const unsigned pe = torolux_pe(), pes = torolux_pes();
@@ -143,6 +162,7 @@ int main(void) {
   torolux_barrier();
   flood(out, in);
   torolux_barrier();
+  late(out, in);
   any(in);
   together();
   barriers();
