@@ -137,8 +137,9 @@ Peer& Messenger::peer_of(std::uint32_t pe) {
 Waiting* Messenger::new_waiting(const PacketHead& head) {
   auto* const message = static_cast<Waiting*>(std::malloc(sizeof(Waiting) + head.bytes));
   if (message == nullptr) {
-    fail(Words() << "no memory for a message of " << head.bytes << " bytes from PE " << head.source << ", which must wait; "
-                 << waiting_bytes_ << " bytes of messages wait to be received: receive them sooner, or give PEs more "
+    fail(Words() << "no memory for a message of " << head.bytes << " bytes from PE " << head.source
+                 << ", which must wait; " << waiting_bytes_
+                 << " bytes of messages wait to be received: receive them sooner, or give PEs more "
                  << "memory (--pe-memory)");
   }
   *message = {nullptr, head.bytes, head.source, head.channel};

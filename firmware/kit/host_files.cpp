@@ -18,9 +18,9 @@ Head answer(MachineMessage kind) {
   const protocol::MessageHeader& message = messenger().receive_from_host();
   Head head{};
   if (message.kind != static_cast<std::uint16_t>(kind) || message.bytes < sizeof head) {
-    end_run(Words() << "the host has answered with a message of kind " << message.kind << ", " << message.bytes
-                    << " bytes",
-            nullptr);
+    end_run(
+        Words() << "the host has answered with a message of kind " << message.kind << ", " << message.bytes << " bytes",
+        nullptr);
   }
   std::memcpy(&head, messenger().niu().message_bytes().data(), sizeof head);
   return head;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files as the host serves them. Enters: names, numbers of open files, bytes; leaves: messages to the host, its answers.
+// Files as the host serves them. Enters: names, numbers of open files, bytes; leaves: messages to the host, its
+// answers.
 #pragma once
 
 #include <cstddef>

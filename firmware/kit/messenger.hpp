@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Messages of any length between PEs, in order. Enters: bytes to send, packets that the NIU brings; leaves: packets,
-// and messages in their receiver's memory. What comes while nobody asks for it waits on the heap, never in record slots.
+// and messages in their receiver's memory. What comes while nobody asks for it waits on the heap, never in record
+// slots.
 #pragma once
 
 #include <array>
@@ -36,7 +37,8 @@ class Messenger {
   /// Ends the run: "function: words", and the place.
   [[noreturn]] void fail(const Words& words) const;
 
-  /// To a PE of the machine, this one too; copied. Waits while the NIU's queue is full; what comes meanwhile is taken in.
+  /// To a PE of the machine, this one too; copied. Waits while the NIU's queue is full; what comes meanwhile is taken
+  /// in.
   void send(Channel channel, int pe, std::span<const std::byte> data);
   /// Waits for the next message from `pe` or kAnyPe; the bytes that it had.
   std::size_t receive(Channel channel, int pe, std::span<std::byte> room);
@@ -75,7 +77,8 @@ class Messenger {
   void put_head(const PacketHead& head);
   std::uint32_t send_part(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest);
   std::uint32_t send_staged(std::uint16_t pe, PacketHead& head, std::span<const std::byte> data);
-  std::uint32_t send_from_place(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest, std::uint32_t lead);
+  std::uint32_t send_from_place(std::uint16_t pe, PacketHead& head, std::span<const std::byte> rest,
+                                std::uint32_t lead);
   void post(Channel channel, int from, std::span<std::byte> room);
   std::size_t wait_for_posted();
   bool posted_takes(Channel channel, std::uint32_t source) const;
@@ -109,7 +112,7 @@ class Messenger {
   std::array<Queue, kChannels> queues_{};
   std::uint32_t source_ = 0;
   std::uint32_t sent_since_drain_ = 0;  ///< packets
-  std::uint32_t waiting_bytes_ = 0;  ///< of messages on the heap
+  std::uint32_t waiting_bytes_ = 0;     ///< of messages on the heap
   std::string_view function_ = "main";
   const void* from_ = nullptr;
 };

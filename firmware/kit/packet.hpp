@@ -63,8 +63,8 @@ constexpr SlotLayout slot_layout(std::uint32_t memory_begin, std::uint32_t memor
   const std::uint32_t own = all + niu < SlotLayout::kMostSlots ? all : SlotLayout::kMostSlots - niu;
   return {niu_begin - own * kRecordBytes, own, niu, niu_begin - SlotLayout::kStagingBytes};
 }
-static_assert(slot_layout(protocol::kLocalMemoryBase, protocol::kLocalMemoryBase + protocol::kSmallestLocalMemory).niu ==
-              512);
+static_assert(
+    slot_layout(protocol::kLocalMemoryBase, protocol::kLocalMemoryBase + protocol::kSmallestLocalMemory).niu == 512);
 static_assert(slot_layout(protocol::kLocalMemoryBase, protocol::kLocalMemoryBase + protocol::kLargestLocalMemory).niu ==
               SlotLayout::kMostNiuSlots);
 

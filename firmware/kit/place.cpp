@@ -58,7 +58,8 @@ unsigned torolux_neighbour(enum torolux_link link) {
   }
   using torolux::kit::Words;
   torolux::kit::messenger("torolux_neighbour", TOROLUX_CALLER)
-      .fail(Words() << "there is no link " << static_cast<int>(link) << "; there are TOROLUX_EAST (0) to TOROLUX_NORTH (3)");
+      .fail(Words() << "there is no link " << static_cast<int>(link)
+                    << "; there are TOROLUX_EAST (0) to TOROLUX_NORTH (3)");
 }
 size_t torolux_memory_bytes() {
   return window().local_memory_bytes;

@@ -20,12 +20,26 @@ std::uint64_t counter(Low low, High high) {
 
 std::uint64_t torolux_clock() {
   std::uint32_t value;  // NOLINT(cppcoreguidelines-init-variables): the instructions set it
-  return counter([&] { asm volatile("csrr %0, cycle" : "=r"(value)); return value; },
-                 [&] { asm volatile("csrr %0, cycleh" : "=r"(value)); return value; });
+  return counter(
+      [&] {
+        asm volatile("csrr %0, cycle" : "=r"(value));
+        return value;
+      },
+      [&] {
+        asm volatile("csrr %0, cycleh" : "=r"(value));
+        return value;
+      });
 }
 
 std::uint64_t torolux_instructions() {
   std::uint32_t value;  // NOLINT(cppcoreguidelines-init-variables): the instructions set it
-  return counter([&] { asm volatile("csrr %0, instret" : "=r"(value)); return value; },
-                 [&] { asm volatile("csrr %0, instreth" : "=r"(value)); return value; });
+  return counter(
+      [&] {
+        asm volatile("csrr %0, instret" : "=r"(value));
+        return value;
+      },
+      [&] {
+        asm volatile("csrr %0, instreth" : "=r"(value));
+        return value;
+      });
 }

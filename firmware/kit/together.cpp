@@ -66,7 +66,8 @@ std::uint32_t Together::pe_at(std::uint32_t root, Place place) {
 }
 
 void Together::broadcast(std::uint32_t root, std::span<std::byte> data) {
-  if (root >= pes()) messenger_.fail(Words() << "there is no PE " << root << "; the machine has PEs 0 to " << pes() - 1);
+  if (root >= pes())
+    messenger_.fail(Words() << "there is no PE " << root << "; the machine has PEs 0 to " << pes() - 1);
   if (data.size() > kMostMessage) {
     messenger_.fail(Words() << data.size() << " bytes for all PEs; the most is " << kMostMessage);
   }
@@ -120,7 +121,8 @@ void Together::reduce_to_first(std::span<std::byte> data, Join join) {
 }
 
 void Together::reduce(std::uint32_t root, std::span<std::byte> data, Join join) {
-  if (root >= pes()) messenger_.fail(Words() << "there is no PE " << root << "; the machine has PEs 0 to " << pes() - 1);
+  if (root >= pes())
+    messenger_.fail(Words() << "there is no PE " << root << "; the machine has PEs 0 to " << pes() - 1);
   reduce_to_first(data, join);
   if (root == 0) return;
   if (own() == 0) send(root, data);

@@ -89,16 +89,16 @@ enum class MachineMessage : std::uint16_t {
   diverted = 2,  ///< NIU -> host memory: records for which no slot was free (made by the NIU, never by a program)
   pixels = 3,    ///< PE -> FBC: PixelAdd[]
   // Of programs with the kit (host_services.hpp).
-  output = 4,       ///< PE -> host: Output, then bytes for a stream
-  exit_status = 5,  ///< PE -> host: ExitStatus
-  to_host = 6,      ///< PE -> host: bytes for the file that the user has named for that
-  file_open = 7,    ///< PE -> host: FileOpen; answer: file_answer
-  file_read = 8,    ///< PE -> host: FileRead; answer: file_data
-  file_write = 9,   ///< PE -> host: FileWrite, then bytes
-  file_seek = 10,   ///< PE -> host: FileSeek; answer: file_answer
-  file_close = 11,  ///< PE -> host: FileClose
-  file_answer = 12, ///< host -> PE: FileAnswer
-  file_data = 13,   ///< host -> PE: FileData, then bytes
+  output = 4,        ///< PE -> host: Output, then bytes for a stream
+  exit_status = 5,   ///< PE -> host: ExitStatus
+  to_host = 6,       ///< PE -> host: bytes for the file that the user has named for that
+  file_open = 7,     ///< PE -> host: FileOpen; answer: file_answer
+  file_read = 8,     ///< PE -> host: FileRead; answer: file_data
+  file_write = 9,    ///< PE -> host: FileWrite, then bytes
+  file_seek = 10,    ///< PE -> host: FileSeek; answer: file_answer
+  file_close = 11,   ///< PE -> host: FileClose
+  file_answer = 12,  ///< host -> PE: FileAnswer
+  file_data = 13,    ///< host -> PE: FileData, then bytes
 };
 
 /// The frame buffer has a plane of three sums per pixel for the colours, and others on request: the layers of a

@@ -15,8 +15,8 @@ namespace {
 
 GivenFile parse_given_file(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
-  const bool good = equals != std::string::npos && equals > 0 && equals <= protocol::kMostFileName &&
-                    equals + 1 < text.size();
+  const bool good =
+      equals != std::string::npos && equals > 0 && equals <= protocol::kMostFileName && equals + 1 < text.size();
   if (!good) {
     throw UsageError(option + ": \"" + text + "\" is not NAME=FILE, NAME of 1 to " +
                      std::to_string(protocol::kMostFileName) + " characters");
@@ -45,8 +45,9 @@ void add_program_options(CLI::App& command, ProgramOptions& options) {
   command.add_option("ARGUMENTS", options.arguments, "Of the program's main: what stands behind --")->type_name("");
   add_files(command, "--input", options.inputs,
             "A file that programs may open to read, by this name; `stdin`: their standard input. May be repeated");
-  add_files(command, "--output", options.outputs,
-            "A file that programs may open to write, by this name; `host`: what they send TOROLUX_HOST. May be repeated");
+  add_files(
+      command, "--output", options.outputs,
+      "A file that programs may open to write, by this name; `host`: what they send TOROLUX_HOST. May be repeated");
   command.add_flag("--raw", options.raw, "What the PEs say without their numbers and cycles, byte for byte");
 }
 

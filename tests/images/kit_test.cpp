@@ -146,9 +146,9 @@ TEST(Kit, FilesAreReadWrittenAppendedAndTheSameOnAllEngines) {
     EXPECT_EQ(contents_of(folder.path() / "table"), "     0       33\n     1       33\n     2       33\n");
     EXPECT_EQ(contents_of(folder.path() / "log"), "PE 0 was here\nPE 1 was here\nPE 2 was here\n");
     EXPECT_EQ(contents_of(folder.path() / "host"), "raw raw raw ");
-    EXPECT_THAT(outcome.lines, testing::IsSupersetOf({"0 err PE 0: 2 arguments, stdin hello",
-                                                      "1 err PE 1: 2 arguments, stdin nothing",
-                                                      "2 out half a line, one, 1, 0.1, early", "2 out no end|"}));
+    EXPECT_THAT(outcome.lines,
+                testing::IsSupersetOf({"0 err PE 0: 2 arguments, stdin hello", "1 err PE 1: 2 arguments, stdin nothing",
+                                       "2 out half a line, one, 1, 0.1, early", "2 out no end|"}));
     ASSERT_TRUE(outcome.exit);
     EXPECT_EQ(outcome.exit->pe, 1);
     EXPECT_EQ(outcome.exit->code(), 8);
@@ -191,8 +191,7 @@ TEST(KitFaults, SayWhatAndWhere) {
   EXPECT_THAT(failure_of("pe"), where("torolux_send: there is no PE 70; the machine has PEs 0 to 1"));
   EXPECT_THAT(failure_of("negative"), where("torolux_receive: there is no PE -5"));
   EXPECT_THAT(failure_of("bytes"), where("torolux_send: a message of 1048577 bytes; the most is 1048576"));
-  EXPECT_THAT(failure_of("room"),
-              where("torolux_receive: the message of PE 0 has 200 bytes; there is room for 100"));
+  EXPECT_THAT(failure_of("room"), where("torolux_receive: the message of PE 0 has 200 bytes; there is room for 100"));
   EXPECT_THAT(failure_of("memory"), where("no memory for a message of 2048 bytes from PE 0"));
   EXPECT_THAT(failure_of("assert"), where("assertion \"argc == 7\" failed: "));
   EXPECT_THAT(failure_of("abort"), where("abort"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Proves that messages arrive whole and in the order of each sender, and that barrier, broadcast and reduce do what they
-// say, however packets are delayed, diverted and brought in another order.
+// Proves that messages arrive whole and in the order of each sender, and that barrier, broadcast and reduce do what
+// they say, however packets are delayed, diverted and brought in another order.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -125,8 +125,8 @@ RC_GTEST_PROP(Messenger, ExchangesAroundARing, ()) {
     for (unsigned number = 0; number < traffic.lengths.size(); ++number) {
       const Bytes message = message_of(own, to, number, traffic.lengths[number]);
       Bytes room(traffic.lengths[number] + 1);
-      const std::size_t bytes = messenger.exchange(static_cast<int>(to), somewhere(node, message, number),
-                                                   static_cast<int>(from), room);
+      const std::size_t bytes =
+          messenger.exchange(static_cast<int>(to), somewhere(node, message, number), static_cast<int>(from), room);
       expect(messenger, std::span(room).first(bytes), message_of(from, own, number, traffic.lengths[number]), from);
     }
   });
