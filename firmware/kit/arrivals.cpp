@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packets that the NIU brings become messages: each sender's in the order of their numbers, whenever they come.
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -35,7 +34,7 @@ void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
   const std::uint32_t payload = std::min(room, head.bytes - head.offset);
   Peer& peer = peer_of(head.source);
   const bool early = head.number != peer.taken;
-  copy_payload(arrival, head, payload, early ? keep_early(peer, head, payload)->data() : place_for(peer, head));
+  copy_payload(arrival, head, payload, early ? behind(keep_early(peer, head, payload)) : place_for(peer, head));
   niu_.release_arrival();
   if (early) return;
   ++peer.taken;
@@ -45,14 +44,13 @@ void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
 
 /// The packet that was missing has come: those behind it that are here.
 void Messenger::take_early(Peer& peer) {
-  while (peer.early != nullptr && peer.early->head.number == peer.taken) {
-    Early* const next = peer.early;
-    peer.early = next->next;
+  while (peer.early && peer.early->head.number == peer.taken) {
+    const Block<Early> next = std::move(peer.early);
+    peer.early = std::move(next->next);
     ++peer.taken;
     std::byte* const to = place_for(peer, next->head);
-    if (next->payload != 0) std::memcpy(to, next->data(), next->payload);
+    if (next->payload != 0) std::memcpy(to, behind(*next), next->payload);
     placed(peer, next->head, next->payload);
-    std::free(next);
   }
 }
 
@@ -80,11 +78,11 @@ std::byte* Messenger::place_for(Peer& peer, const PacketHead& head) {
   if (head.offset != 0) return peer.into;
   if (posted_takes(head.channel, head.source)) {
     claim(head.source, head.bytes);
-    peer.open = nullptr;
+    peer.open.reset();
     peer.into = posted_.room.data();
   } else {
     peer.open = new_waiting(head);
-    peer.into = peer.open->data();
+    peer.into = behind(*peer.open);
   }
   return peer.into;
 }
@@ -96,36 +94,39 @@ void Messenger::placed(Peer& peer, const PacketHead& head, std::uint32_t payload
 
 /// A message that began before `receive` waited may be the first to end.
 void Messenger::end_message(Peer& peer, const PacketHead& head) {
-  Waiting* const message = std::exchange(peer.open, nullptr);
+  Block<Waiting> message = std::move(peer.open);
   peer.into = nullptr;
-  if (message == nullptr) {
+  if (!message) {
     posted_.done = true;
   } else if (posted_takes(head.channel, head.source)) {
     claim(head.source, head.bytes);
-    if (message->bytes != 0) std::memcpy(posted_.room.data(), message->data(), message->bytes);
+    if (message->bytes != 0) std::memcpy(posted_.room.data(), behind(*message), message->bytes);
     posted_.done = true;
-    forget(message);
+    waiting_bytes_ -= message->bytes;
   } else {
     Queue& queue = queue_of(head.channel);
-    (queue.last != nullptr ? queue.last->next : queue.first) = message;
-    queue.last = message;
+    Waiting* const last = message.get();
+    (queue.last != nullptr ? queue.last->next : queue.first) = std::move(message);
+    queue.last = last;
   }
 }
 
-Early* Messenger::keep_early(Peer& peer, const PacketHead& head, std::uint32_t payload) {
-  auto* const early = static_cast<Early*>(std::malloc(sizeof(Early) + payload));
-  if (early == nullptr) {
+Early& Messenger::keep_early(Peer& peer, const PacketHead& head, std::uint32_t payload) {
+  Block<Early> early = make_block<Early>(payload);
+  if (!early) {
     fail(Words() << "no memory for a packet of PE " << head.source << " that came before others; " << waiting_bytes_
                  << " bytes of messages wait to be received");
   }
-  Early** place = &peer.early;
-  const auto behind = [&](const Early* other) {  // numbers go around
-    return static_cast<std::int32_t>(head.number - other->head.number) > 0;
+  Block<Early>* place = &peer.early;
+  const auto is_behind = [&](const Early& other) {  // numbers go around
+    return static_cast<std::int32_t>(head.number - other.head.number) > 0;
   };
-  while (*place != nullptr && behind(*place)) place = &(*place)->next;
-  *early = {*place, head, payload};
-  *place = early;
-  return early;
+  while (*place && is_behind(**place)) place = &(*place)->next;
+  early->next = std::move(*place);
+  early->head = head;
+  early->payload = payload;
+  *place = std::move(early);
+  return **place;
 }
 
 Peer& Messenger::peer_of(std::uint32_t pe) {
@@ -134,22 +135,19 @@ Peer& Messenger::peer_of(std::uint32_t pe) {
   return *peer;
 }
 
-Waiting* Messenger::new_waiting(const PacketHead& head) {
-  auto* const message = static_cast<Waiting*>(std::malloc(sizeof(Waiting) + head.bytes));
-  if (message == nullptr) {
+Block<Waiting> Messenger::new_waiting(const PacketHead& head) {
+  Block<Waiting> message = make_block<Waiting>(head.bytes);
+  if (!message) {
     fail(Words() << "no memory for a message of " << head.bytes << " bytes from PE " << head.source
                  << ", which must wait; " << waiting_bytes_
                  << " bytes of messages wait to be received: receive them sooner, or give PEs more "
                  << "memory (--pe-memory)");
   }
-  *message = {nullptr, head.bytes, head.source, head.channel};
+  message->bytes = head.bytes;
+  message->source = head.source;
+  message->channel = head.channel;
   waiting_bytes_ += head.bytes;
   return message;
-}
-
-void Messenger::forget(Waiting* message) {
-  waiting_bytes_ -= message->bytes;
-  std::free(message);
 }
 
 }  // namespace torolux::kit

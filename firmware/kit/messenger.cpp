@@ -3,7 +3,6 @@
 #include "firmware/kit/messenger.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -26,19 +25,6 @@ Messenger::Messenger(pe::Niu& niu, const SlotLayout& slots)
       staging_slot_(static_cast<pe::Slot>(slots.own - kRecordsPerPacket)) {
   niu_.set_slots(slots.first, kRecordBytes, slots.own, slots.niu);
   if (!peers_.begin(niu_.pes())) fail(Words() << "no memory for the table of " << niu_.pes() << " PEs");
-}
-
-Messenger::~Messenger() {
-  for (std::uint32_t pe = 0; pe < niu_.pes(); ++pe) {
-    Peer* peer = peers_.of(pe);
-    if (peer == nullptr) continue;
-    std::free(peer->open);
-    while (peer->early != nullptr) std::free(std::exchange(peer->early, peer->early->next));
-  }
-  for (Queue& queue : queues_) {
-    while (queue.first != nullptr) std::free(std::exchange(queue.first, queue.first->next));
-  }
-  peers_.end();
 }
 
 void Messenger::fail(const Words& words) const {
@@ -138,8 +124,7 @@ std::uint32_t Messenger::send_from_place(std::uint16_t pe, PacketHead& head, std
 
 std::size_t Messenger::receive(Channel channel, int pe, std::span<std::byte> room) {
   if (pe != kAnyPe) check_pe(pe);
-  Waiting* before = nullptr;
-  if (Waiting* message = next_of(channel, pe, &before)) return hand_over(channel, message, before, room);
+  if (Waiting* before = nullptr; next_of(channel, pe, &before) != nullptr) return hand_over(channel, before, room);
   post(channel, pe, room);
   return wait_for_posted();
 }
@@ -169,26 +154,28 @@ std::int64_t Messenger::waiting(Channel channel, int pe) {
   return message != nullptr ? static_cast<std::int64_t>(message->bytes) : -1;
 }
 
-/// The first whole message from there, and the one before it in the queue.
-Waiting* Messenger::next_of(Channel channel, int pe, Waiting** before) {
+/// The first whole message from there; before: the one before it in the queue, or null.
+const Waiting* Messenger::next_of(Channel channel, int pe, Waiting** before) {
   *before = nullptr;
-  for (Waiting* message = queue_of(channel).first; message != nullptr; message = message->next) {
+  for (Waiting* message = queue_of(channel).first.get(); message != nullptr; message = message->next.get()) {
     if (pe == kAnyPe || message->source == static_cast<std::uint32_t>(pe)) return message;
     *before = message;
   }
   return nullptr;
 }
 
-std::size_t Messenger::hand_over(Channel channel, Waiting* message, Waiting* before, std::span<std::byte> room) {
-  check_room(message->bytes, message->source, room.size());
+/// The message behind `before`.
+std::size_t Messenger::hand_over(Channel channel, Waiting* before, std::span<std::byte> room) {
   Queue& queue = queue_of(channel);
-  (before != nullptr ? before->next : queue.first) = message->next;
-  if (queue.last == message) queue.last = before;
-  const std::size_t bytes = message->bytes;
-  if (bytes != 0) std::memcpy(room.data(), message->data(), bytes);
+  Block<Waiting>& place = before != nullptr ? before->next : queue.first;
+  check_room(place->bytes, place->source, room.size());
+  const Block<Waiting> message = std::move(place);
+  place = std::move(message->next);
+  if (queue.last == message.get()) queue.last = before;
+  if (message->bytes != 0) std::memcpy(room.data(), behind(*message), message->bytes);
   source_ = message->source;
-  forget(message);
-  return bytes;
+  waiting_bytes_ -= message->bytes;
+  return message->bytes;
 }
 
 /// A message of which a part is on the heap goes on in its place.
@@ -196,14 +183,13 @@ void Messenger::post(Channel channel, int from, std::span<std::byte> room) {
   posted_ = {true, false, false, channel, from, 0, 0, room};
   if (from == kAnyPe) return;
   Peer& peer = peer_of(static_cast<std::uint32_t>(from));
-  Waiting* const part = peer.open;
-  if (part == nullptr || part->channel != channel) return;
+  if (!peer.open || peer.open->channel != channel) return;
+  const Block<Waiting> part = std::move(peer.open);
   claim(part->source, part->bytes);
-  const auto have = static_cast<std::size_t>(peer.into - part->data());
-  std::memcpy(room.data(), part->data(), have);
+  const auto have = static_cast<std::size_t>(peer.into - behind(*part));
+  std::memcpy(room.data(), behind(*part), have);
   peer.into = room.data() + have;
-  peer.open = nullptr;
-  forget(part);
+  waiting_bytes_ -= part->bytes;
 }
 
 std::size_t Messenger::wait_for_posted() {

@@ -26,7 +26,7 @@ class Messenger {
   Messenger(pe::Niu& niu, const SlotLayout& slots);
   Messenger(const Messenger&) = delete;
   Messenger& operator=(const Messenger&) = delete;
-  ~Messenger();
+  ~Messenger() = default;
 
   pe::Niu& niu() { return niu_; }
   /// From now on, who is at fault: the function's name, and where it was called.
@@ -66,7 +66,7 @@ class Messenger {
   };
   /// Of one channel, whole messages in the order in which they came.
   struct Queue {
-    Waiting* first = nullptr;
+    Block<Waiting> first;
     Waiting* last = nullptr;
   };
 
@@ -83,8 +83,8 @@ class Messenger {
   std::size_t wait_for_posted();
   bool posted_takes(Channel channel, std::uint32_t source) const;
   void claim(std::uint32_t source, std::uint32_t bytes);
-  Waiting* next_of(Channel channel, int pe, Waiting** before);
-  std::size_t hand_over(Channel channel, Waiting* message, Waiting* before, std::span<std::byte> room);
+  const Waiting* next_of(Channel channel, int pe, Waiting** before);
+  std::size_t hand_over(Channel channel, Waiting* before, std::span<std::byte> room);
 
   void drain();
   void take(const protocol::NiuWindow::Arrival& arrival);
@@ -95,12 +95,11 @@ class Messenger {
   std::byte* place_for(Peer& peer, const PacketHead& head);
   void placed(Peer& peer, const PacketHead& head, std::uint32_t payload);
   void end_message(Peer& peer, const PacketHead& head);
-  Early* keep_early(Peer& peer, const PacketHead& head, std::uint32_t payload);
+  Early& keep_early(Peer& peer, const PacketHead& head, std::uint32_t payload);
   Peer& peer_of(std::uint32_t pe);
   std::byte* slot(std::uint32_t number) const { return slots_ + std::size_t{number} * kRecordBytes; }
   Queue& queue_of(Channel channel) { return queues_[static_cast<std::size_t>(channel)]; }
-  Waiting* new_waiting(const PacketHead& head);
-  void forget(Waiting* message);
+  Block<Waiting> new_waiting(const PacketHead& head);
 
   pe::Niu niu_;
   SlotLayout layout_;

@@ -3,38 +3,37 @@
 // in groups when the first of them is needed, so a machine of thousands of PEs costs little.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
+#include "firmware/kit/block.hpp"
 #include "firmware/kit/packet.hpp"
 
 namespace torolux::kit {
 
 /// A message on the heap, its bytes behind it.
 struct Waiting {
-  Waiting* next;
+  Block<Waiting> next;
   std::uint32_t bytes;
   std::uint16_t source;
   Channel channel;
-
-  std::byte* data() { return reinterpret_cast<std::byte*>(this + 1); }
 };
 
 /// A packet that came before others of its sender; its bytes of the message behind it.
 struct Early {
-  Early* next;
+  Block<Early> next;
   PacketHead head;
   std::uint32_t payload;  ///< [bytes]
-
-  std::byte* data() { return reinterpret_cast<std::byte*>(this + 1); }
 };
 
 struct Peer {
   std::uint32_t sent;   ///< packets to it
   std::uint32_t taken;  ///< packets from it, in order
   std::byte* into;      ///< where the message goes of which packets are still to come; null: there is none
-  Waiting* open;        ///< that message, where it lies on the heap
-  Early* early;         ///< by their numbers
+  Block<Waiting> open;  ///< that message, where it lies on the heap
+  Block<Early> early;   ///< by their numbers
 };
 
 class Peers {
@@ -43,13 +42,12 @@ class Peers {
 
   /// False: no memory for the table.
   bool begin(std::uint32_t pes);
-  void end();
   /// Null: no memory.
   Peer* of(std::uint32_t pe);
 
  private:
-  Peer** groups_ = nullptr;
-  std::uint32_t count_ = 0;
+  using Group = std::array<Peer, kGroup>;
+  std::unique_ptr<Block<Group>[]> groups_;
 };
 
 }  // namespace torolux::kit

@@ -35,6 +35,7 @@ void add_files(CLI::App& command, const std::string& option, std::vector<GivenFi
 
 std::vector<NamedFile> named(const std::string& option, const std::vector<GivenFile>& files) {
   std::vector<NamedFile> named;
+  named.reserve(files.size());
   for (const GivenFile& given : files) named.push_back({option + " " + given.name, given.file});
   return named;
 }

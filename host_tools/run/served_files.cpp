@@ -27,12 +27,14 @@ FileAnswer refused(FileError error) {
 
 std::vector<Input> read_inputs(const std::vector<GivenFile>& files) {
   std::vector<Input> inputs;
+  inputs.reserve(files.size());
   for (const GivenFile& given : files) inputs.push_back({given, read_file(given.file, kMostInputBytes)});
   return inputs;
 }
 
 std::vector<InputFile> digests_of(const std::vector<Input>& inputs) {
   std::vector<InputFile> digests;
+  digests.reserve(inputs.size());
   for (const auto& [given, contents] : inputs) {
     digests.push_back({"input " + given.name, given.file.string(),
                        sha256({reinterpret_cast<const char*>(contents.data()), contents.size()})});
