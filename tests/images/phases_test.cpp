@@ -58,7 +58,7 @@ MachineFigures run(const Image& image, MachineSetup setup = one_pe()) {
 }
 
 nlohmann::ordered_json phases_in_statistics(const MachineFigures& figures) {
-  const std::string text = run_stats_json(one_pe(), {{{"image", "phases.elf", "0"}}, {}}, figures, 0);
+  const std::string text = run_stats_json(one_pe(), {InputFile{"image", "phases.elf", "0"}, {}, {}}, figures, 0);
   const auto json = nlohmann::ordered_json::parse(text);
   EXPECT_EQ(json.at("phases"), json.at("pes").at(0).at("phase_cycles"));
   EXPECT_EQ(json.at("phases"), json.at("stages").at(0).at("phases"));
