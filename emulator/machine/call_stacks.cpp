@@ -31,9 +31,10 @@ void fill_in(FrameRegisters& frame, Value value) {
   }
 }
 
-/// Of the driver or the library, not of the program.
+/// Of the driver or the library, not of the program. The driver's headers may have been installed anywhere.
 bool is_the_machines_own(const SourcePlace& place) {
-  return place.file.starts_with("firmware/niu/") || place.file.starts_with("firmware/kit/");
+  return place.file.starts_with("firmware/niu/") || place.file.find("/firmware/niu/") != std::string::npos ||
+         place.file.starts_with("firmware/kit/");
 }
 
 /// "torolux::pe::Niu::receive()" -> "receive".
