@@ -12,7 +12,7 @@ namespace {
 struct Advice {
   std::array<std::string_view, 8> texts;
   std::string_view advice;
-  std::string_view unless = "";
+  std::string_view unless{};
 };
 
 constexpr std::array kAdvice = std::to_array<Advice>({
