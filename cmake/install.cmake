@@ -38,6 +38,7 @@ install(
   FILE_PERMISSIONS ${readable}
   FILES_MATCHING
   PATTERN "*.elf"
+  PATTERN "calls.elf" EXCLUDE
   PATTERN "faults.elf" EXCLUDE
   PATTERN "jumps.elf" EXCLUDE)
 # What images of one's own are made of, and the CMake package, whose place in the build is like that in the prefix.

@@ -15,9 +15,14 @@ namespace torolux {
 namespace {
 
 constexpr std::string_view kTranslated = "translated";
-constexpr std::string_view kInterpreted = "interpreted";
 
-/// Translates nothing: slow, but at once, and without a compiler.
+/// Interprets at once what has to be translated, and goes on translated.
+std::unique_ptr<Engine> make_automatic_engine(const EngineSetup& setup) {
+  translated::TranslationOptions options;
+  options.in_background = true;
+  return make_translated_engine(setup, options);
+}
+
 std::unique_ptr<Engine> make_interpreted_engine(const EngineSetup& setup) {
   translated::TranslationOptions options;
   options.interpret = true;
@@ -30,7 +35,8 @@ Registry& registry() {
   static Registry engines = {
       {kQemuEngine, [](const EngineSetup& setup) { return make_qemu_engine(setup); }},
       {std::string(kTranslated), [](const EngineSetup& setup) { return make_translated_engine(setup); }},
-      {std::string(kInterpreted), make_interpreted_engine}};
+      {kInterpretedEngine, make_interpreted_engine},
+      {kAutomaticEngine, make_automatic_engine}};
   return engines;
 }
 
@@ -42,7 +48,7 @@ void register_engine(std::string_view name, EngineFactory factory) {
 
 bool engine_runs_here(std::string_view name) {
   engine_named(name);
-  return name == kTranslated || name == kInterpreted;
+  return name == kTranslated || name == kInterpretedEngine || name == kAutomaticEngine;
 }
 
 const EngineFactory& engine_named(std::string_view name) {

@@ -36,6 +36,7 @@ class MixedEngine final : public Engine {
   }
   PeRegisters save(unsigned pe) override { return of(pe).save(pe); }
   void restore(unsigned pe, const PeRegisters& registers) override { of(pe).restore(pe, registers); }
+  std::optional<StackRegisters> stack_registers(unsigned pe) override { return of(pe).stack_registers(pe); }
   double cpu_seconds() const override { return qemu_->cpu_seconds() + most_->cpu_seconds(); }
   ProcessorWaker* waker(unsigned pe) override { return of(pe).waker(pe); }
   /// While QEMU runs the PE in question, others may run here.
@@ -55,6 +56,14 @@ void check_pe(unsigned pe, std::size_t pes) {
     throw UsageError("there is no PE " + std::to_string(pe) + " to run on QEMU: this machine's PEs are 0 to " +
                      std::to_string(pes - 1));
   }
+}
+
+/// A profile is told of each instruction.
+void check_profiled(std::string_view name, const std::vector<bool>& on_qemu) {
+  const bool all_here = std::find(on_qemu.begin(), on_qemu.end(), true) == on_qemu.end();
+  if (name == kInterpretedEngine && all_here) return;
+  throw UsageError("a profile needs the engine `" + std::string(kInterpretedEngine) + "` for all PEs, but " +
+                   (all_here ? "the engine is `" + std::string(name) + "`" : "some are to run on QEMU"));
 }
 
 }  // namespace
@@ -80,6 +89,7 @@ std::unique_ptr<Engine> make_engine(std::string_view name, const EngineSetup& se
   const EngineFactory& factory = engine_named(name);
   std::vector<bool> on_qemu = debugging.on_qemu(setup.pes.size());
   const QemuOptions options{.gdb = debugging.gdb, .listens = debugging.listens};
+  if (setup.profile != nullptr) check_profiled(name, on_qemu);
   const bool none = std::find(on_qemu.begin(), on_qemu.end(), true) == on_qemu.end();
   if (none) return factory(setup);
   const bool all = std::find(on_qemu.begin(), on_qemu.end(), false) == on_qemu.end();

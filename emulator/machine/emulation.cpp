@@ -8,6 +8,7 @@
 
 #include "emulator/errors.hpp"
 #include "emulator/machine/faults.hpp"
+#include "firmware/protocol/messages.hpp"
 
 namespace torolux {
 
@@ -35,11 +36,11 @@ RecordPacket packet_of(const Block& block) {
 
 }  // namespace
 
-Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image,
-                     LocalMemory memory, Engine& engine, HostProgram& program)
+Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, CallStacks& stacks,
+                     Engine& engine, HostProgram& program, PhaseNames phases)
     : pes_(static_cast<std::uint32_t>(channels.size())),
-      image_(image),
-      memory_(std::move(memory)),
+      stacks_(stacks),
+      phases_(std::move(phases)),
       engine_(engine),
       program_(&program),
       events_(3 * std::size_t{pes_} + 4),
@@ -57,14 +58,16 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       signal_cycles_(setup.description.signal_cycles()),
       record_watcher_(setup.record_watcher),
       pacer_(setup.pacer),
-      attend_seconds_(std::min(kAttendSeconds, setup.progress_seconds)) {
+      attend_seconds_(std::min(kAttendSeconds, setup.progress_seconds)),
+      until_(setup.until != 0 ? setup.until : kNever) {
+  for (NiuChannel* channel : channels_) channel->until = setup.until;
   cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
   events_.watch(this);
   torus_.watch_hops(setup.hop_watcher);
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
   stages_.push_back({"run", network_figures(0)});
   if (setup.watcher == nullptr) return;
-  watch_.emplace(*setup.watcher, WatchedMachine{setup.description, setup.columns, setup.rows}, nius_, torus_,
+  watch_.emplace(*setup.watcher, WatchedMachine{setup.description, setup.columns, setup.rows, phases_}, nius_, torus_,
                  WatchedActors{[this](unsigned pe) { return parts_[pe].outgoing.size(); },
                                [this] { return controller_.waiting(); },
                                [this] { return static_cast<std::uint32_t>(host_.inbox()); }});
@@ -165,7 +168,7 @@ void Emulation::command(unsigned pe, const PendingCommand& command) {
       SlotsCommand slots{};
       std::memcpy(&slots, pool_[command.block].data.data(), sizeof slots);
       if (niu.slots_used() != 0) {
-        return fail(describe_fault(pe, NiuFault{NiuFaultCode::slots_in_use, {niu.slots_used(), 0, 0}}, image_));
+        return fail(describe_fault(pe, NiuFault{NiuFaultCode::slots_in_use, {niu.slots_used(), 0, 0}}, stacks_), "");
       }
       niu.set_slots(slots.niu);
       pool_.give_back(command.block);
@@ -200,19 +203,22 @@ void Emulation::send_message(unsigned pe, BlockIndex block) {
 void Emulation::fail_program(unsigned pe, BlockIndex block) {
   protocol::Fault fault{};
   std::memcpy(&fault, pool_[block].data.data(), sizeof fault);
-  fail(describe_fault(pe, fault, image_, memory_(pe)));
+  if (!failure_.empty()) return;
+  const bool trap = static_cast<protocol::FaultCode>(fault.code) == protocol::FaultCode::trap;
+  fail(describe_fault(pe, fault, stacks_), trap ? stacks_.of_trap(pe, fault.detail[1]) : stacks_.of_pe(pe));
 }
 
 void Emulation::fail_niu(unsigned pe, BlockIndex block) {
   NiuFault fault{};
   std::memcpy(&fault, pool_[block].data.data(), sizeof fault);
-  fail(describe_fault(pe, fault, image_));
+  if (!failure_.empty()) return;
+  fail(describe_fault(pe, fault, stacks_), calls_to(pe, fault, stacks_));
 }
 
-/// Of several, the first in virtual time counts. The machine goes on until all that PEs had sent the host before is
-/// read: it may say why.
-void Emulation::fail(std::string text) {
-  if (failure_.empty()) failure_ = std::move(text) + " (cycle " + std::to_string(now_) + ")";
+/// Of several, the first in virtual time counts. calls: that led there. The machine goes on until all that PEs had sent
+/// the host before is read: it may say why.
+void Emulation::fail(std::string text, const std::string& calls) {
+  if (failure_.empty()) failure_ = std::move(text) + " (cycle " + std::to_string(now_) + ")" + calls;
 }
 
 void Emulation::end_if_failed() const {

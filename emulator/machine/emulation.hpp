@@ -9,9 +9,9 @@
 
 #include "emulator/bus/bus.hpp"
 #include "emulator/engines/engine/engine.hpp"
-#include "emulator/engines/image/image.hpp"
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
+#include "emulator/machine/call_stacks.hpp"
 #include "emulator/machine/live_figures.hpp"
 #include "emulator/machine/machine.hpp"
 #include "emulator/machine/time_line.hpp"
@@ -29,16 +29,13 @@ namespace torolux {
 /// Single-threaded. PEs run elsewhere, or when it asks their engine to; they meet it in their channels only.
 class Emulation final : private TorusClient, private BusClient, private HostClient, private EventWatcher {
  public:
-  /// What a PE's local memory holds; to be asked once it has stopped.
-  using LocalMemory = std::function<std::span<const std::byte>(unsigned pe)>;
+  /// channels: zeroed, one per PE. stacks: for messages about faults. All references outlive this. phases: their names.
+  Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, CallStacks& stacks, Engine& engine,
+            HostProgram& program, PhaseNames phases);
 
-  /// channels: zeroed, one per PE. image, memory: for messages about faults. All references outlive this.
-  Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& channels, const Image& image, LocalMemory memory,
-            Engine& engine, HostProgram& program);
-
-  /// Runs until the program has finished and the machine is empty. attend: called at least some ten times a second,
-  /// or as often as the setup's progress asks for; may throw to end the run. message_read: called after each message
-  /// that the host has read; null: nobody. Throws MachineFailure.
+  /// Runs until the program has finished and the machine is empty, or until the set-up's end. attend: called at least
+  /// some ten times a second, or as often as the setup's progress asks for; may throw to end the run. message_read:
+  /// called after each message that the host has read; null: nobody. Throws MachineFailure.
   void run(const std::function<void(Cycles)>& attend, const std::function<void()>& message_read);
   /// The run has ended: time goes on with another program, which has the same kinds of records, and the same picture.
   void go_on_with(HostProgram& program);
@@ -56,6 +53,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
 
   /// Waits until no PE can do more before something else happens, so that the figures are exact.
   void fill_in(MachineFigures& figures);
+  /// A line for all PEs that do the same in the same place, each with a line end in front.
+  std::string where_pes_stand();
   /// What is known now, without waiting for anybody.
   void sample(LiveFigures& figures) const;
   const FrameBuffer& frame_buffer() const { return controller_.frame_buffer(); }
@@ -84,7 +83,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   template <class Archive>
   void archive(Archive& archive);
   bool empty() const;
-  std::string deadlock_report() const;
+  bool stops_before_end();
+  std::string deadlock_report();
   std::string report_of(unsigned pe) const;
 
   // ---- Events ----
@@ -109,7 +109,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void send_message(unsigned pe, BlockIndex block);
   void fail_program(unsigned pe, BlockIndex block);
   void fail_niu(unsigned pe, BlockIndex block);
-  void fail(std::string text);
+  void fail(std::string text, const std::string& calls);
   void end_if_failed() const;
 
   // ---- TorusClient, BusClient ----
@@ -130,8 +130,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   // Sources of events, in the order in which ties are broken: PEs, routers (and what their NIUs do on the network's
   // side), bus, host, FBC, the routers' arbiters, the bus's arbiter: those decide at the end of a cycle.
   std::uint32_t pes_;
-  const Image& image_;
-  LocalMemory memory_;
+  CallStacks& stacks_;
+  PhaseNames phases_;
   Engine& engine_;
   HostProgram* program_;
   EventQueue events_;
@@ -154,6 +154,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   double last_attended_ = 0;
   double slept_ = 0;
   bool resumed_ = false;
+  bool stopped_ = false;  // before its end
+  Cycles until_;          // kNever: to its end
   Cycles now_ = 0;
   std::uint64_t trace_hash_ = 0;
   std::uint64_t messages_to_host_ = 0;  // sent so far, on their way or read

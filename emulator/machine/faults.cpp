@@ -120,20 +120,27 @@ std::string_view name_of(NiuFaultCode code) {
   return "fault";
 }
 
-std::string place_in_words(std::uint32_t pc, const Image& image) {
-  const std::string line = source_line(image.file, pc);
-  return "pc " + hexadecimal(pc) + " (" + image.describe(pc) + (line.empty() ? "" : ", " + line) + ")";
+/// The program of the PE in question.
+struct Code {
+  const Image& image;
+  const DebugInfo& debug_info;
+};
+
+std::string place_in_words(std::uint32_t pc, const Code& code) {
+  const std::string line = source_line(code.debug_info, pc);
+  return "pc " + hexadecimal(pc) + " (" + code.image.describe(pc) + (line.empty() ? "" : ", " + line) + ")";
 }
 
 /// mcause, mepc, mtval.
-std::string trap_in_words(const std::uint32_t (&detail)[3], const Image& image) {
-  const std::string what = detail[0] == kStoreAccess ? store_in_words(detail[2], image) : cause_in_words(detail[0]);
-  return "trap: " + what + " at " + place_in_words(detail[1], image) + ", mtval " + hexadecimal(detail[2]);
+std::string trap_in_words(const std::uint32_t (&detail)[3], const Code& code) {
+  const std::string what =
+      detail[0] == kStoreAccess ? store_in_words(detail[2], code.image) : cause_in_words(detail[0]);
+  return "trap: " + what + " at " + place_in_words(detail[1], code) + ", mtval " + hexadecimal(detail[2]);
 }
 
-std::string loop_in_words(const std::uint32_t (&detail)[3], const Image& image) {
+std::string loop_in_words(const std::uint32_t (&detail)[3], const Code& code) {
   const std::string most = std::to_string((std::uint64_t{detail[1]} << 32U) | detail[0]);
-  const std::string place = detail[2] != 0 ? ", now at " + place_in_words(detail[2], image) : "";
+  const std::string place = detail[2] != 0 ? ", now at " + place_in_words(detail[2], code) : "";
   return "no HINT for more than " + most + " cycles" + place +
          ": an endless loop? (processor.most_cycles_between_hints = " + most + ")";
 }
@@ -176,7 +183,7 @@ std::string in_words(protocol::FaultCode code, const std::uint32_t (&detail)[3])
 }
 
 /// What the program says itself, with the place; nothing where it has left no text.
-std::string own_words(const std::uint32_t (&detail)[3], const Image& image, std::span<const std::byte> local_memory) {
+std::string own_words(const std::uint32_t (&detail)[3], const Code& code, std::span<const std::byte> local_memory) {
   const std::uint64_t offset = std::uint64_t{detail[0]} - protocol::kLocalMemoryBase;
   if (detail[0] < protocol::kLocalMemoryBase || detail[1] == 0 || detail[1] > protocol::kMostFaultWords ||
       offset + detail[1] > local_memory.size()) {
@@ -187,36 +194,50 @@ std::string own_words(const std::uint32_t (&detail)[3], const Image& image, std:
     const auto c = static_cast<unsigned char>(byte);
     text += c < 0x20 || c == 0x7F ? '?' : static_cast<char>(c);
   }
-  return text + (detail[2] != 0 ? "; called at " + place_in_words(detail[2], image) : "");
+  return text + (detail[2] != 0 ? "; called at " + place_in_words(detail[2], code) : "");
 }
 
 }  // namespace
 
-std::string describe_fault(unsigned pe, const protocol::Fault& fault, const Image& image,
-                           std::span<const std::byte> local_memory) {
+std::string describe_fault(unsigned pe, const protocol::Fault& fault, CallStacks& stacks) {
+  const Code code{stacks.image_of(pe), stacks.debug_info_of(pe)};
   const std::string who = "PE " + std::to_string(pe) + ": ";
-  const auto code = static_cast<protocol::FaultCode>(fault.code);
-  if (code == protocol::FaultCode::trap) return who + trap_in_words(fault.detail, image);
-  if (code == protocol::FaultCode::words) {
-    if (const std::string text = own_words(fault.detail, image, local_memory); !text.empty()) return who + text;
+  const auto kind = static_cast<protocol::FaultCode>(fault.code);
+  if (kind == protocol::FaultCode::trap) return who + trap_in_words(fault.detail, code);
+  if (kind == protocol::FaultCode::words) {
+    if (const std::string text = own_words(fault.detail, code, stacks.memory_of(pe)); !text.empty()) return who + text;
   }
-  return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(code)) +
-         in_words(code, fault.detail) + "), details " + details(fault.detail) + "; see docs/errors.md";
+  return who + "the program failed: code " + std::to_string(fault.code) + " (in pe.elf: " + std::string(name_of(kind)) +
+         in_words(kind, fault.detail) + "), details " + details(fault.detail) + "; see docs/errors.md";
 }
 
-std::string describe_fault(unsigned pe, const NiuFault& fault, const Image& image) {
+std::string describe_fault(unsigned pe, const NiuFault& fault, CallStacks& stacks) {
+  const Code code{stacks.image_of(pe), stacks.debug_info_of(pe)};
   const std::string who = "PE " + std::to_string(pe) + ": ";
-  if (fault.code == NiuFaultCode::too_long_without_hint) return who + loop_in_words(fault.detail, image);
+  if (fault.code == NiuFaultCode::too_long_without_hint) return who + loop_in_words(fault.detail, code);
   if (fault.code == NiuFaultCode::no_trap_handler) {
     const bool known = fault.detail[0] != kUnknownTrap;
-    return who + (known ? trap_in_words(fault.detail, image) : "a trap of which this engine knows no more") +
+    return who + (known ? trap_in_words(fault.detail, code) : "a trap of which this engine knows no more") +
            "; it executes no instructions any more: mtvec leads to no handler";
   }
   if (fault.code == NiuFaultCode::wait_for_interrupt) {
-    return who + "trap: wfi at " + place_in_words(fault.detail[0], image) +
+    return who + "trap: wfi at " + place_in_words(fault.detail[0], code) +
            " waits for an interrupt, and there are none: call receive() to wait";
   }
   return who + std::string(name_of(fault.code)) + ": " + details(fault.detail);
+}
+
+std::string calls_to(unsigned pe, const NiuFault& fault, CallStacks& stacks) {
+  const std::uint32_t place = fault.detail[2];
+  switch (fault.code) {
+    case NiuFaultCode::too_long_without_hint:
+      return place != 0 ? stacks.of_pe(pe, place) : stacks.of_pe(pe);
+    case NiuFaultCode::no_trap_handler:
+    case NiuFaultCode::wait_for_interrupt:
+      return "";  // not every engine knows the registers there
+    default:
+      return stacks.of_pe(pe);
+  }
 }
 
 }  // namespace torolux

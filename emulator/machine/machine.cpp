@@ -124,11 +124,12 @@ PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, con
 
 struct Machine::Parts {
   MachineSetup setup;
-  Image image;
+  ImageSet images;
   SharedMemory channel_memory;  // of the PEs that this process runs
   std::vector<PeMemory> pes;
   std::vector<NiuChannel*> channels;
   std::unique_ptr<Engine> engine;
+  std::optional<CallStacks> stacks;
   std::optional<Emulation> emulation;
   MachineFigures figures;  // of the end of the run
   FrameBuffer frame_buffer;
@@ -151,10 +152,7 @@ struct Machine::Parts {
       throw UsageError("a machine of the engine " + std::string(engine->name()) +
                        " can neither be saved nor go on from what was saved");
     }
-    const auto memory = [this](unsigned pe) -> std::span<const std::byte> {
-      return pes[pe].local.bytes().first(setup.local_memory_bytes);
-    };
-    emulation.emplace(setup, channels, image, memory, *engine, program);
+    emulation.emplace(setup, channels, *stacks, *engine, program, images.phase_names());
     if (setup.keeper != nullptr) engine->will_be_saved();
     if (from != nullptr) restore(*from);
     begin_wall = clock_seconds(CLOCK_MONOTONIC);
@@ -194,11 +192,11 @@ struct Machine::Parts {
   }
 };
 
-Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::make_unique<Parts>()) {
+Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_unique<Parts>()) {
   check(setup);
   Parts& p = *parts_;
   p.setup = setup;
-  p.image = image;
+  p.images = std::move(images);
   const unsigned pes = setup.columns * setup.rows;
   const std::vector<bool> on_qemu = setup.debugging.on_qemu(pes);
   if (engine_runs_here(setup.engine)) {
@@ -207,11 +205,13 @@ Machine::Machine(const MachineSetup& setup, const Image& image) : parts_(std::ma
   }
   p.pes.reserve(pes);
   for (unsigned pe = 0; pe < pes; ++pe) {
-    p.pes.push_back(make_pe(pe, setup, image, p.channel_memory, on_qemu[pe]));
+    p.pes.push_back(make_pe(pe, setup, p.images.of(pe), p.channel_memory, on_qemu[pe]));
     p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
   }
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
-  p.engine = make_engine(setup.engine, {p.setup.description, p.image, p.pes, threads}, setup.debugging);
+  p.engine =
+      make_engine(setup.engine, {p.setup.description, p.images, p.pes, threads, {}, setup.profile}, setup.debugging);
+  p.stacks.emplace(p.images, p.pes, *p.engine);
 }
 
 Machine::~Machine() {
@@ -290,6 +290,10 @@ const FrameChanges& Machine::frame_changes() const {
 
 std::span<const std::byte> Machine::local_memory(unsigned pe) const {
   return parts_->pes.at(pe).local.bytes().first(parts_->setup.local_memory_bytes);
+}
+
+std::string Machine::where_pes_stand() const {
+  return parts_->running ? parts_->emulation->where_pes_stand() : "";
 }
 
 MachineFigures Machine::figures() const {

@@ -14,12 +14,13 @@
 #include "emulator/description/description.hpp"
 #include "emulator/engines/engine/debugging.hpp"
 #include "emulator/engines/engine_names.hpp"
-#include "emulator/engines/image/image.hpp"
+#include "emulator/engines/image/image_set.hpp"
 #include "emulator/frame_buffer/frame_changes.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/machine/live_figures.hpp"
 #include "emulator/machine/time_line.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/phase_names.hpp"
 #include "emulator/torus/figures.hpp"
 #include "firmware/protocol/hints.hpp"
 
@@ -31,6 +32,9 @@ class Pacer;           // emulator/trace/pacer.hpp
 class HopWatcher;      // emulator/torus/hop_watcher.hpp
 class SnapshotKeeper;  // emulator/snapshot/keeper.hpp
 class SnapshotReader;  // emulator/snapshot/archive.hpp
+namespace profile {
+class CycleProfile;  // emulator/profile/cycle_profile.hpp
+}
 
 struct MachineSetup {
   MachineDescription description;
@@ -40,7 +44,8 @@ struct MachineSetup {
   std::string engine = kDefaultEngine;
   Debugging debugging;
   std::vector<std::string> arguments;  ///< of the program's main, from argv[1] on
-  unsigned threads = 0;  ///< 0: all cores
+  unsigned threads = 0;                ///< 0: all cores
+  Cycles until = 0;  ///< the run ends at this virtual time, if it has not ended before (docs/virtual_time.md); 0: never
   std::uint32_t frame_width = 0;
   std::uint32_t frame_height = 0;
   double progress_seconds = 0.1;      ///< from one call of `progress` to the next [s of wall time], about
@@ -50,6 +55,8 @@ struct MachineSetup {
   Pacer* pacer = nullptr;                   ///< holds it back, so that somebody can follow; likewise
   HopWatcher* hop_watcher = nullptr;        ///< told of each hop of packets; likewise
   SnapshotKeeper* keeper = nullptr;         ///< given the machine's state whenever it wants that; likewise
+  profile::CycleProfile* profile =
+      nullptr;  ///< told of each instruction; likewise. With the engine `interpreted` alone
 };
 
 struct PeFigures {
@@ -96,8 +103,10 @@ struct StageFigures;
 
 /// Of a run, or of one stage of it.
 struct MachineFigures {
-  Cycles now = 0;                ///< virtual time at which nothing happens any more: event, PE or host
-  std::uint64_t trace_hash = 0;  ///< of the sequence of all events: equal runs have equal ones
+  Cycles now = 0;                              ///< virtual time at which nothing happens any more: event, PE or host
+  bool stopped = false;                        ///< at MachineSetup::until; there would have been more
+  std::uint64_t trace_hash = 0;                ///< of the sequence of all events: equal runs have equal ones
+  PhaseNames phases = built_in_phase_names();  ///< the images', and those that they have no name for but use
   std::vector<PeFigures> pes;
   std::vector<RouterFigures> routers;  ///< of each PE
   PacketFigures packets;               ///< that have left the torus
@@ -133,16 +142,17 @@ struct StageFigures {
 
 class Machine {
  public:
-  /// Loads the image into every PE. Throws InputError, MachineFailure.
-  Machine(const MachineSetup& setup, const Image& image);
+  /// Loads each PE's image: an Image, where all have the same. Throws InputError, MachineFailure.
+  Machine(const MachineSetup& setup, ImageSet images);
   ~Machine();
 
   /// Runs until the program has finished and the machine is empty. Again, if the last time it was to stay: then virtual
   /// time goes on where it had ended, the PEs are where they were, and the program has the same kinds of records.
   /// progress: called every setup.progress_seconds, about, from the calling thread; returning false ends the run.
-  /// Throws MachineFailure: trap, dead or silent PE, deadlock (with what each actor waits for), fault of the program.
-  /// from: the state of an equal machine, from which this one goes on, and so does the program; null: none. Throws
-  /// InputError where it is not one. With it, or with a keeper, the engine must be one that can be saved (UsageError).
+  /// Throws MachineFailure: trap, dead or silent PE, deadlock (with what each actor waits for), fault of the program;
+  /// the calls that led there are in the lines behind the first. from: the state of an equal machine, from which this
+  /// one goes on, and so does the program; null: none. Throws InputError where it is not one. With it, or with a
+  /// keeper, the engine must be one that can be saved (UsageError).
   enum class Then : std::uint8_t { end, stay };
   void run(HostProgram& program, const std::function<bool(Cycles)>& progress = {}, Then then = Then::end,
            SnapshotReader* from = nullptr);
@@ -158,6 +168,9 @@ class Machine {
   const FrameChanges& frame_changes() const;
   /// For whoever looks on: its PE may be writing it.
   std::span<const std::byte> local_memory(unsigned pe) const;
+  /// Where each PE stands, one line for all in the same place; of a machine that runs, for `progress` alone. Waits
+  /// until those that run can be looked at.
+  std::string where_pes_stand() const;
   /// Exact at a moment when nothing is in flight (between stages, at the end): a host program may ask in on_message.
   MachineFigures figures() const;
 

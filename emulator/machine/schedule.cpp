@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Virtual time: which event may happen, when to wait for which PE, and what it means if nothing can happen any more.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <ctime>
 #include <thread>
@@ -22,7 +21,6 @@ constexpr std::chrono::milliseconds kHold{2};
 constexpr std::uint32_t kHelpEvents = 256;
 /// Looks at a PE that is about to get there before the scheduler sleeps.
 constexpr int kLooks = 50;
-constexpr unsigned kMostReported = 16;
 
 double wall_seconds() {
   timespec time{};
@@ -79,24 +77,24 @@ void Emulation::fetch_next_turn_ahead() const {
   engine_.fetch_ahead(pe);
 }
 
-/// The next event that no PE can precede any more. False: nothing will ever happen again.
+/// The next event that no PE can precede any more. False: nothing will ever happen again, or not before the end.
 bool Emulation::next_event(Event& event) {
   for (;;) {
     const Cycles time = events_.next_time();  // kNever where there is none
     const Cycles least = times_.bounds.least();
     // Everything before this has happened, and no PE adds to it.
-    const Cycles known = std::min(time, least);
+    const Cycles known = std::min({time, least, until_});
     if (times_.releases.least() <= known && known != kNever) {
       NiuNetworkSide& niu = nius_[times_.releases.least_index()];
       // What did not fit into its ring may fit now, and be what it waits for.
       if (!niu.refresh(events_, pool_, times_)) niu.release(known, times_);
       continue;
     }
+    if (std::min(time, least) >= until_) return false;
     if (least > time) {
       event = events_.pop();
       return true;
     }
-    if (least == kNever) return false;
     const auto pe = static_cast<unsigned>(times_.bounds.least_index());
     if (nius_[pe].refresh(events_, pool_, times_)) continue;
     nius_[pe].publish_horizon(known);
@@ -129,8 +127,21 @@ void Emulation::run(const std::function<void(Cycles)>& attend, const std::functi
     if (--until_attend_ == 0) attend_now_and_then();
   }
   if (!failure_.empty()) throw MachineFailure(failure_);
+  if (stops_before_end()) return;
   torus_.check_slots();
   if (!empty() || !program_->finished()) throw MachineFailure(deadlock_report());
+}
+
+/// All events before `until_` have happened. Each PE goes on as far as these decide what it does, whoever ran how far
+/// before. True: there would be more.
+bool Emulation::stops_before_end() {
+  if (until_ == kNever) return false;
+  for (let_rest(); times_.releases.least() <= until_; let_rest()) {
+    nius_[times_.releases.least_index()].release(until_, times_);
+  }
+  stopped_ = events_.next_time() != kNever || times_.bounds.least() != kNever ||
+             std::ranges::any_of(nius_, [](const auto& niu) { return niu.waits_for() == WaitKind::until; });
+  return stopped_;
 }
 
 void Emulation::go_on_with(HostProgram& program) {
@@ -164,44 +175,6 @@ bool Emulation::empty() const {
 bool Emulation::at_rest(unsigned pe) {
   nius_[pe].refresh(events_, pool_, times_);
   return nius_[pe].waits_for() != WaitKind::running;
-}
-
-// ---- Deadlock ----
-
-std::string Emulation::report_of(unsigned pe) const {
-  constexpr std::array<const char*, 6> kWaits = {"runs",
-                                                 "waits to receive",
-                                                 "looks for an arrival",
-                                                 "waits for a place in its outgoing queue to the torus",
-                                                 "waits for a place in its outgoing queue to the bus",
-                                                 "has halted"};
-  const NiuNetworkSide& niu = nius_[pe];
-  return "  PE " + std::to_string(pe) + " (clock " + std::to_string(niu.channel().clock.load()) + ") " +
-         kWaits[static_cast<std::size_t>(niu.waits_for())] + "; queued: torus " + std::to_string(torus_.queued(pe)) +
-         ", bus " + std::to_string(parts_[pe].outgoing.size()) + ", from the host " +
-         std::to_string(host_.waiting(pe)) + "; record slots in use " + std::to_string(niu.slots_used()) +
-         (parts_[pe].diverting != kNoBlock ? "; diverts" : "") + "\n";
-}
-
-std::string Emulation::deadlock_report() const {
-  std::string text = "deadlock at cycle " + std::to_string(now_) +
-                     ": nothing can happen any more, and work is outstanding\n  host program: " +
-                     (program_->finished() ? "finished" : std::string("waits for ") + program_->waiting_for()) + "; " +
-                     std::to_string(host_.inbox()) + " messages not yet read, " +
-                     std::to_string(host_.waiting_for_all()) +
-                     " broadcasts and what waits for them\n  bus: " + (bus_.busy() ? "busy" : "idle") +
-                     "; FBC: " + std::to_string(controller_.waiting()) +
-                     " messages; torus: " + std::to_string(torus_.packets_inside()) + " packets\n";
-  unsigned reported = 0;
-  for (unsigned pe = 0; pe < pes_ && reported < kMostReported; ++pe) {
-    const bool plain = nius_[pe].waits_for() == WaitKind::receive && torus_.queued(pe) == 0 &&
-                       parts_[pe].outgoing.empty() && host_.waiting(pe) == 0;
-    if (plain && pes_ > kMostReported) continue;
-    text += report_of(pe);
-    ++reported;
-  }
-  if (reported < pes_) text += "  (other PEs wait to receive, or are like these)\n";
-  return text + torus_.report(kMostReported);
 }
 
 }  // namespace torolux

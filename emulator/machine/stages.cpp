@@ -26,6 +26,16 @@ void fill_between(PeFigures& out, const ProcessorMark& from, const ProcessorMark
   }
 }
 
+/// The names, and one for each phase that has none but cycles.
+PhaseNames phases_of(const std::vector<PeFigures>& pes, const PhaseNames& names) {
+  PhaseNames phases = names;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const bool used = std::any_of(pes.begin(), pes.end(), [i](const PeFigures& pe) { return pe.phase_cycles[i] != 0; });
+    if (used) phases[i] = phase_name(names, i);
+  }
+  return phases;
+}
+
 void subtract(BusTraffic& from, const BusTraffic& before) {
   from.transfers -= before.transfers;
   from.bytes -= before.bytes;
@@ -215,8 +225,10 @@ void Emulation::fill_in(MachineFigures& figures) {
   for (unsigned pe = 0; pe < pes_; ++pe) {
     end = std::max(end, nius_[pe].channel().clock.load(std::memory_order_acquire));
   }
+  if (stopped_) end = std::max(end, until_);
   figures = network_figures(end);
   figures.trace_hash = trace_hash_;
+  figures.stopped = stopped_;
   for (std::size_t s = 0; s < stages_.size(); ++s) {
     const bool last = s + 1 == stages_.size();
     figures.stages.push_back({stages_[s].name, stages_[s].before.now, last ? figures : stages_[s + 1].before});
@@ -236,6 +248,8 @@ void Emulation::fill_in(MachineFigures& figures) {
     busy.push_back(state.busy);
     busy.back().add_interval(state.busy_since, mark.clock, 1);
   }
+  figures.phases = phases_of(figures.pes, phases_);
+  for (StageFigures& stage : figures.stages) stage.figures.phases = figures.phases;
   note_host_busy();
   figures.time_line = time_line_.figures(end, busy);
 }

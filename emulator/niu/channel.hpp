@@ -136,6 +136,7 @@ enum class WaitKind : std::uint8_t {
   torus_place,  ///< for `count` packets to have left the outgoing queue
   bus_place,    ///< for `count` messages to have left the outgoing queue
   halted,       ///< for ever
+  until,        ///< likewise: the run ends before its HINT
 };
 constexpr std::uint64_t pack_wait(WaitKind kind, std::uint64_t count) {
   return (count << 3U) | static_cast<std::uint64_t>(kind);
@@ -212,6 +213,7 @@ struct NiuChannel {
   std::uint32_t pes;
   std::uint32_t copy_bytes;  ///< in a cycle of a copy engine; 0: copies take no time
   std::uint64_t most_cycles_between_hints;
+  std::uint64_t until;       ///< no HINT happens at this clock or later; 0: all do
   std::uint32_t ring_bytes;  ///< there is memory for so many in each ring; 0: kMostRingBytes
   std::uint32_t state_log;   ///< bytes from here to its StateLog; 0: nobody watches
 

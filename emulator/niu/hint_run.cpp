@@ -58,6 +58,7 @@ bool HintRun::wait_for_room() {
 bool HintRun::execute(Hint hint) {
   // Before it sleeps: nobody waits for it then.
   if (StateLog* const log = state_log_of(channel_)) log->busy_until(channel_, begin_);
+  if (channel_.until != 0 && clock_ >= channel_.until) return sleep_until(WaitKind::until, 0, [] { return false; });
   if (!has_room() && !wait_for_room()) return false;
   if (clock_ - state_.last_hint > channel_.most_cycles_between_hints) {
     end_endless_loop(channel_, 0);

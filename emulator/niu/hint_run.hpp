@@ -43,6 +43,7 @@ class HintRun {
   const WaitCycles& waited() const { return waited_; }  ///< clock() - the clock at the beginning, by reason
   std::uint32_t stage() const { return stage_; }        ///< of the last arrival taken
   bool must_stop() const { return stop_; }
+  bool waits() const { return later_; }  ///< what it waits for has not come yet
 
  private:
   void send_records();
@@ -106,6 +107,7 @@ class HintRun {
 template <class Ready>
 bool HintRun::sleep_until(WaitKind kind, std::uint64_t count, Ready ready) {
   if (ready()) return true;
+  window_.retry = 1;  // whether it returns before it happens or not: what can be seen does not depend on that
   channel_.clock.store(begin_, std::memory_order_relaxed);
   publish_bound(channel_, clock_ + kCommandCycles, pack_wait(kind, count));
   const bool sleeps = waiting_ == NiuProcessorSide::Waiting::sleeps;

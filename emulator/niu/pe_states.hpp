@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "emulator/niu/channel.hpp"
+#include "emulator/phase_names.hpp"
 #include "firmware/protocol/hints.hpp"
 
 namespace torolux {
@@ -23,14 +25,13 @@ constexpr bool is_busy(PeState state) {
   return state <= kOutsidePhases;
 }
 
-/// As it stands in traces. Phases that no program of Torolux has are `phase`.
-constexpr std::string_view name_of_pe_state(PeState state) {
+/// As it stands in traces.
+inline std::string name_of_pe_state(PeState state, const PhaseNames& phases) {
   constexpr std::array<std::string_view, kWaitReasons> kWaits = {"wait: arrivals", "wait: torus place",
                                                                  "wait: bus place", "wait: copy"};
-  if (state < static_cast<std::size_t>(protocol::Phase::count)) return protocol::kPhaseNames[state];
-  if (state < protocol::kPhases) return "phase";
+  if (state < protocol::kPhases) return phase_name(phases, state);
   if (state == kOutsidePhases) return "no phase";
-  if (state < kIdleAtEnd) return kWaits[state - kFirstWait];
+  if (state < kIdleAtEnd) return std::string(kWaits[state - kFirstWait]);
   return state == kIdleAtEnd ? "idle at the end" : "halted";
 }
 

@@ -37,9 +37,9 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
   if (waiting_ == Waiting::returns) channel_.asleep.store(0, std::memory_order_relaxed);
   HintRun run(channel_, local_memory_, window_offset_, clock, waiting_);
   const bool happened = !marker && run.execute(static_cast<protocol::Hint>(immediate));
-  if (!happened && !marker && !run.must_stop()) {
+  if (run.waits()) {
     window.retry = 1;
-    return {retry, clock};
+    return {run.must_stop() ? stop : retry, clock};  // where the machine stops, it waits to the end
   }
   if (run.clock() != clock) {
     ProcessorState& state = channel_.processor;

@@ -10,6 +10,7 @@
 #include "emulator/description/description.hpp"
 #include "emulator/host/host_program.hpp"
 #include "emulator/niu/pe_states.hpp"
+#include "emulator/phase_names.hpp"
 
 namespace torolux {
 
@@ -20,6 +21,7 @@ inline constexpr std::size_t kBusStates = kBusKinds + 1;
 struct WatchedMachine {
   const MachineDescription& description;
   unsigned columns, rows;
+  const PhaseNames& phases;
 };
 
 /// Of a PE, at a moment. The limits are the machine's: places of the queues, slots, buffers.

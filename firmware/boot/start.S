@@ -33,9 +33,20 @@ _start:
 3:
   j 3b
 
-// Any trap ends the run. The stack may be what failed: begin a new one.
+// Any trap ends the run. The emulator finds the calls that led to it by these registers: mepc, then those that calls
+// keep, each in the word of its number. Others would cost the translated program dear, which must keep what is read
+// here. The stack may be what failed: begin a new one.
   .balign 4
 on_trap:
+  .option push
+  .option norelax
+  la t0, __trap_registers
+  .option pop
+  csrr t1, mepc
+  sw t1, 0(t0)
+  .irp number, 1, 2, 8, 9, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27
+  sw x\number, 4*\number(t0)
+  .endr
   la sp, image_stack_end
   csrr a0, mcause
   csrr a1, mepc
@@ -43,3 +54,12 @@ on_trap:
   call boot_trap
 4:
   j 4b
+
+// Not cleared at the start: that would take cycles.
+  .section .trap_registers, "aw", @nobits
+  .globl __trap_registers
+  .type __trap_registers, @object
+  .size __trap_registers, 4*32
+  .balign 4
+__trap_registers:
+  .space 4*32

@@ -25,6 +25,7 @@ void add_inspect_command(CLI::App& app, CommandAction& action);
 void add_compare_command(CLI::App& app, CommandAction& action);
 void add_tonemap_command(CLI::App& app, CommandAction& action);
 void add_run_command(CLI::App& app, CommandAction& action);
+void add_profile_command(CLI::App& app, CommandAction& action);
 void add_network_command(CLI::App& app, CommandAction& action);
 void add_lockstep_command(CLI::App& app, CommandAction& action);
 void add_bench_command(CLI::App& app, CommandAction& action);

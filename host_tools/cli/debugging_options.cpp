@@ -4,32 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <vector>
 
-#include "emulator/errors.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "host_tools/cli/parse_values.hpp"
+#include "host_tools/cli/table_options.hpp"
 
 namespace torolux {
 namespace {
-
-/// Takes each value of an option through `parse`; errors name the option.
-template <class Parse>
-void add_values(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
-                const std::string& group, Parse parse) {
-  const auto take = [name, parse](const std::vector<std::string>& texts) {
-    try {
-      for (const std::string& text : texts) parse(text);
-    } catch (const UsageError& error) {
-      throw UsageError(name + ": " + error.what());
-    } catch (const InputError& error) {
-      throw InputError(name + ": " + error.what());
-    }
-  };
-  CLI::Option* option = command.add_option_function<std::vector<std::string>>(name, take, help);
-  option->type_name(form)->allow_extra_args(false);
-  if (!group.empty()) option->group(group);
-}
 
 /// In single quotes for a shell, where it needs them.
 std::string shell_word(const std::string& text) {
@@ -55,8 +36,10 @@ void add_debugging_options(CLI::App& command, Debugging& debugging, const std::s
              group, [&debugging](const std::string& text) { debugging.gdb.push_back(parse_gdb_endpoint(text)); });
 }
 
-std::function<void(const GdbEndpoint&)> announce_debugger(const std::filesystem::path& image) {
-  return [file = shell_word(image.string())](const GdbEndpoint& debugger) {
+std::function<void(const GdbEndpoint&)> announce_debugger(
+    std::function<std::filesystem::path(unsigned pe)> image_of_pe) {
+  return [image_of_pe = std::move(image_of_pe)](const GdbEndpoint& debugger) {
+    const std::string file = shell_word(image_of_pe(debugger.pe).string());
     const std::string place = debugger.path.empty() ? "127.0.0.1:" + std::to_string(debugger.port)
                                                     : std::filesystem::absolute(debugger.path).string();
     std::cerr << "torolux: PE " << debugger.pe << " is halted until a debugger lets it go on:\n"

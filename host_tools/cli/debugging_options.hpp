@@ -16,7 +16,8 @@ namespace torolux {
 
 void add_debugging_options(CLI::App& command, Debugging& debugging, const std::string& group);
 
-/// As Debugging::listens: prints on standard error how to connect. image: that the PEs run.
-std::function<void(const GdbEndpoint&)> announce_debugger(const std::filesystem::path& image);
+/// As Debugging::listens: prints on standard error how to connect. image_of_pe: the file that a PE runs.
+std::function<void(const GdbEndpoint&)> announce_debugger(
+    std::function<std::filesystem::path(unsigned pe)> image_of_pe);
 
 }  // namespace torolux

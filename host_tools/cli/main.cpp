@@ -123,6 +123,7 @@ void add_commands(CLI::App& app, CommandAction& action) {
   add_compare_command(app, action);
   add_tonemap_command(app, action);
   add_run_command(app, action);
+  add_profile_command(app, action);
   add_network_command(app, action);
   add_lockstep_command(app, action);
   add_bench_command(app, action);

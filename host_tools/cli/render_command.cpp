@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <numeric>
+#include <vector>
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
@@ -18,6 +20,8 @@
 #include "host_tools/display/walk.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
+#include "host_tools/profile/profile_json.hpp"
+#include "host_tools/profile/profile_text.hpp"
 #include "host_tools/render/session.hpp"
 #include "host_tools/report/csv.hpp"
 #include "host_tools/report/figures.hpp"
@@ -52,6 +56,7 @@ void check_results_distinct(const PreparedRender& prepared, const RenderOptions&
   };
   add("--stats", options.stats);
   add("--report", options.report);
+  add("--profile", options.profile);
   add("--save-radiosity", options.save_radiosity);
   add("--save-mesh", options.save_mesh);
   add("--trace", options.trace.file);
@@ -73,6 +78,7 @@ void check_results_writable(const Resolved& resolved, const RenderOptions& optio
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
   if (options.report) check_file_writable(*options.report);
+  if (options.profile) check_file_writable(*options.profile);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
   if (options.save_mesh) check_file_writable(*options.save_mesh);
   if (options.checkpoint.file) check_file_writable(*options.checkpoint.file);
@@ -81,8 +87,8 @@ void check_results_writable(const Resolved& resolved, const RenderOptions& optio
 /// What tells of a run from its beginning cannot begin in its midst.
 void check_told_whole(const RenderOptions& options) {
   if (!options.checkpoint.resume) return;
-  if (options.trace.file || options.follow)
-    throw UsageError("--trace and --follow tell of a whole run: not of one that goes on by --resume");
+  if (options.trace.file || options.follow || options.profile)
+    throw UsageError("--trace, --follow and --profile tell of a whole run: not of one that goes on by --resume");
 }
 
 void print_notes(const std::vector<std::string>& notes, bool quiet) {
@@ -173,7 +179,7 @@ void show_on(Display& display, MachineChoice& machine) {
 }
 
 void write_results(const PreparedRender& prepared, const RenderOptions& options, const RenderResult& result,
-                   const std::string& statistics) {
+                   const std::string& statistics, const std::string& profile) {
   const Resolved& resolved = prepared.resolved;
   if (resolved.path.empty()) {
     for (const auto& file : resolved.outputs) write_layers(result.picture, result.layers, file, resolved.tone);
@@ -181,10 +187,21 @@ void write_results(const PreparedRender& prepared, const RenderOptions& options,
   if (options.stats) write_file(*options.stats, statistics);
   if (options.stats_csv) write_stats_tables(*options.stats_csv, stats_tables(result.figures));
   if (options.report) {
-    write_file(*options.report,
-               report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture, resolved.tone}));
+    write_file(*options.report, report_html({prepared.run.scene, statistics, result.figures.machine, &result.picture,
+                                             resolved.tone, profile}));
   }
   if (!options.quiet) std::cout << summary(prepared.run, result.figures) << std::flush;
+}
+
+/// Of all PEs together: into its file, and for the report; empty: there is none.
+std::string write_profile(const RenderOptions& options, const profile::CycleProfile& profile) {
+  if (!options.profile) return "";
+  const ProfileNames names(profile);
+  std::vector<unsigned> pes(profile.pes());
+  std::iota(pes.begin(), pes.end(), 0U);
+  const PathTree tree = paths_of(profile, names, pes);
+  write_file(*options.profile, folded_paths(tree, names));
+  return flame_graph_json(tree, names, pes.size());
 }
 
 /// Pages may look at the solved scene from elsewhere, and ask.
@@ -200,7 +217,7 @@ void walk_about(const PreparedRender& prepared, RenderSession& session, Display&
 
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   Resolved& resolved = prepared.resolved;
-  resolved.machine.debugging.listens = announce_debugger(firmware_image());
+  resolved.machine.debugging.listens = announce_debugger([](unsigned) { return firmware_image(); });
   check_told_whole(options);
   check_results_distinct(prepared, options);
   check_results_writable(resolved, options);
@@ -211,6 +228,8 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
   if (trace) resolved.machine.watcher = &trace->watcher();
+  profile::CycleProfile profile;
+  if (options.profile) resolved.machine.profile = &profile;
   keep_checkpoints(prepared, options.checkpoint);
   const auto from = checkpoint_to_resume(options.checkpoint, prepared.run);
   resolved.files.resume = from.get();
@@ -236,7 +255,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (growing) finish_growing(*growing, result, options.quiet);
 
   std::string statistics = stats_json(prepared.run, result.figures);
-  write_results(prepared, options, result, statistics);
+  write_results(prepared, options, result, statistics, write_profile(options, profile));
   if (display) {
     display->finish(&result.picture);
     walk_about(prepared, session, *display, options.quiet);

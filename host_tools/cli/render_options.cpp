@@ -71,6 +71,8 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FOLDER")
       ->group(group);
   path("--report", "The run as one .html page: picture, maps, time line, what limits each stage", options.report);
+  path("--profile", "Of the firmware: call paths and their cycles, one a line (docs/profile.md); --engine interpreted",
+       options.profile);
   add_value(command, "--follow", "X,Y|SHOT:POINT",
             "Tell one record's story: of a pixel's sample (X,Y or X,Y:SAMPLE) or of a direction of a shot's point "
             "(SHOT:POINT or SHOT:POINT:DIRECTION), all counted from 0",

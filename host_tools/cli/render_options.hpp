@@ -38,7 +38,7 @@ struct RenderOptions {
   // What comes out.
   std::vector<std::filesystem::path> outputs;
   bool no_picture = false;
-  std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report;
+  std::optional<std::filesystem::path> save_radiosity, save_mesh, radiosity, stats, stats_csv, report, profile;
   GrowingPictureChoice growing;
   TraceOptions trace;
   DisplayOptions display;

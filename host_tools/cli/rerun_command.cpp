@@ -45,6 +45,7 @@ Json read_statistics(const std::string& file) {
 /// The settings with the places of files that have moved.
 Json moved(Json settings, const RerunOptions& options) {
   if (options.scene) {
+    if (settings.contains("images")) throw UsageError("--scene: this run had several images; they have to be in place");
     const bool image = settings.contains("image");
     settings[image ? "image" : "scene_path"] = *options.scene;
   }
@@ -126,8 +127,10 @@ RunEnd run_image_again(const Json& was, const std::vector<std::string>& words, c
   run.engine = options.engine.value_or(run.engine);
   run.threads = options.threads;
   run.quiet = true;
-  const ProgramFiles inputs = with_hint(options, [&] { return program_files(run, read_inputs(run.program.inputs)); });
-  check_settings(was, settings_json(setup_from(run), inputs), options);
+  const MachineSetup setup = setup_from(run);
+  const ProgramFiles inputs =
+      with_hint(options, [&] { return program_files(run, setup, read_inputs(run.program.inputs)); });
+  check_settings(was, settings_json(setup, inputs), options);
   return run_prepared(run);
 }
 

@@ -8,6 +8,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/run_options.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
@@ -27,38 +28,41 @@ void print_summary(const MachineSetup& setup, const RunOutcome& outcome, double 
   }
   std::uint64_t packets = 0;
   for (const PeFigures& pe : figures.pes) packets += pe.packets_delivered;
-  std::cerr << "torolux: " << figures.pes.size() << " PEs halted at cycle " << grouped(figures.now) << " ("
-            << significant(1e3 * static_cast<double>(figures.now) / setup.description.processor.clock_hertz, 4)
+  std::cerr << "torolux: " << figures.pes.size()
+            << (figures.stopped ? " PEs stopped by --until at cycle " : " PEs halted at cycle ") << grouped(figures.now)
+            << " (" << significant(1e3 * static_cast<double>(figures.now) / setup.description.processor.clock_hertz, 4)
             << " ms of virtual time); " << grouped(figures.instructions()) << " instructions, " << grouped(packets)
             << " packets; " << duration(wall_seconds) << "\n";
 }
 
 /// Throws InputError where one result would be written over another, or over what is read.
-void check_results_distinct(const RunOptions& options) {
+void check_results_distinct(const RunOptions& options, const RunImages& images) {
   std::vector<NamedFile> written = written_files(options.program);
   if (options.stats) written.push_back({"--stats", *options.stats});
   if (options.trace.file) written.push_back({"--trace", *options.trace.file});
   if (options.report) written.push_back({"--report", *options.report});
+  for (NamedFile& file : files_of(options.ending.dumps)) written.push_back(std::move(file));
   std::vector<NamedFile> read = read_files(options.program);
-  read.push_back({"a file that is read", options.image});
+  for (const InputFile& image : images.files) read.push_back({"a file that is read", image.path});
   if (options.machine) read.push_back({"--machine", *options.machine});
   check_distinct(written, read);
 }
 
 }  // namespace
 
-ProgramFiles program_files(const RunOptions& options, const std::vector<Input>& read) {
-  ProgramFiles inputs;
-  inputs.files.push_back({"image", options.image, sha256_of_file(options.image)});
-  for (InputFile& input : digests_of(read)) inputs.files.push_back(std::move(input));
+ProgramFiles program_files(const RunOptions& options, const MachineSetup& setup, const std::vector<Input>& read) {
+  ProgramFiles inputs{images_of(options.images, setup.columns * setup.rows), digests_of(read), {}};
   for (const GivenFile& output : options.program.outputs) inputs.outputs.push_back(output.name);
   return inputs;
 }
 
 RunEnd run_prepared(const RunOptions& options) {
   MachineSetup setup = setup_from(options);
-  const Image image = load_image(options.image);
-  check_results_distinct(options);
+  std::vector<Input> read = read_inputs(options.program.inputs);
+  const ProgramFiles inputs = program_files(options, setup, read);
+  const ImageSet images = load_images(inputs.images);
+  setup.debugging.listens = announce_debugger([&images](unsigned pe) { return images.of(pe).file; });
+  check_results_distinct(options, inputs.images);
   check_files(options.program);
   if (options.stats) {
     check_file_writable(*options.stats);
@@ -69,18 +73,18 @@ RunEnd run_prepared(const RunOptions& options) {
   if (options.report) {
     check_file_writable(*options.report);
   }
-  std::vector<Input> read = read_inputs(options.program.inputs);
-  const ProgramFiles inputs = program_files(options, read);
+  const std::vector<MemoryDump> dumps = checked_dumps(options.ending, setup, images);
   ServedFiles files(std::move(read), options.program.outputs);
   const auto begin = std::chrono::steady_clock::now();
   const auto display = open_display(options.display, {"run",
-                                                      std::filesystem::path(options.image).filename().string(),
+                                                      inputs.images.names(),
                                                       setup.columns,
                                                       setup.rows,
                                                       setup.description.processor.clock_hertz,
                                                       0,
                                                       0,
-                                                      {}});
+                                                      {},
+                                                      images.phase_names()});
   if (display) {
     setup.progress_seconds = DisplayFeed::kUpdateSeconds;
     setup.pacer = &display->pace();
@@ -90,13 +94,16 @@ RunEnd run_prepared(const RunOptions& options) {
     print_text(text, options.program.raw);
     if (display) display->say(text);
   };
-  const auto progress = [&display](const Machine& machine, Cycles now) {
+  const Timeout timeout(options.ending.timeout);
+  const auto progress = [&display, &timeout](const Machine& machine, Cycles now) {
+    timeout.check(machine, now);
     return !interrupted() && (!display || display->show(machine, now));
   };
   const auto trace = trace_file(options.trace, TracedRun::image, setup.columns * setup.rows);
   if (trace) setup.watcher = &trace->watcher();
+  const auto at_end = [&dumps](const Machine& machine) { write_dumps(machine, dumps); };
   const RunOutcome outcome = run_displayed(display.get(), [&] {
-    return run_traced(trace.get(), [&] { return run_program(setup, image, files, print, progress); });
+    return run_traced(trace.get(), [&] { return run_program(setup, images, files, print, progress, at_end); });
   });
   const MachineFigures& figures = outcome.figures;
   if (interrupted()) {
@@ -116,7 +123,8 @@ RunEnd run_prepared(const RunOptions& options) {
     write_stats_tables(*options.stats_csv, stats_tables(figures));
   }
   if (options.report) {
-    write_file(*options.report, report_html({options.image, statistics, figures, nullptr, {}}));
+    const std::string profile = options.profile_for_report ? options.profile_for_report() : "";
+    write_file(*options.report, report_html({inputs.images.paths(), statistics, figures, nullptr, {}, profile}));
   }
   if (!options.quiet) {
     print_summary(setup, outcome, wall_seconds);

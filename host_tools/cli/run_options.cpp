@@ -16,9 +16,7 @@
 namespace torolux {
 
 void add_run_options(CLI::App& command, RunOptions& options) {
-  command.add_option("IMAGE", options.image, "A firmware image (ELF for rv32imafc); see docs/writing_firmware.md")
-      ->required()
-      ->type_name("");
+  add_image_options(command, options.images);
   add_program_options(command, options.program);
   command.add_option("--pes", options.pes, "PEs of the torus, columns x rows")->type_name("PxQ")->capture_default_str();
   command
@@ -31,6 +29,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_debugging_options(command, options.debugging, "");
   add_ideal_option(command, options.ideal, "");
   add_fault_options(command, options.faults, "");
+  add_ending_options(command, options.ending);
   command.add_option("--threads", options.threads, "Threads of this computer that work for the machine [all cores]")
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));
@@ -61,15 +60,19 @@ MachineSetup setup_from(const RunOptions& options) {
   engine_named(options.engine);
   setup.engine = options.engine;
   setup.debugging = options.debugging;
-  setup.debugging.listens = announce_debugger(options.image);
   setup.threads = options.threads;
   setup.arguments = options.program.arguments;
+  // Where no IMAGE is needed, what stands in its place is the program's.
+  if (!options.images.others.empty() && names_each_pe(options.images, setup.columns * setup.rows))
+    setup.arguments.insert(setup.arguments.begin(), options.images.others);
+  setup.until = options.ending.until;
   if (options.machine) {
     setup.description = load_machine_description(*options.machine);
   }
   for (const std::string& value : options.machine_values) set_machine_value(setup.description, value);
   setup.description.ideal = either(setup.description.ideal, options.ideal);
   options.faults.apply_to(setup.description);
+  setup.profile = options.profile;
   return setup;
 }
 

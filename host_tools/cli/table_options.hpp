@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "host_tools/cli/named_value.hpp"
 #include "host_tools/settings/given_settings.hpp"
@@ -19,6 +20,18 @@ CLI::Option* add_value(CLI::App& command, const std::string& name, const std::st
   return command.add_option_function<std::string>(name, take, help)
       ->type_name(form)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+/// The same for an option that may be repeated: each of its texts goes through `parse`. group: "": the general one.
+template <class Parse>
+void add_values(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
+                const std::string& group, Parse parse) {
+  const auto take = [name, parse](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) value_of(name, parse, text);
+  };
+  CLI::Option* option = command.add_option_function<std::vector<std::string>>(name, take, help);
+  option->type_name(form)->allow_extra_args(false);
+  if (!group.empty()) option->group(group);
 }
 
 /// The group's heading in --help.

@@ -23,6 +23,17 @@ std::string text_of(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// By number, up to the last that has a name; null: it has none.
+nlohmann::json phases_json(const PhaseNames& names) {
+  nlohmann::json json = nlohmann::json::array();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) continue;
+    json.get_ref<nlohmann::json::array_t&>().resize(i);
+    json.push_back(names[i]);
+  }
+  return json;
+}
+
 nlohmann::json json_of(const DisplayedRun& run) {
   return {{"protocol", 1},
           {"what", run.what},
@@ -30,7 +41,7 @@ nlohmann::json json_of(const DisplayedRun& run) {
           {"columns", run.columns},
           {"rows", run.rows},
           {"clock_hertz", run.clock_hertz},
-          {"phases", protocol::kPhaseNames},
+          {"phases", phases_json(run.phases)},
           {"exposure_ev", run.tone.exposure_ev},
           {"tone_curve", run.tone.curve == ToneCurve::filmic ? "filmic" : "linear"}};
 }

@@ -27,6 +27,7 @@ struct DisplayedRun {
   double clock_hertz = 0;
   std::uint32_t width = 0, height = 0;  ///< of the picture; 0: there is none
   ToneMapping tone;
+  PhaseNames phases = built_in_phase_names();  ///< of the image
 };
 
 class Display {

@@ -37,8 +37,8 @@ struct PixelsHeader {
   std::uint32_t count;
 };
 
-/// Begins `loads`. Then, for each PE a byte, 255 for all of the time: its load; its phase (protocol::Phase; 255: it was
-/// not busy); and two bytes, 65535 for all of the time: the use of its outgoing links, those to the east of all PEs
+/// Begins `loads`. Then, for each PE a byte, 255 for all of the time: its load; its phase (by number; 255: it was not
+/// busy); and two bytes, 65535 for all of the time: the use of its outgoing links, those to the east of all PEs
 /// first, then west, south, north.
 struct LoadsHeader {
   std::uint64_t now;  ///< virtual time [cycles]

@@ -36,7 +36,7 @@ Json stage_json(const PeStage& stage) {
           {"stores", std::move(stores)},
           {"used_bytes", stage.used_bytes},
           {"available_bytes", stage.available_bytes},
-          {"figures", stage.figures ? pes_json({*stage.figures})[0] : Json()}};
+          {"figures", stage.figures ? pes_json({*stage.figures}, built_in_phase_names())[0] : Json()}};
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ Json answer_json(const PeAnswer& answer) {
           {"row", answer.row},
           {"pixels", answer.pixels},
           {"box", std::move(box)},
-          {"figures", pes_json({answer.figures})[0]},
+          {"figures", pes_json({answer.figures}, built_in_phase_names())[0]},
           {"stages", std::move(stages)},
           {"last_packets", std::move(packets)}};
 }

@@ -93,6 +93,7 @@ struct RenderSession::Parts {
     if (then == Machine::Then::stay) machine_setup.record_watcher = &relay;
     machine_setup.pacer = choice.pacer;
     machine_setup.hop_watcher = choice.hop_watcher;
+    machine_setup.profile = choice.profile;
     machine_setup.keeper = keeper;
     return machine_setup;
   }

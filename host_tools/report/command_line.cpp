@@ -124,7 +124,8 @@ void add_machine(Words& words, const Json& machine) {
 }
 
 void add_engine(Words& words, const Json& settings) {
-  if (settings.at("engine") != kDefaultEngine) add(words, "--engine", text(settings.at("engine")));
+  const char* const usual = settings.at("command") == "run" ? kAutomaticEngine : kDefaultEngine;
+  if (settings.at("engine") != usual) add(words, "--engine", text(settings.at("engine")));
   if (const auto pes = settings.find("qemu_pes"); pes != settings.end()) add(words, "--qemu-pes", joined(*pes, ','));
 }
 
@@ -145,6 +146,23 @@ Words render_words(const Json& settings) {
   if (!automatic(settings, "pe_memory")) add(words, "--pe-memory", text(settings.at("pe_memory")));
   add(words, "--subspaces", automatic(settings, "subspaces") ? "auto" : joined(settings.at("subspaces"), 'x'));
   add_options(words, settings, [](const Option& option) { return option.bears_on == BearsOn::machine; });
+  return words;
+}
+
+/// One image of all PEs, or each one's PEs.
+Words run_words(const Json& settings) {
+  Words words = {"run"};
+  if (const auto images = settings.find("images"); images != settings.end()) {
+    for (const Json& image : *images) {
+      const Json& input = settings.at("inputs").at(image.at("input").get<std::size_t>());
+      add(words, "--image", text(image.at("pes")) + "=" + text(input.at("path")));
+    }
+  } else {
+    words.push_back(text(settings.at("image")));
+  }
+  add(words, "--pes", joined(settings.at("pes"), 'x'));
+  add(words, "--pe-memory", text(settings.at("pe_memory")));
+  if (const auto until = settings.find("until"); until != settings.end()) add(words, "--until", text(*until));
   return words;
 }
 
@@ -170,8 +188,7 @@ Words command_line_of(const Json& settings) {
     if (settings.at("command") == "render") {
       words = render_words(settings);
     } else if (settings.at("command") == "run") {
-      words = {"run",         text(settings.at("image")),    "--pes", joined(settings.at("pes"), 'x'),
-               "--pe-memory", text(settings.at("pe_memory"))};
+      words = run_words(settings);
     } else {
       throw InputError("these are settings of the command '" + text(settings.at("command")) +
                        "'; only render and run are repeated");

@@ -48,13 +48,24 @@ class Line {
   std::string text_;
 };
 
+/// A text of the user's in a table (RFC 4180).
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 CsvTable pes_table(const MachineFigures& machine) {
   CsvTable table{"pes", "", {}};
   Line header;
   header.add("stage,pe,begin,cycles,busy_cycles");
   header.add_names("wait_", kWaitReasonNames);
   header.add("idle_at_end,instructions,packets_sent,packets_delivered,records_diverted,copy_out_cycles,copy_in_cycles");
-  header.add_names("phase_", protocol::kPhaseNames).add("phase_outside");
+  for (const std::string& phase : machine.phases) {
+    if (!phase.empty()) header.add(csv_text("phase_" + phase));
+  }
+  header.add("phase_outside");
   table.header = header.text();
   for (const StageFigures& stage : machine.stages) {
     for (std::size_t pe = 0; pe < stage.figures.pes.size(); ++pe) {
@@ -64,7 +75,10 @@ CsvTable pes_table(const MachineFigures& machine) {
       row.add_all(figures.waits, kWaitReasons).add(figures.idle_at_end).add(figures.instructions);
       row.add(figures.packets_sent).add(figures.packets_delivered).add(figures.records_diverted);
       row.add(figures.copy_out_cycles).add(figures.copy_in_cycles);
-      row.add_all(figures.phase_cycles, protocol::kPhaseNames.size()).add(figures.outside_phases());
+      for (std::size_t i = 0; i < machine.phases.size(); ++i) {
+        if (!machine.phases[i].empty()) row.add(figures.phase_cycles[i]);
+      }
+      row.add(figures.outside_phases());
       table.rows.push_back(row.text());
     }
   }

@@ -90,6 +90,7 @@ std::string data_text(const ReportInput& input) {
     stages[i]["links"] = links_json(input.machine.stages[i].figures);
   data = packed(data);
   if (input.picture != nullptr) data["picture"] = picture_json(*input.picture, input.tone);
+  if (!input.profile.empty()) data["profile"] = Json::parse(input.profile);
   const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string text;
   text.reserve(json.size());

@@ -20,6 +20,7 @@ struct ReportInput {
   const MachineFigures& machine;     ///< for what is not in the statistics: each stage's links
   const Picture* picture = nullptr;  ///< linear radiance; none: of `torolux run`
   ToneMapping tone;
+  std::string_view profile = {};  ///< of flame_graph_json; empty: none
 };
 
 /// Each array of objects in the data that all have the same keys is written as an object of columns, {"$rows": n,

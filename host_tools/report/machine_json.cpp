@@ -14,9 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json phases_of(const std::array<Cycles, protocol::kPhases>& cycles, Cycles outside) {
+Json phases_of(const std::array<Cycles, protocol::kPhases>& cycles, Cycles outside, const PhaseNames& names) {
   Json phases = Json::object();
-  for (std::size_t i = 0; i < protocol::kPhaseNames.size(); ++i) phases[protocol::kPhaseNames[i]] = cycles[i];
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty()) phases[names[i]] = cycles[i];
+  }
   phases["outside"] = outside;
   return phases;
 }
@@ -135,11 +137,11 @@ Json machine_json(const MachineFigures& machine) {
   json["busy_cycles"] = sums.busy;
   json["waits"] = waits_of(sums.waits);
   json["idle_at_end"] = sums.idle_at_end;
-  json["phases"] = phases_of(sums.phases, sums.outside);
+  json["phases"] = phases_of(sums.phases, sums.outside, machine.phases);
   return json;
 }
 
-Json pes_json(const std::vector<PeFigures>& pes) {
+Json pes_json(const std::vector<PeFigures>& pes, const PhaseNames& phases) {
   Json json = Json::array();
   for (const PeFigures& pe : pes) {
     json.push_back({{"begin", pe.begin},
@@ -156,7 +158,7 @@ Json pes_json(const std::vector<PeFigures>& pes) {
                     {"records_diverted", pe.records_diverted},
                     {"copy_out_cycles", pe.copy_out_cycles},
                     {"copy_in_cycles", pe.copy_in_cycles},
-                    {"phase_cycles", phases_of(pe.phase_cycles, pe.outside_phases())}});
+                    {"phase_cycles", phases_of(pe.phase_cycles, pe.outside_phases(), phases)}});
   }
   return json;
 }
@@ -193,7 +195,7 @@ Json stages_json(const MachineFigures& machine, const std::vector<RoundFigures>&
     Json one = {{"name", stage.name}, {"begin", stage.begin}, {"cycles", stage.figures.now}};
     one["limits"] = limits_json(limits_of(stage, rounds));
     one.update(machine_json(stage.figures));
-    one["pes"] = pes_json(stage.figures.pes);
+    one["pes"] = pes_json(stage.figures.pes, machine.phases);
     json.push_back(std::move(one));
   }
   return json;

@@ -12,8 +12,8 @@ namespace torolux {
 
 /// All but what there is one of for each PE, link, stage, round or slice of time.
 nlohmann::ordered_json machine_json(const MachineFigures& machine);
-/// One object for each PE.
-nlohmann::ordered_json pes_json(const std::vector<PeFigures>& pes);
+/// One object for each PE. phases: as in MachineFigures.
+nlohmann::ordered_json pes_json(const std::vector<PeFigures>& pes, const PhaseNames& phases);
 /// One object for each stage: name, begin, cycles, the keys of machine_json, limits, pes.
 nlohmann::ordered_json stages_json(const MachineFigures& machine, const std::vector<RoundFigures>& rounds);
 /// One object for each PE: its four links, and those from and to its NIU.

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host_tools/report/text.hpp"
 #include "host_tools/report/version.hpp"
 #include "host_tools/settings/options.hpp"
 #include "host_tools/settings/overloaded.hpp"
@@ -137,12 +138,18 @@ Json settings_json(const MachineSetup& setup, const ProgramFiles& inputs) {
   json["command"] = "run";
   json["versions"] = versions_json();
   json["engine"] = setup.engine;
-  json["image"] = inputs.files.at(0).path;
-  json["inputs"] = inputs_json(inputs.files);
+  const std::vector<InputFile>& images = inputs.images.files;
+  if (images.size() == 1) json["image"] = images.front().path;
+  std::vector<InputFile> files = images;
+  files.insert(files.end(), inputs.read.begin(), inputs.read.end());
+  json["inputs"] = inputs_json(files);
+  for (std::uint32_t file = 0; images.size() > 1 && file < images.size(); ++file)
+    json["images"].push_back({{"pes", ranges(inputs.images.pes_of(file))}, {"input", file}});
   if (!inputs.outputs.empty()) json["outputs"] = inputs.outputs;
   if (!setup.arguments.empty()) json["arguments"] = setup.arguments;
   json["pes"] = {setup.columns, setup.rows};
   json["pe_memory"] = setup.local_memory_bytes;
+  if (setup.until != 0) json["until"] = setup.until;
   if (!setup.debugging.qemu_pes.empty()) json["qemu_pes"] = setup.debugging.qemu_pes;
   json["machine"] = machine_json(setup.description);
   return json;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
-#include "host_tools/files/digest.hpp"
 #include "host_tools/report/figures.hpp"
+#include "host_tools/report/run_images.hpp"
 
 namespace torolux {
 
@@ -19,10 +19,11 @@ inline constexpr unsigned kStatisticsVersion = 2;
 /// where they are left to the program.
 nlohmann::ordered_json settings_json(const RunDescription& run, const RenderFigures* figures);
 
-/// Files of `torolux run` that bear on it: the image first, then what programs may read; and the names by which they may
-/// write others.
+/// Files of `torolux run` that bear on it: images, and what programs may read; and the names by which they may write
+/// others.
 struct ProgramFiles {
-  std::vector<InputFile> files;
+  RunImages images;
+  std::vector<InputFile> read;
   std::vector<std::string> outputs;
 };
 /// Those of `torolux run`.

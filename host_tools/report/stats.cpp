@@ -77,7 +77,7 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["visits"] = {{"radiosity", figures.radiosity_visits}, {"ray_tracing", figures.ray_visits}};
   json["rounds"] = rounds_json(figures.rounds);
   json["links"] = links_json(machine);
-  json["pes"] = pes_json(machine.pes);
+  json["pes"] = pes_json(machine.pes, machine.phases);
   json["wall_seconds"] = figures.wall_seconds;
   json["host"] = {{"threads", run.machine.threads},
                   {"scheduler_seconds", machine.scheduler_seconds},

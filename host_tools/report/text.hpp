@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace torolux {
 
@@ -22,6 +23,8 @@ std::string bytes_text(std::uint64_t bytes);
 std::string duration(double seconds);
 /// 16 digits: 0xABCD -> "0x000000000000abcd".
 std::string hexadecimal(std::uint64_t value);
+/// Ascending numbers: {0, 1, 2, 7} -> "0-2,7".
+std::string ranges(const std::vector<unsigned>& numbers);
 /// Padded with spaces in front, or behind, to `width` characters.
 std::string right(const std::string& text, std::size_t width);
 std::string left(const std::string& text, std::size_t width);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "host_tools/report/machine_json.hpp"
@@ -21,8 +22,9 @@ std::string after_exit(const std::optional<PeExit>& exit) {
          " at cycle " + std::to_string(exit->time);
 }
 
-/// The machine stops when nothing can happen any more. That is the end only if every program has ended.
-void check_halted(const RunOutcome& outcome) {
+/// The machine stops when nothing can happen any more. That is the end only if every program has ended: else what is
+/// wrong leaves.
+std::string hang_of(const Machine& machine, const RunOutcome& outcome) {
   const MachineFigures& figures = outcome.figures;
   constexpr std::size_t kMostNamed = 16;
   std::string waiting;
@@ -35,41 +37,53 @@ void check_halted(const RunOutcome& outcome) {
       waiting += (waiting.empty() ? "" : ", ") + std::to_string(pe);
     }
   }
-  if (count != 0) {
-    throw MachineFailure("at cycle " + std::to_string(figures.now) + " nothing is under way any more, and " +
-                         std::to_string(count) + " PEs still wait to receive: PE " + waiting +
-                         (count > kMostNamed ? ", ..." : "") + after_exit(outcome.first_exit));
+  if (figures.stopped || count == 0) return "";
+  return "at cycle " + std::to_string(figures.now) + " nothing is under way any more, and " + std::to_string(count) +
+         " PEs still wait to receive: PE " + waiting + (count > kMostNamed ? ", ..." : "") +
+         after_exit(outcome.first_exit) + machine.where_pes_stand();
+}
+
+/// What is wrong with what is kept of a run that has failed is told behind the failure.
+[[noreturn]] void end_failed(const Machine& machine, const std::string& failure, const AtEnd& at_end) {
+  try {
+    if (at_end) at_end(machine);
+  } catch (const InputError& error) {
+    throw MachineFailure(failure + "\n" + error.what());
   }
+  throw MachineFailure(failure);
 }
 
 }  // namespace
 
-RunOutcome run_program(const MachineSetup& setup, const Image& image, ServedFiles& files,
+RunOutcome run_program(const MachineSetup& setup, ImageSet images, ServedFiles& files,
                        const std::function<void(const PeText&)>& on_text,
-                       const std::function<bool(const Machine&, Cycles)>& progress) {
-  Machine machine(setup, image);
+                       const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end) {
+  Machine machine(setup, std::move(images));
   Listener listener(files, on_text);
+  std::string hang;
   try {
-    machine.run(listener, [&](Cycles now) { return !progress || progress(machine, now); });
-  } catch (const MachineFailure&) {
+    machine.run(
+        listener, [&](Cycles now) { return !progress || progress(machine, now); }, Machine::Then::stay);
+    hang = hang_of(machine, {machine.figures(), listener.first_exit()});
+    machine.end();
+  } catch (const MachineFailure& failure) {
     listener.finish();
-    throw;
+    end_failed(machine, failure.what(), at_end);
   }
   listener.finish();
-  RunOutcome outcome{machine.figures(), listener.first_exit()};
-  check_halted(outcome);
-  return outcome;
+  if (!hang.empty()) end_failed(machine, hang, at_end);
+  if (at_end) at_end(machine);
+  return {machine.figures(), listener.first_exit()};
 }
 
-MachineFigures run_image(const MachineSetup& setup, const Image& image,
-                         const std::function<void(const PeText&)>& on_text,
-                         const std::function<bool(const Machine&, Cycles)>& progress) {
+MachineFigures run_image(const MachineSetup& setup, ImageSet images, const std::function<void(const PeText&)>& on_text,
+                         const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end) {
   ServedFiles none({}, {});
-  return run_program(setup, image, none, on_text, progress).figures;
+  return run_program(setup, std::move(images), none, on_text, progress, at_end).figures;
 }
 
-std::string run_stats_json(const MachineSetup& setup, const ProgramFiles& inputs,
-                           const MachineFigures& figures, double wall_seconds) {
+std::string run_stats_json(const MachineSetup& setup, const ProgramFiles& inputs, const MachineFigures& figures,
+                           double wall_seconds) {
   using Json = nlohmann::ordered_json;
   Json json;
   json["version"] = kVersion;
@@ -82,7 +96,7 @@ std::string run_stats_json(const MachineSetup& setup, const ProgramFiles& inputs
   json["stages"] = stages_json(figures, {});
   json["time_line"] = time_line_json(figures.time_line);
   json["links"] = links_json(figures);
-  json["pes"] = pes_json(figures.pes);
+  json["pes"] = pes_json(figures.pes, figures.phases);
   json["wall_seconds"] = wall_seconds;
   json["host"] = {{"threads", setup.threads},
                   {"scheduler_seconds", figures.scheduler_seconds},

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "emulator/machine/machine.hpp"
-#include "host_tools/files/digest.hpp"
 #include "host_tools/report/settings_json.hpp"
 #include "host_tools/run/listener.hpp"
 #include "host_tools/run/pe_text.hpp"
@@ -21,20 +20,23 @@ struct RunOutcome {
   std::optional<PeExit> first_exit;  ///< in virtual time, of a program that has ended with another status than 0
 };
 
-/// Runs the image until every PE has halted. on_text is called for each line or message of text, progress as by
-/// Machine::run, with the machine to look at. files: what programs may open; not finished here.
+/// Called with the machine when its run has ended, failed or not.
+using AtEnd = std::function<void(const Machine&)>;
+
+/// Runs the images (an Image: all PEs have it) until every PE has halted, or until the set-up's end. on_text is called
+/// for each line or message of text, progress as by Machine::run, with the machine to look at. files: what programs may
+/// open; not finished here.
 /// Throws InputError (the image does not fit), MachineFailure (trap, dead PE, PEs that wait for ever, ...).
-RunOutcome run_program(const MachineSetup& setup, const Image& image, ServedFiles& files,
+RunOutcome run_program(const MachineSetup& setup, ImageSet images, ServedFiles& files,
                        const std::function<void(const PeText&)>& on_text,
-                       const std::function<bool(const Machine&, Cycles)>& progress);
+                       const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end = {});
 
 /// The same without files.
-MachineFigures run_image(const MachineSetup& setup, const Image& image,
-                         const std::function<void(const PeText&)>& on_text,
-                         const std::function<bool(const Machine&, Cycles)>& progress);
+MachineFigures run_image(const MachineSetup& setup, ImageSet images, const std::function<void(const PeText&)>& on_text,
+                         const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end = {});
 
 /// The figures as one JSON object, ended by a line end; the keys are those of `torolux render --stats`.
-std::string run_stats_json(const MachineSetup& setup, const ProgramFiles& inputs,
-                           const MachineFigures& figures, double wall_seconds);
+std::string run_stats_json(const MachineSetup& setup, const ProgramFiles& inputs, const MachineFigures& figures,
+                           double wall_seconds);
 
 }  // namespace torolux

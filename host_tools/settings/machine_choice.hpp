@@ -18,6 +18,9 @@ namespace torolux {
 class MachineWatcher;  // emulator/trace/watcher.hpp
 class Pacer;           // emulator/trace/pacer.hpp
 class HopWatcher;      // emulator/torus/hop_watcher.hpp
+namespace profile {
+class CycleProfile;  // emulator/profile/cycle_profile.hpp
+}
 class RecordFollower;  // host_tools/setup/record_follower.hpp
 
 /// The machine that makes it.
@@ -40,7 +43,8 @@ struct MachineChoice {
   RecordFollower* follower = nullptr;  ///< likewise
   Pacer* pacer = nullptr;              ///< likewise
   HopWatcher* hop_watcher = nullptr;   ///< likewise
-  double progress_seconds = 0.1;       ///< from one call of a render's `progress` to the next, about [s of wall time]
+  profile::CycleProfile* profile = nullptr;  ///< likewise; with the engine `interpreted` alone
+  double progress_seconds = 0.1;  ///< from one call of a render's `progress` to the next, about [s of wall time]
 };
 
 /// The scheme, and all that it has where nothing else is said.

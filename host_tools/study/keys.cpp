@@ -47,7 +47,7 @@ Json run_settings(const std::vector<std::string>& words, double& work) {
   const RunOptions options = parse_run_options(after_command(words));
   const MachineSetup setup = setup_from(options);
   work = static_cast<double>(setup.columns) * setup.rows;
-  return settings_json(setup, program_files(options, read_inputs(options.program.inputs)));
+  return settings_json(setup, program_files(options, setup, read_inputs(options.program.inputs)));
 }
 
 /// Options by name, which has an order of its own.

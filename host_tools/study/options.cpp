@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 #include "emulator/description/description.hpp"
 #include "emulator/nearest_name.hpp"
@@ -14,9 +15,9 @@ namespace torolux::study {
 namespace {
 
 /// These a study decides itself, or they are for looking at one run.
-constexpr std::array<std::string_view, 13> kNotInPlans = {
-    "help",           "output",    "no-picture", "stats",   "stats-csv", "quiet", "verbose",
-    "save-radiosity", "save-mesh", "gdb",        "threads", "set",       "format"};
+constexpr std::array<std::string_view, 14> kNotInPlans = {
+    "help",    "profile",        "output",    "no-picture", "stats",   "stats-csv", "quiet",
+    "verbose", "save-radiosity", "save-mesh", "gdb",        "threads", "set",       "format"};
 constexpr std::array<std::string_view, 3> kCommands = {"render", "run", "network"};
 constexpr std::string_view kMachine = "machine.";
 
@@ -62,7 +63,7 @@ std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> 
     if (option.name == "scene" || option.name == "image") words.insert(words.begin() + 1, value_of(option));
   }
   for (const PlanOption& option : options) {
-    if (option.name == "scene" || option.name == "image") continue;
+    if (option.name == "scene" || option.name == "image" || option.name == kArguments) continue;
     if (option.name.starts_with(kMachine)) {
       words.insert(words.end(), {"--set", option.name.substr(kMachine.size()) + "=" + option.value});
     } else if (!option.flag) {
@@ -70,6 +71,12 @@ std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> 
     } else if (option.value == "true") {
       words.push_back("--" + option.name);
     }
+  }
+  for (const PlanOption& option : options) {
+    if (option.name != kArguments) continue;
+    words.push_back(kEndOfOptions);
+    std::istringstream text(option.value);
+    for (std::string word; text >> word;) words.push_back(word);
   }
   return words;
 }

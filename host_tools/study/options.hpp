@@ -15,7 +15,11 @@ namespace torolux::study {
 /// Throws InputError for a command that is not there or cannot be studied; place: where it is named.
 std::vector<std::string> options_of(const std::string& command, const Place& place);
 
-/// The words after `torolux`: the command, its scene or image, options. Paths are relative to the plan's folder.
+/// What follows belongs to the program on the PEs.
+inline constexpr const char* kEndOfOptions = "--";
+
+/// The words after `torolux`: the command, its scene or image, options, and behind kEndOfOptions the program's
+/// arguments. Paths are relative to the plan's folder.
 std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> options);
 
 }  // namespace torolux::study

@@ -109,6 +109,13 @@ class PlanReader {
     } else if (const auto* flag = node.as_boolean()) {
       result.value = flag->get() ? "true" : "false";
       result.flag = true;
+    } else if (const auto* words = node.as_array(); words != nullptr && name == kArguments) {
+      for (const toml::node& word : *words) {
+        const std::string argument = option(kArguments, word, place_of(word, file_)).value;
+        if (word.is_array() || argument.empty() || argument.find(' ') != std::string::npos)
+          refuse(place_of(word, file_), "an argument in a plan is a text without blanks, or a number");
+        result.value += (result.value.empty() ? "" : " ") + argument;
+      }
     } else {
       refuse(place, "'" + name + "' must be a text, a number, or true or false");
     }

@@ -11,10 +11,14 @@
 
 namespace torolux::study {
 
+/// What stands behind `--`, for the program on the PEs.
+inline constexpr const char* kArguments = "arguments";
+
 /// One option of a command.
 struct PlanOption {
-  std::string name;   ///< long name without dashes ("max-shots"), "scene", "image", or "machine.torus.flit_bytes"
-  std::string value;  ///< as on the command line; of a flag "true" or "false"
+  /// Long name without dashes ("max-shots"), "scene", "image", "machine.torus.flit_bytes", or kArguments.
+  std::string name;
+  std::string value;  ///< as on the command line; of a flag "true" or "false"; of kArguments words with blanks between
   bool flag = false;  ///< written as a boolean
   Place place;
 };

@@ -11,6 +11,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/report/settings_json.hpp"
+#include "host_tools/study/options.hpp"
 
 namespace torolux::study {
 namespace {
@@ -79,9 +80,10 @@ std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolde
     words.insert(words.end(), {"--format", "csv"});
     return words;
   }
-  words.insert(words.end(), {"--threads", std::to_string(threads), "--quiet"});
-  if (words.front() == "render") words.emplace_back("--no-picture");
-  words.insert(words.end(), {"--stats", folder.file(run.key).string()});
+  std::vector<std::string> more = {"--threads", std::to_string(threads), "--quiet"};
+  if (words.front() == "render") more.emplace_back("--no-picture");
+  more.insert(more.end(), {"--stats", folder.file(run.key).string()});
+  words.insert(std::ranges::find(words, kEndOfOptions), more.begin(), more.end());
   return words;
 }
 

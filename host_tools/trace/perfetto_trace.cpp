@@ -85,6 +85,7 @@ bool PerfettoTrace::room(Cycles time, std::uint64_t bytes) {
 void PerfettoTrace::begin(const WatchedMachine& machine) {
   const unsigned pes = machine.columns * machine.rows;
   columns_ = machine.columns;
+  phases_ = machine.phases;
   hertz_ =
       std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(machine.description.processor.clock_hertz)));
   shown_.assign(pes, choice_.pes.empty());
@@ -162,7 +163,7 @@ void PerfettoTrace::change(Lane& lane, TrackId track, Cycles time, NameId name) 
 
 NameId PerfettoTrace::name_of_state(PeState state) {
   NameId& name = state_names_.at(state);
-  if (name == 0) name = packets_.name(name_of_pe_state(state));
+  if (name == 0) name = packets_.name(name_of_pe_state(state, phases_));
   return name;
 }
 

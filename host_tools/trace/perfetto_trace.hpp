@@ -84,6 +84,7 @@ class PerfettoTrace final : public MachineWatcher {
   TraceChoice choice_;
   PerfettoPackets packets_;
   unsigned columns_ = 0;
+  PhaseNames phases_;
   std::uint64_t hertz_ = 1;
   std::vector<bool> shown_;
   Cycles last_ = 0;

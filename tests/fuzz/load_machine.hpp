@@ -7,11 +7,25 @@
 #include <vector>
 
 #include "emulator/description/description.hpp"
+#include "emulator/engines/image/backtrace.hpp"
+#include "emulator/engines/image/debug_info.hpp"
 #include "emulator/engines/image/image.hpp"
 #include "emulator/errors.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux {
+
+/// From each function: there, memory holds addresses of the same function.
+inline void follow_calls(const Image& image, const DebugInfo& debug_info) {
+  constexpr std::size_t kMostFollowed = 64;
+  for (std::size_t i = 0; i < image.symbols.size() && i < kMostFollowed; ++i) {
+    FrameRegisters frame;
+    frame.pc = image.symbols[i].address + image.symbols[i].bytes / 2;
+    for (auto& x : frame.x) x = protocol::kLocalMemoryBase;
+    const CallStack stack = call_stack(image, debug_info, frame, [&frame](std::uint32_t) { return frame.pc; });
+    if (stack.frames.empty() || stack.frames.size() > kMostFrames || in_words(stack).empty()) __builtin_trap();
+  }
+}
 
 /// True: loaded. False: refused as bad input, with a message that names the file. Anything else ends the program.
 inline bool load_elf(std::span<const std::byte> bytes) {
@@ -22,6 +36,7 @@ inline bool load_elf(std::span<const std::byte> bytes) {
     }
     std::vector<std::byte> memory(protocol::kSmallestLocalMemory);
     image.load_into(memory);
+    follow_calls(image, DebugInfo({bytes.begin(), bytes.end()}));
     return true;
   } catch (const InputError& error) {
     if (!std::string(error.what()).starts_with("fuzzed.elf: ")) __builtin_trap();

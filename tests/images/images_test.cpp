@@ -215,8 +215,10 @@ TEST(Places, TrapsAndLoopsAreToldWithFileAndLine) {
 }
 
 TEST(Places, AnImageThatIsNotThereHasNoLines) {
-  EXPECT_EQ(source_line("no/such/image.elf", 0x8000'0000U), "");
-  EXPECT_EQ(source_line(std::filesystem::path(TOROLUX_SOURCE_DIR) / "README.md", 0x8000'0000U), "");
+  EXPECT_EQ(source_line(DebugInfo({}), 0x8000'0000U), "");
+  EXPECT_EQ(
+      source_line(DebugInfo(read_image_file(std::filesystem::path(TOROLUX_SOURCE_DIR) / "README.md")), 0x8000'0000U),
+      "");
 }
 
 TEST(LastWords, AreHeardBeforeATrapThatNothingHandles) {

@@ -51,7 +51,7 @@ class NativeNiu final : public pe::HintTarget {
 class NativeEngine final : public Engine {
  public:
   NativeEngine(const EngineSetup& setup, NativeProgram program, NativeOptions options)
-      : image_(setup.image), pes_(setup.pes), program_(std::move(program)), options_(std::move(options)) {}
+      : image_(setup.images.of(0)), pes_(setup.pes), program_(std::move(program)), options_(std::move(options)) {}
   ~NativeEngine() override { join(); }
 
   std::string_view name() const override { return "native"; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves: a report opens from a file without a network, in light and dark, wide and narrow, without an error; all parts
-// are there; tabs, map, brush and copying work by pointer and by keys: report_test.mjs FOLDER, with render.html and
-// run.html in it. MODULES names where playwright-core is.
+// are there; tabs, map, brush and copying work by pointer and by keys: report_test.mjs FOLDER, with render.html,
+// run.html and profile.html in it. MODULES names where playwright-core is.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { checkLooks, launch, openPage } from "./browser.mjs";
@@ -109,9 +109,54 @@ async function checkRun(browser) {
   await report.close();
 }
 
+/** The flame graph: frames by pointer and keys, closer and back, what is found. */
+async function checkProfile(browser) {
+  const report = await open(browser, "profile.html");
+  const { page } = report;
+  const chosen = () => page.textContent("#profile .flame-path strong");
+  const frames = () => page.locator("#profile .frame").count();
+  const all = await frames();
+  assert.ok(all > 15, `${all} frames`);
+  assert.equal(await chosen(), "all");
+  await page.locator("#profile .flame").focus();
+  for (const name of ["_start", "boot", "torolux::pe::pe_main(torolux::pe::Niu&)"]) {
+    await page.keyboard.press("ArrowDown");
+    assert.equal(await chosen(), name);
+  }
+  await page.keyboard.press("ArrowUp");
+  assert.equal(await chosen(), "boot");
+  await page.locator("#profile .frame", { has: page.locator("title", { hasText: "all_calls" }) }).click();
+  assert.equal(await chosen(), "all_calls");
+  assert.match(await page.textContent(".flame-details"), /itself.*21.cycles.*calls1$/);
+  assert.ok((await frames()) < all, "closer");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  assert.equal(await chosen(), "countdown");
+  await page.keyboard.press("Escape");
+  assert.equal(await chosen(), "all_calls");
+  await page.click("#flame-all");
+  assert.equal(await frames(), all);
+  await page.fill("#flame-find", "WAITS: receive");
+  assert.match(await page.textContent("#profile .choices"), /[0-9.]+.% of all cycles/);
+  assert.equal(await page.locator("#profile .frame.faint").count(), all - 1);
+  await checkLooks(page, [...kTexts, ".flame-path strong", ".flame-details dt"]);
+  assert.deepEqual(report.faults, []);
+  await report.close();
+}
+
+async function showProfile(browser, look) {
+  const report = await open(browser, "profile.html", look);
+  await report.page.waitForTimeout(300);
+  await checkLooks(report.page, kTexts);
+  await report.page.locator("#profile").screenshot({ path: join(folder, `profile_${look.colorScheme}_${look.width}.png`) });
+  assert.deepEqual(report.faults, []);
+  await report.close();
+}
+
 async function takeScreenshots(browser) {
   for (const colorScheme of ["light", "dark"]) {
     for (const width of [1280, 390]) {
+      await showProfile(browser, { colorScheme, width });
       const report = await open(browser, "render.html", { colorScheme, width });
       await report.page.click("#tab-radiosity");
       await report.page.waitForTimeout(300);
@@ -127,6 +172,7 @@ const browser = await launch();
 try {
   await checkRender(browser);
   await checkRun(browser);
+  await checkProfile(browser);
   await takeScreenshots(browser);
 } finally {
   await browser.close();

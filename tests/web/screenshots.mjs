@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The pictures of pages in docs/images, as the program makes them: screenshots.mjs TOROLUX ROOT. MODULES names where
 // playwright-core is.
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -40,10 +40,18 @@ async function showDisplay(browser, folder) {
   }
 }
 
+async function showProfile(browser, folder) {
+  execFileSync(torolux, ["profile", `${root}/build/firmware/bin/known_calls.elf`, "--pes", "2x1", "--quiet", "--report", "profile.html"], { cwd: folder });
+  const { page } = await openPage(browser, `file://${join(folder, "profile.html")}`, /./, { width: 1000 });
+  await page.locator("#profile .frame", { has: page.locator("title", { hasText: "countdown" }) }).first().hover();
+  await page.locator("#profile").screenshot({ path: join(root, "docs/images/profile.png") });
+}
+
 const folder = mkdtempSync(join(tmpdir(), "torolux-"));
 const browser = await launch();
 try {
   await showDisplay(browser, folder);
+  await showProfile(browser, folder);
 } finally {
   await browser.close();
   rmSync(folder, { recursive: true });

@@ -4,17 +4,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "emulator/description/description.hpp"
 #include "emulator/engines/engine/registers.hpp"
 #include "emulator/engines/engine/shared_memory.hpp"
-#include "emulator/engines/image/image.hpp"
+#include "emulator/engines/image/image_set.hpp"
 #include "emulator/niu/waker.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux {
+
+namespace profile {
+class CycleProfile;  // emulator/profile/cycle_profile.hpp
+}
 
 /// One PE as engine and emulator share it: local memory with the image loaded and the NIU window filled in.
 struct PeMemory {
@@ -29,10 +34,11 @@ std::size_t mapped_bytes_for(std::uint32_t local_memory_bytes);
 /// What it refers to must outlive the engine.
 struct EngineSetup {
   const MachineDescription& machine;
-  const Image& image;
+  const ImageSet& images;
   std::vector<PeMemory>& pes;
-  unsigned threads;                  ///< host threads to use, >= 1
-  std::vector<bool> elsewhere = {};  ///< by number: PEs that another engine of this machine runs; empty: none
+  unsigned threads;                          ///< host threads to use, >= 1
+  std::vector<bool> elsewhere = {};          ///< by number: PEs that another engine of this machine runs; empty: none
+  profile::CycleProfile* profile = nullptr;  ///< filled in while the PEs run; null: none
 
   bool runs(std::size_t pe) const { return elsewhere.empty() || !elsewhere[pe]; }
 };
@@ -58,6 +64,12 @@ class Engine {
   virtual PeRegisters save(unsigned /*pe*/) { return {}; }
   /// Before the start: the PE does not begin at `_start`, but where this says; its memory is as it was then.
   virtual void restore(unsigned /*pe*/, const PeRegisters& /*registers*/) {}
+
+  // ---- Telling where a PE stands ----
+
+  /// Of a PE that waits in a HINT, has failed, or has ended with a fault; of one that runs, as soon as that can be
+  /// looked at. Nothing: this engine cannot tell. Waits no longer than some seconds.
+  virtual std::optional<StackRegisters> stack_registers(unsigned /*pe*/) { return std::nullopt; }
 
   /// Host CPU time that the PEs have used so far [s]; 0 where the engine cannot tell it from the emulator's own.
   virtual double cpu_seconds() const { return 0; }

@@ -27,4 +27,13 @@ struct PeRegisters {
 };
 static_assert(sizeof(PeRegisters) == 16 + 4 * (64 + 14 + 16 + 2) + 16);
 
+/// What the calls that led to where a PE stands are found by. Registers that a call need not keep may be wrong.
+struct StackRegisters {
+  std::uint32_t pc;  ///< of the instruction, or of the HINT, at which it stands
+  std::array<std::uint32_t, 32> x;
+};
+
+/// Those that calls keep, and the way back: ra, sp, s0 to s11. Of x1 to x31, as bits.
+inline constexpr std::uint32_t kStackRegisters = 1U << 1U | 1U << 2U | 3U << 8U | 0x3FFU << 18U;
+
 }  // namespace torolux

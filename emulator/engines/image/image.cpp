@@ -4,16 +4,14 @@
 
 #include <elf.h>
 
-#include <cxxabi.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <optional>
 
+#include "emulator/engines/image/debug_info.hpp"
+#include "emulator/engines/image/phase_records.hpp"
 #include "emulator/errors.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -66,26 +64,6 @@ class ElfReader {
   const std::filesystem::path& file_;
   std::span<const std::byte> contents_;
 };
-
-std::vector<std::byte> contents_of(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": there is no such file");
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  const std::streamoff bytes = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  if (bytes < 0 || std::filesystem::is_directory(file, error)) {
-    throw InputError(file.string() + ": the firmware image cannot be read");
-  }
-  if (static_cast<std::uint64_t>(bytes) > kMostFileBytes) {
-    throw InputError(file.string() + ": larger than any firmware image (" + std::to_string(kMostFileBytes >> 20U) +
-                     " MiB)");
-  }
-  std::vector<std::byte> contents(static_cast<std::size_t>(bytes));
-  stream.seekg(0);
-  if (!stream.read(reinterpret_cast<char*>(contents.data()), bytes)) {
-    throw InputError(file.string() + ": the firmware image cannot be read");
-  }
-  return contents;
-}
 
 Elf32_Ehdr read_header(const ElfReader& reader) {
   const auto header = reader.at<Elf32_Ehdr>(0, "ELF header");
@@ -183,6 +161,24 @@ std::optional<std::string> name_at(std::span<const std::byte> strings, std::uint
   return name;
 }
 
+/// Of the section with the image's own phases; where it has none, those of Torolux.
+PhaseNames read_phases(const ElfReader& reader, const Elf32_Ehdr& header) {
+  const auto section_at = [&](std::uint64_t number) {
+    return reader.at<Elf32_Shdr>(header.e_shoff + number * sizeof(Elf32_Shdr), "section headers");
+  };
+  if (header.e_shstrndx == SHN_UNDEF || header.e_shstrndx >= header.e_shnum) return built_in_phase_names();
+  const Elf32_Shdr table = section_at(header.e_shstrndx);
+  const auto names = reader.bytes(table.sh_offset, table.sh_size, "section names");
+  for (std::uint64_t i = 0; i < header.e_shnum; ++i) {
+    const Elf32_Shdr section = section_at(i);
+    if (section.sh_type == SHT_NOBITS || name_at(names, section.sh_name) != kPhaseSection) continue;
+    PhaseRecords records = read_phase_records(reader.bytes(section.sh_offset, section.sh_size, "phase names"));
+    if (!records.wrong.empty()) reader.fail(records.wrong);
+    return std::move(records.names);
+  }
+  return built_in_phase_names();
+}
+
 /// Every named symbol that has an address, functions and objects as well as labels of assembly and linker scripts.
 std::vector<ImageSymbol> read_symbols(const ElfReader& reader, const Elf32_Ehdr& header) {
   if (header.e_shnum != 0 && header.e_shentsize != sizeof(Elf32_Shdr)) {
@@ -263,8 +259,28 @@ void check_places(const ElfReader& reader, const Image& image) {
 
 }  // namespace
 
+std::vector<std::byte> read_image_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": there is no such file");
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff bytes = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  if (bytes < 0 || std::filesystem::is_directory(file, error)) {
+    throw InputError(file.string() + ": the firmware image cannot be read");
+  }
+  if (static_cast<std::uint64_t>(bytes) > kMostFileBytes) {
+    throw InputError(file.string() + ": larger than any firmware image (" + std::to_string(kMostFileBytes >> 20U) +
+                     " MiB)");
+  }
+  std::vector<std::byte> contents(static_cast<std::size_t>(bytes));
+  stream.seekg(0);
+  if (!stream.read(reinterpret_cast<char*>(contents.data()), bytes)) {
+    throw InputError(file.string() + ": the firmware image cannot be read");
+  }
+  return contents;
+}
+
 Image load_image(const std::filesystem::path& file) {
-  return parse_image(contents_of(file), file);
+  return parse_image(read_image_file(file), file);
 }
 
 Image parse_image(std::span<const std::byte> contents, const std::filesystem::path& file) {
@@ -276,6 +292,7 @@ Image parse_image(std::span<const std::byte> contents, const std::filesystem::pa
   image.segments = read_segments(reader, header);
   check_segments(reader, image.segments);
   image.symbols = read_symbols(reader, header);
+  image.phase_names = read_phases(reader, header);
   image.niu_window = required_symbol(reader, image.symbols, "__niu_window");
   image.stores_begin = required_symbol(reader, image.symbols, "__stores_begin");
   tidy_symbols(image.symbols);
@@ -283,37 +300,23 @@ Image parse_image(std::span<const std::byte> contents, const std::filesystem::pa
   return image;
 }
 
-/// A C++ name as it stands in the source.
-static std::string demangled(const std::string& name) {
-  int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
-                                                         &std::free);
-  return status == 0 && text != nullptr ? std::string(text.get()) : name;
+const ImageSymbol* Image::symbol_of(std::uint32_t address) const {
+  constexpr std::uint32_t kNear = 4096;  // a label without a size speaks for this many bytes behind it
+  const ImageSymbol* label = nullptr;
+  for (const ImageSymbol& symbol : symbols) {
+    if (symbol.address > address) break;
+    const std::uint32_t distance = address - symbol.address;
+    if (distance < symbol.bytes) return &symbol;
+    if (symbol.bytes == 0 && distance < kNear) label = &symbol;
+  }
+  return label;
 }
 
 std::string Image::describe(std::uint32_t address) const {
-  constexpr std::uint32_t kNear = 4096;  // a label without a size speaks for this many bytes behind it
-  const auto name_of = [&](const ImageSymbol& symbol) {
-    const std::uint32_t distance = address - symbol.address;
-    return distance == 0 ? demangled(symbol.name) : demangled(symbol.name) + "+" + hexadecimal(distance);
-  };
-  const ImageSymbol* label = nullptr;
-  for (const ImageSymbol& symbol : symbols) {
-    if (symbol.address > address) {
-      break;
-    }
-    const std::uint32_t distance = address - symbol.address;
-    if (distance < symbol.bytes) {
-      return name_of(symbol);
-    }
-    if (symbol.bytes == 0 && distance < kNear) {
-      label = &symbol;
-    }
-  }
-  if (label != nullptr) {
-    return name_of(*label);
-  }
-  return hexadecimal(address);
+  const ImageSymbol* const symbol = symbol_of(address);
+  if (symbol == nullptr) return hexadecimal(address);
+  const std::uint32_t distance = address - symbol->address;
+  return demangled(symbol->name) + (distance == 0 ? "" : "+" + hexadecimal(distance));
 }
 
 void Image::load_into(std::span<std::byte> local_memory) const {

@@ -20,15 +20,19 @@ std::vector<SharedMemory> make_meetings(std::size_t pes) {
 class LockstepEngine final : public Engine {
  public:
   LockstepEngine(const EngineSetup& setup, const Options& options)
-      : code_(options.other_image != nullptr ? *options.other_image : setup.image,
-              options.other_latency != nullptr ? *options.other_latency : setup.machine.processor.latency,
-              options.translation),
-        map_(setup.image, setup.machine.processor.latency),
-        common_{setup, code_, map_},
-        meetings_(make_meetings(setup.pes.size())),
+      : meetings_(make_meetings(setup.pes.size())),
         qemu_(make_qemu_engine(setup, {.meetings = &meetings_})),
         ended_(options.ended) {
-    for (unsigned pe = 0; pe < setup.pes.size(); ++pe) pairs_.emplace_back(common_, pe, meetings_[pe]);
+    const LatencyTable& latency = setup.machine.processor.latency;
+    for (const Image& image : setup.images.images()) {
+      codes_.emplace_back(options.other_image != nullptr ? *options.other_image : image,
+                          options.other_latency != nullptr ? *options.other_latency : latency, options.translation);
+      maps_.emplace_back(image, latency);
+      common_.push_back({setup, codes_.back(), maps_.back()});
+    }
+    for (unsigned pe = 0; pe < setup.pes.size(); ++pe) {
+      pairs_.emplace_back(common_[setup.images.number_of(pe)], pe, meetings_[pe]);
+    }
   }
 
   std::string_view name() const override { return "lockstep"; }
@@ -62,9 +66,10 @@ class LockstepEngine final : public Engine {
   double cpu_seconds() const override { return qemu_->cpu_seconds(); }
 
  private:
-  translated::TranslatedImage code_;
-  translated::CodeMap map_;
-  Common common_;
+  // Of each image.
+  std::deque<translated::TranslatedImage> codes_;
+  std::deque<translated::CodeMap> maps_;
+  std::deque<Common> common_;
   std::vector<SharedMemory> meetings_;
   std::unique_ptr<Engine> qemu_;
   std::deque<Pair> pairs_;

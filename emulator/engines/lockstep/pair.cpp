@@ -26,7 +26,7 @@ Pair::Pair(const Common& common, unsigned number, SharedMemory& meeting)
       number_(number),
       local_(common.setup.pes[number].local),
       meeting_(*reinterpret_cast<HintMeeting*>(meeting.bytes().data())),
-      window_offset_(common.setup.image.niu_window - protocol::kLocalMemoryBase),
+      window_offset_(common.setup.images.of(number).niu_window - protocol::kLocalMemoryBase),
       niu_(*niu_channel_at(common.setup.pes[number].channel.bytes().data()), local_memory(common.setup.pes[number]),
            window_offset_),
       shadow_(common.code, local_, common.setup.pes[number].local_memory_bytes, niu_) {}
@@ -75,7 +75,8 @@ bool Pair::compare() {
     for (const MemoryRange& range : shadow_.memories().touched()) totals_.bytes += range.end - range.begin;
     return true;
   }
-  const PeInQuestion pe{number_, totals_.hints, last_hint_clock_, common_.setup.image, common_.code, common_.map};
+  const PeInQuestion pe{number_,      totals_.hints, last_hint_clock_, common_.setup.images.of(number_),
+                        common_.code, common_.map};
   std::string text = report(pe, *found, meeting_, shadow_, local_.bytes());
   const std::lock_guard lock(mutex_);
   difference_ = std::move(text);

@@ -15,11 +15,11 @@
 
 namespace torolux::lockstep {
 
-/// What is the same for all PEs.
+/// What is the same for all PEs of an image.
 struct Common {
   EngineSetup setup;
   const translated::TranslatedImage& code;
-  const translated::CodeMap& map;  ///< of the machine's image and latency table: what is right
+  const translated::CodeMap& map;  ///< of that image and the machine's latency table: what is right
 };
 
 class Pair {

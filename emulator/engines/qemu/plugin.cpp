@@ -22,12 +22,14 @@
 #include "emulator/engines/qemu/places.hpp"
 #include "emulator/engines/qemu/plugin_api.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
+#include "emulator/engines/qemu/stack_registers.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/ending.hpp"
 #include "emulator/niu/futex.hpp"
 #include "emulator/niu/processor_side.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
+#include "firmware/protocol/niu_window.hpp"
 
 extern "C" {
 __attribute__((visibility("default"))) extern const int qemu_plugin_version;
@@ -47,10 +49,11 @@ constexpr std::chrono::microseconds kLongestSleep{50'000};
 
 class Plugin {
  public:
-  Plugin(PluginShare& share, NiuChannel& channel, std::span<const std::byte> memory, NiuProcessorSide side)
+  Plugin(PluginShare& share, NiuChannel& channel, std::span<std::byte> memory, NiuProcessorSide side)
       : share_(share),
         channel_(channel),
         memory_(memory),
+        window_(*reinterpret_cast<protocol::NiuWindow*>(&memory[share.window_offset])),
         side_(side),
         patience_ends_(end_of_patience(channel)),
         retrying_(share.resumes != 0),
@@ -81,10 +84,14 @@ class Plugin {
   bool watches_loops() const { return meeting == nullptr && !replayer; }
   [[noreturn]] void give_up(std::uint64_t clock, const NiuFault& fault);
   [[noreturn]] void end();
+  void tell_stack();
+  void end_where_it_stands(const HintPlace& place);
+  bool begins_block(const HintPlace& place) const { return place.instructions_left + 1 == block_.instructions; }
 
   PluginShare& share_;
   NiuChannel& channel_;
   std::span<const std::byte> memory_;
+  protocol::NiuWindow& window_;
   NiuProcessorSide side_;
   /// By address and length: translated again, a block is the same.
   std::map<std::pair<std::uint32_t, std::size_t>, BlockPlace> blocks_;
@@ -105,7 +112,9 @@ class Plugin {
   bool retrying_;
   std::uint64_t retry_clock_;
   std::uint64_t retry_instructions_;
-  std::uint32_t last_counted_ = 0;  // address
+  std::uint32_t last_counted_ = 0;      // address
+  BlockPlace block_{};                  // that runs
+  std::optional<std::int32_t> ending_;  // a HINT of this immediate has ended the PE, and is executed once more
 };
 
 std::unique_ptr<Plugin> plugin;
@@ -185,7 +194,10 @@ void Plugin::count(const CountedPlace& place) {
 
 /// The loop is found where the limit is passed, so each time in the same place.
 void Plugin::begin(const BlockPlace& block) {
+  block_ = block;
+  if (share_.stack_wanted.load(std::memory_order_relaxed) != 0) tell_stack();
   if (share_.cycles >= patience_ends_ && watches_loops()) {
+    tell_stack();
     give_up(end_of_patience(channel_), endless_loop(channel_, block.address));
   }
   share_.cycles += block.cycles;
@@ -309,7 +321,28 @@ void Plugin::give_up(std::uint64_t clock, const NiuFault& fault) {
   end();
 }
 
+/// At the start of a block, where QEMU has all registers in memory.
+void Plugin::tell_stack() {
+  share_.stack.pc = block_.address;
+  const std::uint32_t known = read_stack_registers(share_.stack.x) ? 1 : 2;
+  share_.stack_wanted.store(0, std::memory_order_relaxed);
+  share_.stack_known.store(known, std::memory_order_release);
+}
+
+/// The HINT has ended the PE. It is executed once more, like one that waits, and then begins a block; unless it stands
+/// alone, without the loop that it should be in.
+void Plugin::end_where_it_stands(const HintPlace& place) {
+  window_.retry = ending_ ? 0 : 1;
+  if (ending_) {
+    if (*ending_ == place.immediate && begins_block(place)) tell_stack();
+    end();
+  }
+  ending_ = place.immediate;
+}
+
 void Plugin::hint(const HintPlace& place) {
+  if (ending_) return end_where_it_stands(place);
+  if (retrying_ && begins_block(place)) tell_stack();
   const std::uint64_t counted = share_.cycles - place.cycles_left;
   const std::uint64_t counted_instructions = share_.instructions - place.instructions_left;
   if (retrying_) {
@@ -320,7 +353,9 @@ void Plugin::hint(const HintPlace& place) {
   const std::uint64_t instructions = counted_instructions - instruction_offset_;
   const NiuProcessorSide::Result result = answer(place.immediate, clock, instructions);
   if (result.outcome == NiuProcessorSide::Outcome::stop) {
-    end();
+    const bool halts = place.immediate == static_cast<std::int32_t>(protocol::Hint::halt);
+    if (halts || !watches_loops() || channel_.stopping.load(std::memory_order_seq_cst) != 0) end();
+    return end_where_it_stands(place);
   }
   retrying_ = result.outcome == NiuProcessorSide::Outcome::retry;
   if (retrying_) {
@@ -330,6 +365,7 @@ void Plugin::hint(const HintPlace& place) {
     share_.retry_instructions.store(instructions, std::memory_order_relaxed);
     patience_ends_ = counted + channel_.most_cycles_between_hints + 1;  // what the driver's loop takes does not count
   } else {
+    share_.stack_known.store(0, std::memory_order_relaxed);
     cycle_offset_ = counted - result.clock;
     patience_ends_ = counted + (end_of_patience(channel_) - result.clock);
   }

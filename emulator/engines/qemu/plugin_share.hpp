@@ -6,10 +6,11 @@
 #include <cstdint>
 
 #include "emulator/description/description.hpp"
+#include "emulator/engines/engine/registers.hpp"
 
 namespace torolux {
 
-inline constexpr std::uint32_t kPluginShareVersion = 4;
+inline constexpr std::uint32_t kPluginShareVersion = 5;
 
 enum class HintLogUse : std::uint32_t { none, record, replay };
 
@@ -34,8 +35,11 @@ struct PluginShare {
   // Counted by the plugin at the start of each block, so ahead of the PE by up to a block; or see above.
   alignas(64) std::uint64_t cycles;  ///< of all instructions since `_start`, the NIU driver's retries included
   std::uint64_t instructions;
+  std::atomic<std::uint32_t> stack_wanted;  ///< 1, by the engine: tell `stack` at the next block, wherever that is
 
   // Set by the plugin.
+  std::atomic<std::uint32_t> stack_known;  ///< 1: `stack` is where the PE stands, or has ended; 2: it cannot be told
+  StackRegisters stack;
   std::atomic<std::uint64_t> retry_clock;         ///< of the HINT that the PE repeats, at its first execution
   std::atomic<std::uint64_t> retry_instructions;  ///< likewise
   std::atomic<std::uint64_t> cycles_at_hint;      ///< `cycles` at the end of the last HINT

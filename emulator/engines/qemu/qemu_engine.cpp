@@ -9,6 +9,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "emulator/engines/qemu/gdb_connection.hpp"
 #include "emulator/engines/qemu/gdb_registers.hpp"
@@ -28,6 +29,8 @@ using Clock = std::chrono::steady_clock;
 
 /// A PE whose plugin shows no sign of life for so long is given up. Generous: a thousand processes may share one core.
 constexpr std::chrono::seconds kLongestSilence{120};
+/// For a PE to tell its registers; a thousand processes may share one core.
+constexpr std::chrono::seconds kLongestLook{5};
 /// Nor does a PE run that counts nothing and yet uses so much of a host core [s]: it traps to where nothing is.
 constexpr double kMostFruitlessCpuSeconds = 2;
 
@@ -95,6 +98,7 @@ class QemuPe {
   void check(std::uint64_t most_cycles_between_hints, Clock::duration tick);
   /// It waits in a HINT, or has halted.
   PeRegisters save();
+  std::optional<StackRegisters> stack_registers(Clock::duration longest);
   void kill() { process_.kill(); }
   double cpu_seconds() const { return process_.cpu_seconds(); }
 
@@ -166,12 +170,24 @@ PeRegisters QemuPe::save() {
   return registers;
 }
 
+/// One that waits tells them within 50 ms, when it looks whether it may go on; one that runs, at its next block.
+std::optional<StackRegisters> QemuPe::stack_registers(Clock::duration longest) {
+  const Clock::time_point end = Clock::now() + longest;
+  share_.stack_wanted.store(1, std::memory_order_relaxed);
+  while (share_.stack_known.load(std::memory_order_acquire) == 0) {
+    if (ended_ || share_.stopped.load(std::memory_order_acquire) != 0 || Clock::now() > end || process_.ended()) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  if (share_.stack_known.load(std::memory_order_acquire) != 1) return std::nullopt;
+  return share_.stack;
+}
+
 PluginShare& QemuPe::prepare(SharedMemory& memory, std::size_t number, const Launch& launch, bool debugged) {
   const PeMemory& pe = launch.setup.pes[number];
   auto& share = *new (memory.bytes().data()) PluginShare{};  // placed in memory that SharedMemory owns
   share.version = kPluginShareVersion;
   share.channel_layout = niu_channel_layout();
-  share.window_offset = launch.setup.image.niu_window - protocol::kLocalMemoryBase;
+  share.window_offset = launch.setup.images.of(number).niu_window - protocol::kLocalMemoryBase;
   share.local_memory_bytes = pe.local_memory_bytes;
   share.channel_descriptor = pe.channel.descriptor();
   share.local_descriptor = pe.local.descriptor();
@@ -344,6 +360,13 @@ class QemuEngine final : public Engine {
   bool can_be_saved() const override { return debugged_.empty() && !launch_.logs && launch_.meetings == nullptr; }
   void will_be_saved() override { launch_.to_be_saved = true; }
   PeRegisters save(unsigned pe) override { return of(pe).save(); }
+  std::optional<StackRegisters> stack_registers(unsigned pe) override {
+    if (pes_.empty()) return std::nullopt;
+    const Clock::time_point begin = Clock::now();
+    const auto registers = of(pe).stack_registers(looks_ ? Clock::duration(kLongestLook) : Clock::duration::zero());
+    looks_ = looks_ && Clock::now() - begin < kLongestLook;
+    return registers;
+  }
   void restore(unsigned pe, const PeRegisters& registers) override {
     launch_.restored.resize(launch_.setup.pes.size());
     launch_.restored[pe] = registers;
@@ -371,6 +394,7 @@ class QemuEngine final : public Engine {
   std::function<void(const GdbEndpoint&)> listens_;
   std::uint64_t most_cycles_between_hints_;
   std::vector<QemuPe> pes_;
+  bool looks_ = true;  // PEs have told their registers in time, so far
   Clock::time_point last_check_;
 };
 

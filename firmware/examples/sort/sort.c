@@ -13,6 +13,7 @@
 TOROLUX_PHASE_NAME(0, "sort");
 TOROLUX_PHASE_NAME(1, "borders");
 TOROLUX_PHASE_NAME(2, "exchange");
+TOROLUX_PHASE_NAME(3, "merge");
 
 enum { kSamples = 16 };  // of each PE
 
@@ -77,20 +78,27 @@ static void find_borders(struct numbers own, uint32_t* borders) {
   TOROLUX_LEAVE_PHASE(1);
 }
 
-// Sends each PE its part of the sorted numbers; returns what has come from all. In step s everybody sends to the PE
-// that is s further on, so that nobody is flooded.
-static struct numbers exchange(struct numbers own, const uint32_t* borders) {
+// The number of each PE's part in the sorted numbers where it begins; one more: the end.
+static size_t* cut_at(struct numbers own, const uint32_t* borders) {
+  const unsigned pes = torolux_pes();
+  size_t* const first = memory_for((pes + 1) * sizeof *first);
+  first[0] = 0;
+  first[pes] = own.count;
+  for (unsigned pe = 1; pe < pes; ++pe) {
+    size_t at = first[pe - 1];
+    while (at < own.count && own.number[at] < borders[pe - 1]) ++at;
+    first[pe] = at;
+  }
+  return first;
+}
+
+// Sends each PE its part of the sorted numbers; returns what has come from all, one part behind the other. In step s
+// everybody sends to the PE that is s further on, so that nobody is flooded. begin: of each part, and the end.
+static struct numbers exchange(struct numbers own, const uint32_t* borders, size_t* begin) {
   TOROLUX_ENTER_PHASE(2);
   const unsigned pes = torolux_pes();
   const unsigned pe = torolux_pe();
-  size_t* const first = memory_for((pes + 1) * sizeof *first);  // of each PE's part
-  first[0] = 0;
-  first[pes] = own.count;
-  for (unsigned p = 1; p < pes; ++p) {
-    size_t at = first[p - 1];
-    while (at < own.count && own.number[at] < borders[p - 1]) ++at;
-    first[p] = at;
-  }
+  size_t* const first = cut_at(own, borders);
   struct numbers come = {NULL, 0};
   for (unsigned step = 0; step < pes; ++step) {
     const unsigned to = (pe + step) % pes;
@@ -102,12 +110,43 @@ static struct numbers exchange(struct numbers own, const uint32_t* borders) {
     uint32_t* const more = realloc(come.number, come.count * sizeof *come.number + bytes + 1);
     if (more == NULL) torolux_fail("no memory for the numbers that come: give the PEs more (--pe-memory)");
     come.number = more;
+    begin[step] = come.count;
     torolux_receive(from, come.number + come.count, bytes);
     come.count += bytes / sizeof *come.number;
   }
+  begin[pes] = come.count;
   free(first);
   TOROLUX_LEAVE_PHASE(2);
   return come;
+}
+
+// Two parts that are in order, one behind the other, become one.
+static void merge_two(const uint32_t* a, const uint32_t* a_end, const uint32_t* b_end, uint32_t* out) {
+  const uint32_t* b = a_end;
+  while (a != a_end && b != b_end) *out++ = *b < *a ? *b++ : *a++;
+  while (a != a_end) *out++ = *a++;
+  while (b != b_end) *out++ = *b++;
+}
+
+// Parts that are in order become one, two by two: in log2 of their number times over all numbers.
+static struct numbers merge(struct numbers parts, size_t* begin, unsigned count) {
+  TOROLUX_ENTER_PHASE(3);
+  uint32_t* spare = memory_for(parts.count * sizeof *spare);
+  for (; count > 1; count = (count + 1) / 2) {
+    for (unsigned part = 0; part < count; part += 2) {
+      const size_t end = begin[part + 2 < count ? part + 2 : count];
+      const uint32_t* const middle = parts.number + (part + 1 < count ? begin[part + 1] : end);
+      merge_two(parts.number + begin[part], middle, parts.number + end, spare + begin[part]);
+      begin[part / 2] = begin[part];
+    }
+    begin[(count + 1) / 2] = parts.count;
+    uint32_t* const merged = spare;
+    spare = parts.number;
+    parts.number = merged;
+  }
+  free(spare);
+  TOROLUX_LEAVE_PHASE(3);
+  return parts;
 }
 
 // In order here, and from PE to PE; none lost: their number and their sum are those of the beginning.
@@ -124,7 +163,7 @@ static void check(struct numbers sorted, struct numbers before) {
   }
   if (torolux_pe() + 1 != torolux_pes()) torolux_send((int)torolux_pe() + 1, &greatest, sizeof greatest);
 
-  uint64_t lost[2] = {before.count - sorted.count, 0};
+  uint64_t lost[2] = {(uint64_t)before.count - sorted.count, 0};
   for (size_t i = 0; i < before.count; ++i) lost[1] += before.number[i];
   for (size_t i = 0; i < sorted.count; ++i) lost[1] -= sorted.number[i];
   torolux_all_reduce(lost, 2, TOROLUX_UINT64, TOROLUX_SUM);
@@ -139,13 +178,13 @@ int main(int argc, char** argv) {
   }
   struct numbers own = make_numbers(all);
   uint32_t* const borders = memory_for(torolux_pes() * sizeof *borders);
+  size_t* const parts = memory_for((torolux_pes() + 1) * sizeof *parts);
 
   torolux_barrier();
   const uint64_t begin = torolux_clock();
   sort(own);
   find_borders(own, borders);
-  struct numbers sorted = exchange(own, borders);
-  sort(sorted);
+  const struct numbers sorted = merge(exchange(own, borders, parts), parts, torolux_pes());
   torolux_barrier();
   const uint64_t cycles = torolux_clock() - begin;
 

@@ -4,7 +4,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { themeColour } from "../shared/colours.js";
 import { bytes, grouped, percent, significant } from "../shared/format.js";
-import { kPhases, stageName, word } from "../shared/words.js";
+import { phaseWords, stageName, word } from "../shared/words.js";
 import { send } from "./feed.js";
 
 const kMostEvents = 400; // of a story, in the page
@@ -142,7 +142,7 @@ function PeStage({ of }) {
       {figures && (
         <Rows rows={[
           ["cycles", grouped(figures.cycles)],
-          ...most(figures.phase_cycles).map(([name, cycles]) => [word(kPhases, name), percent(cycles / figures.cycles)]),
+          ...most(figures.phase_cycles).map(([name, cycles]) => [word(phaseWords("render"), name), percent(cycles / figures.cycles)]),
           ["packets sent, received", `${grouped(figures.packets_sent)}, ${grouped(figures.packets_delivered)}`],
           ["record slots in use, at most", grouped(figures.record_slots_high_water)],
           ["receive buffers, at most", grouped(figures.receive_buffers_high_water)],

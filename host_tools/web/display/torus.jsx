@@ -4,7 +4,7 @@ import { useRef, useState } from "preact/hooks";
 import { css, hexColour, themeColour } from "../shared/colours.js";
 import { grouped, percent } from "../shared/format.js";
 import { ColourScale, TorusMap } from "../shared/torus_map.jsx";
-import { kLinkDirections, kPhases, word } from "../shared/words.js";
+import { kLinkDirections, phaseWords, word } from "../shared/words.js";
 import { useFeed } from "./use_feed.js";
 
 const kInterval = 66; // [ms]
@@ -20,8 +20,9 @@ function phaseColour(phase) {
   return hexColour(themeColour(phase === kNoPhase ? "w4" : `s${phase % 9}`));
 }
 
-function PhaseLegend({ phases }) {
-  const parts = [...phases.map((name, i) => [word(kPhases, name), i]), ["waiting", kNoPhase]];
+function PhaseLegend({ phases, words }) {
+  const named = phases.map((name, i) => [name, i]).filter(([name]) => name !== null);
+  const parts = [...named.map(([name, i]) => [word(words, name), i]), ["waiting", kNoPhase]];
   return (
     <ul class="legend">
       {parts.map(([name, phase]) => (
@@ -36,7 +37,7 @@ function PeDetails({ feed, pe }) {
   const phase = loads.phases[pe];
   const rows = [
     ["busy", percent(loads.values[pe])],
-    ["with", phase === kNoPhase ? "nothing: it waits" : word(kPhases, machine.phases[phase])],
+    ["with", phase === kNoPhase ? "nothing: it waits" : word(phaseWords(machine.what), machine.phases[phase] ?? `phase ${phase}`)],
     ...kLinkDirections.map((one) => [`link to the ${one}`, percent(loads.links[one][pe])]),
   ];
   return (
@@ -77,7 +78,7 @@ export function Torus({ feed, overlay, onPick, children }) {
             linkMost={linkMost.current} chosen={Math.min(chosen, loads.pes - 1)} onChoose={setChosen} onPick={onPick} overlay={overlay?.()}
             peColour={figure === "phase" ? (pe) => phaseColour(loads.phases[pe]) : undefined}
             label={`PEs by ${kFigures[figure]}, links by traffic`} />
-          {figure === "load" ? <ColourScale name="PEs: busy" most={percent(1)} /> : <PhaseLegend phases={machine.phases} />}
+          {figure === "load" ? <ColourScale name="PEs: busy" most={percent(1)} /> : <PhaseLegend phases={machine.phases} words={phaseWords(machine.what)} />}
           <ColourScale name="links: used" most={percent(linkMost.current)} />
         </div>
         <PeDetails feed={feed} pe={Math.min(chosen, loads.pes - 1)} />

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The JSON in the page enters; the run, and what the page shows of it for a stage, leave.
-import { stageName } from "../shared/words.js";
+import { phaseWords, stageName } from "../shared/words.js";
 
 /** Undoes html_report.cpp's packing of tables into columns. */
 export function unpacked(json) {
@@ -13,12 +13,13 @@ export function unpacked(json) {
   return Object.fromEntries(Object.entries(json).map(([key, value]) => [key, unpacked(value)]));
 }
 
-/** name: of a stage, or "" for the whole run: the same keys (docs/statistics.md), with begin, cycles and title. */
+/** name: of a stage, or "" for the whole run: the same keys (docs/statistics.md), with begin, cycles, title and words for phases. */
 export function viewOf(statistics, name) {
   const total = statistics.virtual_cycles.total;
-  if (name === "") return { ...statistics, name, title: "the whole run", begin: 0, cycles: total };
+  const words = phaseWords(statistics.settings.command);
+  if (name === "") return { ...statistics, words, name, title: "the whole run", begin: 0, cycles: total };
   const stage = statistics.stages.find((one) => one.name === name);
-  return { ...stage, title: stageName(name), visits: statistics.visits && { [name]: statistics.visits[name] } };
+  return { ...stage, words, title: stageName(name), visits: statistics.visits && { [name]: statistics.visits[name] } };
 }
 
 /** Of the PEs' clock; cycles of the statistics are its cycles. */

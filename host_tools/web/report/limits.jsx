@@ -2,7 +2,7 @@
 // What limits a stage, or each stage of the run: sentences, and the shares from which they follow.
 import { Bar, Legend, Stack } from "../shared/charts.jsx";
 import { percent, short } from "../shared/format.js";
-import { kPhases, kWaits, stageName, word } from "../shared/words.js";
+import { kWaits, stageName, word } from "../shared/words.js";
 import { limitText, runText } from "./limits.js";
 
 function sharesOf(stage) {
@@ -39,7 +39,7 @@ function OtherParts({ stage }) {
 function PeTime({ view }) {
   const all = view.pes.reduce((total, pe) => total + pe.cycles, 0) || 1;
   const part = (name, cycles, colour) => ({ name, share: cycles / all, colour, text: percent(cycles / all) });
-  const phases = Object.entries(view.phases).map(([key, cycles], i) => part(word(kPhases, key), cycles, `s${i % 9}`));
+  const phases = Object.entries(view.phases).map(([key, cycles], i) => part(word(view.words, key), cycles, `s${i % 9}`));
   const waits = Object.entries({ ...view.waits, idle_at_end: view.idle_at_end });
   const parts = phases.concat(waits.map(([key, cycles], i) => part(word(kWaits, key), cycles, `w${i}`)));
   const shown = parts.filter((one) => one.share > 0.00005);

@@ -8,6 +8,7 @@ import "./report.css";
 import { kStages, stageName } from "../shared/words.js";
 import { unpacked, viewOf } from "./data.js";
 import { Energy } from "./energy.jsx";
+import { FlameGraph } from "./flame_graph.jsx";
 import { Histograms } from "./histograms.jsx";
 import { Limits } from "./limits.jsx";
 import { Maps } from "./map.jsx";
@@ -68,6 +69,7 @@ function Report({ data }) {
           <Histograms view={view} />
           <Traffic view={view} statistics={statistics} />
         </div>
+        {data.profile && <FlameGraph profile={data.profile} />}
         {statistics.rounds?.length > 0 && <Rounds rounds={statistics.rounds} energy={statistics.energy} />}
         {statistics.energy && <Energy energy={statistics.energy} />}
         {statistics.copies && <Copies copies={statistics.copies} />}

@@ -3,14 +3,14 @@
 import { useMemo, useState } from "preact/hooks";
 import { grouped, percent, short } from "../shared/format.js";
 import { ColourScale, TorusMap } from "../shared/torus_map.jsx";
-import { kLinkDirections, kPhases, kWaits, word } from "../shared/words.js";
+import { kLinkDirections, kWaits, word } from "../shared/words.js";
 import { greatest, peName } from "./data.js";
 
 /** By key: [group, name, value of a PE, whether it is a share of its time]. */
 function peFigures(view) {
   const list = { busy: ["Load", "busy", (pe) => pe.busy_cycles, true] };
   for (const key of Object.keys(view.phases)) {
-    if (view.phases[key] > 0) list[`phase ${key}`] = ["Busy, by phase", word(kPhases, key), (pe) => pe.phase_cycles[key], true];
+    if (view.phases[key] > 0) list[`phase ${key}`] = ["Busy, by phase", word(view.words, key), (pe) => pe.phase_cycles[key], true];
   }
   for (const key of Object.keys(view.waits)) list[`wait ${key}`] = ["Waiting", word(kWaits, key), (pe) => pe.waits[key], true];
   list["wait end"] = ["Waiting", kWaits.idle_at_end, (pe) => pe.idle_at_end, true];
@@ -51,7 +51,7 @@ function PeDetails({ view, pe, columns }) {
   const phases = Object.entries(figures.phase_cycles).filter(([, cycles]) => cycles > 0);
   const rows = [
     ["busy", share(figures.busy_cycles)],
-    ...phases.map(([key, cycles]) => [`\u2003${word(kPhases, key)}`, share(cycles)]),
+    ...phases.map(([key, cycles]) => [`\u2003${word(view.words, key)}`, share(cycles)]),
     ...Object.entries(figures.waits).map(([key, cycles]) => [word(kWaits, key), share(cycles)]),
     [kWaits.idle_at_end, share(figures.idle_at_end)],
     ["packets sent", grouped(figures.packets_sent)],

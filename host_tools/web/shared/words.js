@@ -10,7 +10,7 @@ export const kStages = {
   run: ["the run", "The PEs run the image until each has halted."],
 };
 
-export const kPhases = {
+const kPhases = {
   load: "taking in what is loaded",
   shoot: "making records of light",
   traverse: "following rays through subspaces",
@@ -22,6 +22,14 @@ export const kPhases = {
   program: "own program",
   outside: "outside of any phase",
 };
+
+/** Of an image of one's own, whose other names are the user's. */
+const kOwnPhases = { program: kPhases.program, outside: kPhases.outside };
+
+/** what: "render" or "run". */
+export function phaseWords(what) {
+  return what === "render" ? kPhases : kOwnPhases;
+}
 
 export const kWaits = {
   arrivals: "waiting for something to arrive",

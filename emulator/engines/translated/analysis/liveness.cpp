@@ -122,7 +122,7 @@ RegisterSet Liveness::at(std::uint32_t address) const {
   return found == live_.end() ? kAllRegisters : found->second;
 }
 
-RegisterSet Liveness::behind(const Block& block) const {
+RegisterSet Liveness::flows_on(const Block& block) const {
   switch (block.ending) {
     case Ending::branch:
       return at(block.target) | at(block.end);

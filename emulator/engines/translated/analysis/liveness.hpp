@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "emulator/engines/engine/registers.hpp"
 #include "emulator/engines/translated/analysis/blocks.hpp"
 
 namespace torolux::translated {
@@ -22,6 +23,9 @@ constexpr RegisterSet x_register(unsigned n) {
 constexpr RegisterSet f_register(unsigned n) {
   return RegisterSet{1} << (32U + n);
 }
+
+/// By which calls are found where a PE stands (engine/registers.hpp).
+inline constexpr RegisterSet kCallRegisters = kStackRegisters;
 
 inline constexpr RegisterSet kFloatRegisters = ~RegisterSet{0} << 32U;
 RegisterSet reads_of(const Instruction& i);
@@ -41,8 +45,9 @@ class Liveness {
 
   /// Read from this address on before it is written; everything where no block begins.
   RegisterSet at(std::uint32_t address) const;
-  /// Read behind the block's last instruction. A call: by what it calls, or behind it.
-  RegisterSet behind(const Block& block) const;
+  /// Read behind the block's last instruction. A call: by what it calls, or behind it. A PE may stand there: the
+  /// registers by which calls are found are read, too.
+  RegisterSet behind(const Block& block) const { return flows_on(block) | kCallRegisters; }
   /// Before instruction i, if `behind` is read after it.
   RegisterSet before(const Instruction& i, RegisterSet behind) const {
     if (may_write_mtvec(i)) return kAllRegisters;
@@ -59,6 +64,7 @@ class Liveness {
  private:
   void find_trap_handlers();
   bool update();
+  RegisterSet flows_on(const Block& block) const;
 
   const CodeMap& code_;
   const Blocks& blocks_;

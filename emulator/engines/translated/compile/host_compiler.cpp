@@ -9,6 +9,8 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -69,10 +71,11 @@ std::optional<std::string> on_path(const std::string& name) {
   return std::nullopt;
 }
 
-/// A running program; its output goes to a file.
+/// A running program; its output goes to a file. It ends, with all that it has started, when it is to stop.
 class Process {
  public:
-  Process(const std::vector<std::string>& arguments, const std::filesystem::path& output) : output_(output) {
+  Process(const std::vector<std::string>& arguments, const std::filesystem::path& output, std::stop_token stop = {})
+      : output_(output), stop_(std::move(stop)) {
     std::vector<char*> pointers;
     pointers.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
@@ -82,7 +85,11 @@ class Process {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    const int error = posix_spawn(&process_, pointers[0], &actions, nullptr, pointers.data(), environ);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    if (stop_.stop_possible()) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // a group of its own
+    const int error = posix_spawn(&process_, pointers[0], &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) throw MachineFailure("cannot start " + arguments[0] + ": " + std::strerror(error));
   }
@@ -98,12 +105,25 @@ class Process {
 
  private:
   void wait() {
+    if (process_ > 0 && stop_.stop_possible()) wait_or_stop();
     while (process_ > 0 && waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+  }
+  void wait_or_stop() {
+    constexpr std::chrono::milliseconds kBetweenLooks{5};
+    while (waitpid(process_, &status_, WNOHANG) == 0) {
+      if (stop_.stop_requested()) {
+        kill(-process_, SIGKILL);
+        return;
+      }
+      std::this_thread::sleep_for(kBetweenLooks);
     }
     process_ = -1;
   }
 
   std::filesystem::path output_;
+  std::stop_token stop_;
   pid_t process_ = -1;
   int status_ = 0;
 };
@@ -168,7 +188,7 @@ std::vector<std::string> HostCompiler::command(const std::filesystem::path& fold
 }
 
 std::filesystem::path HostCompiler::build(std::span<const SourceText> headers, std::span<const SourceText> units,
-                                          const std::filesystem::path& folder) const {
+                                          const std::filesystem::path& folder, const std::stop_token& stop) const {
   for (const SourceText& header : headers) write_file(folder / header.name, header.text);
   const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
   std::filesystem::path result = folder / "translated.so";
@@ -184,14 +204,15 @@ std::filesystem::path HostCompiler::build(std::span<const SourceText> headers, s
     const std::string object = source.string() + ".o";
     write_file(source, unit.text);
     if (running.size() == most) finish_first();
+    if (stop.stop_requested()) throw MachineFailure("translating the firmware was stopped");
     std::vector<std::string> compile = command(folder);
     compile.insert(compile.end(), {"-c", source.string(), "-o", object});
-    running.emplace_back(compile, source.string() + ".log");
+    running.emplace_back(compile, source.string() + ".log", stop);
     link.push_back(object);
   }
   while (!running.empty()) finish_first();
   link.emplace_back("-lm");
-  Process linker(link, folder / "link.log");
+  Process linker(link, folder / "link.log", stop);
   if (!linker.succeeds()) fail("the linker", linker.output());
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,10 @@ class HostCompiler {
   const std::string& identity() const { return identity_; }
 
   /// headers: lie in `folder` (existing, empty) under their names; units become one shared object, whose path is
-  /// returned. As many compilers run at once as the computer has cores. Throws MachineFailure with what they wrote.
+  /// returned. As many compilers run at once as the computer has cores. Throws MachineFailure with what they wrote,
+  /// and when it is to stop: then none of them runs any more.
   std::filesystem::path build(std::span<const SourceText> headers, std::span<const SourceText> units,
-                              const std::filesystem::path& folder) const;
+                              const std::filesystem::path& folder, const std::stop_token& stop = {}) const;
 
  private:
   std::vector<std::string> command(const std::filesystem::path& folder) const;

@@ -7,6 +7,7 @@
 
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/ending.hpp"
+#include "emulator/profile/cycle_profile.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
 namespace torolux::translated {
@@ -53,8 +54,9 @@ static_assert(sizeof(Processor) <= 2048);
 Processor::Processor(const TranslatedImage& code, const EngineSetup& setup, unsigned number)
     : code_(code),
       channel_(*niu_channel_at(setup.pes[number].channel.bytes().data())),
-      niu_(channel_, local_memory(setup, number), setup.image.niu_window - protocol::kLocalMemoryBase,
-           NiuProcessorSide::Waiting::returns) {
+      niu_(channel_, local_memory(setup, number), setup.images.of(number).niu_window - protocol::kLocalMemoryBase,
+           NiuProcessorSide::Waiting::returns),
+      profile_(setup.profile == nullptr ? nullptr : &setup.profile->pe(number)) {
   code_.start(pe_, local_memory(setup, number), mapped_bytes_for(setup.pes[number].local_memory_bytes));
   pe_.marker = &Processor::marker;
   pe_.hint = &Processor::hint;
@@ -87,7 +89,22 @@ Processor::AtHint Processor::ask(std::int32_t immediate, std::uint64_t clock, st
   }
   pe_.cycles += result.clock - clock;
   pe_.cycle_limit += result.clock - clock;
+  if (profile_ != nullptr) profile_->waited(waits());
   return AtHint::none;
+}
+
+WaitCycles Processor::waits() const {
+  WaitCycles waits{};
+  for (std::size_t i = 0; i < kWaitReasons; ++i) waits[i] = channel_.waits[i].load(std::memory_order_relaxed);
+  return waits;
+}
+
+TranslatedImage::Stop Processor::execute() {
+  if (profile_ == nullptr) return code_.run(pe_);
+  if (!profile_->has_begun()) profile_->begin({pe_.pc, pe_.x[2], pe_.cycles}, waits());
+  const TranslatedImage::Stop stop = code_.run_profiled(pe_, *profile_);
+  profile_->charge(pe_.cycles);
+  return stop;
 }
 
 /// Whether it has run for longer without a HINT than the machine allows.
@@ -117,6 +134,15 @@ PeRegisters Processor::save() const {
   return registers;
 }
 
+StackRegisters Processor::stack_registers() const {
+  constexpr std::uint32_t kHintBytes = 4;
+  const bool behind_hint = at_hint_ != AtHint::none && !fault_;
+  StackRegisters registers{pe_.pc - (behind_hint ? kHintBytes : 0), {}};
+  static_assert(sizeof pe_.x == sizeof registers.x);
+  std::memcpy(registers.x.data(), pe_.x, sizeof pe_.x);
+  return registers;
+}
+
 void Processor::restore(const PeRegisters& registers) {
   pe_.cycles = registers.clock;
   pe_.instructions = registers.instructions;
@@ -138,7 +164,7 @@ Processor::Stop Processor::run(const Goal* goal) {
     if (at_hint_ == AtHint::finished) return Stop::finished;
     if (goal != nullptr && goal->reached()) return Stop::enough;
     asked_ = false;
-    switch (code_.run(pe_)) {
+    switch (execute()) {
       case TranslatedImage::Stop::hint:
         if (!asked_) at_hint_ = AtHint::reached;
         break;

@@ -12,6 +12,7 @@
 #include "emulator/engines/translated/run/translated_image.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
+#include "emulator/profile/pe_profile.hpp"
 
 namespace torolux::translated {
 
@@ -45,6 +46,8 @@ class Processor {
   }
   /// While nobody runs it, and it waits or has finished without a fault.
   PeRegisters save() const;
+  /// While nobody runs it.
+  StackRegisters stack_registers() const;
   /// Before its first run.
   void restore(const PeRegisters& registers);
   /// To be looked at by others: its bound, and what it waits for.
@@ -62,6 +65,8 @@ class Processor {
   };
   AtHint ask(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   bool loops() const;
+  TranslatedImage::Stop execute();
+  WaitCycles waits() const;
   Stop give_up(const NiuFault& fault);
   Stop end();
   static void marker(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
@@ -71,7 +76,8 @@ class Processor {
   NiuChannel& channel_;
   NiuProcessorSide niu_;
   AtHint at_hint_ = AtHint::none;
-  bool asked_ = false;  // by the code itself, at the HINT at which it has stopped
+  profile::PeProfile* profile_;  // null: none
+  bool asked_ = false;           // by the code itself, at the HINT at which it has stopped
   const Goal* goal_ = nullptr;
   std::optional<NiuFault> fault_;  // why it executes nothing more
   TranslatedPe pe_{};

@@ -12,6 +12,7 @@
 #include "emulator/engines/translated/run/run_queue.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/pause.hpp"
+#include "emulator/profile/cycle_profile.hpp"
 
 namespace torolux {
 namespace {
@@ -45,10 +46,10 @@ class News final : public Goal {
 class TranslatedEngine final : public Engine, private ProcessorWaker {
  public:
   TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
-      : setup_(setup),
-        interprets_(options.interpret),
-        code_(setup.image, setup.machine.processor.latency, options),
-        queue_(setup.pes.size(), setup.threads - 1) {
+      : setup_(setup), interprets_(options.interpret), queue_(setup.pes.size(), setup.threads - 1) {
+    for (const Image& image : setup.images.images()) {
+      codes_.emplace_back(image, setup.machine.processor.latency, options);
+    }
     for (unsigned pe = 0; pe < setup.pes.size(); ++pe) {
       if (!setup_.runs(pe) && queue_.claim(pe)) queue_.finish(pe);
     }
@@ -60,8 +61,10 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   std::string_view name() const override { return interprets_ ? "interpreted" : "translated"; }
 
   void start() override {
+    if (setup_.profile != nullptr) setup_.profile->begin(setup_.pes.size());
     for (unsigned pe = 0; pe < setup_.pes.size(); ++pe) {
-      processors_.emplace_back(code_, setup_, pe);
+      if (setup_.profile != nullptr) setup_.profile->add(setup_.images.of(pe));
+      processors_.emplace_back(codes_[setup_.images.number_of(pe)], setup_, pe);
       if (pe < restored_.size() && restored_[pe]) processors_.back().restore(*restored_[pe]);
     }
     restored_.clear();
@@ -72,6 +75,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
 
   bool can_be_saved() const override { return true; }
   PeRegisters save(unsigned pe) override;
+  std::optional<StackRegisters> stack_registers(unsigned pe) override;
   void restore(unsigned pe, const PeRegisters& registers) override {
     restored_.resize(setup_.pes.size());
     restored_[pe] = registers;
@@ -86,11 +90,13 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   void wake(unsigned pe) override { queue_.wake(pe); }
   void work();
   void run(unsigned pe, const Goal* goal);
+  template <class Look>
+  auto while_it_stands(unsigned pe, Look look);
   void end();
 
   EngineSetup setup_;
   bool interprets_;
-  TranslatedImage code_;
+  std::deque<TranslatedImage> codes_;  // of each image
   RunQueue queue_;
   std::vector<std::optional<PeRegisters>> restored_;  // by PE, until the start
   std::deque<Processor> processors_;
@@ -141,16 +147,27 @@ bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
   return true;
 }
 
-/// A thread that has just seen that the PE waits may not have let go of it yet.
-PeRegisters TranslatedEngine::save(unsigned pe) {
+/// What `look` returns of the PE, while nobody runs it. A thread that has just seen that it waits may not have let go
+/// of it yet; one that runs it lets go at the end of its slice.
+template <class Look>
+auto TranslatedEngine::while_it_stands(unsigned pe, Look look) {
   bool claimed = queue_.claim(pe);
   while (!claimed && !queue_.has_finished(pe)) {
     torolux::pause();
     claimed = queue_.claim(pe);
   }
-  const PeRegisters registers = processors_[pe].save();
+  const auto seen = look(processors_[pe]);
   if (claimed) queue_.put_back(pe);
-  return registers;
+  return seen;
+}
+
+PeRegisters TranslatedEngine::save(unsigned pe) {
+  return while_it_stands(pe, [](const Processor& processor) { return processor.save(); });
+}
+
+std::optional<StackRegisters> TranslatedEngine::stack_registers(unsigned pe) {
+  if (pe >= processors_.size()) return std::nullopt;
+  return while_it_stands(pe, [](const Processor& processor) { return processor.stack_registers(); });
 }
 
 void TranslatedEngine::end() {

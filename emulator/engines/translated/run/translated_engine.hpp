@@ -10,7 +10,7 @@
 
 namespace torolux {
 
-/// Translates the image, or takes it from the cache: throws as TranslatedImage does. setup.pes and setup.image must
+/// Translates the images, or takes them from the cache: throws as TranslatedImage does. setup.pes and setup.images must
 /// outlive the engine.
 std::unique_ptr<Engine> make_translated_engine(const EngineSetup& setup,
                                                const translated::TranslationOptions& options = {});

@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <iostream>
 
 #include "emulator/engines/isa/instruction_class.hpp"
 #include "emulator/engines/translated/analysis/blocks.hpp"
@@ -17,9 +18,11 @@
 
 namespace torolux::translated {
 
-/// A loaded shared object.
+/// A loaded shared object. An open file that it came from stays open: the loader takes another one that gets the same
+/// descriptor, and so the same name, for this one.
 struct TranslatedImage::Library {
-  explicit Library(const std::string& file) : handle(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+  explicit Library(const std::string& file, std::optional<OpenFile> open_file = std::nullopt)
+      : kept(std::move(open_file)), handle(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (handle == nullptr) throw MachineFailure(std::string("translated code cannot be loaded: ") + dlerror());
   }
   Library(const Library&) = delete;
@@ -33,6 +36,7 @@ struct TranslatedImage::Library {
     return reinterpret_cast<Symbol>(found);
   }
 
+  std::optional<OpenFile> kept;
   void* handle;
 };
 
@@ -53,6 +57,10 @@ std::string path_of(const OpenFile& file) {
   return "/proc/self/fd/" + std::to_string(file.descriptor());
 }
 
+void tell_interpreted(const std::string& why) {
+  std::cerr << "torolux: note: the firmware is interpreted, which is slow: " + why + "\n" << std::flush;
+}
+
 /// False: the HINT at which the PE stands is no phase marker, or nobody wants to be called at those.
 bool call_marker(TranslatedPe& pe) {
   if (pe.marker == nullptr || !protocol::is_phase_marker(pe.hint_immediate)) {
@@ -71,7 +79,16 @@ TranslatedImage::TranslatedImage(const Image& image, const LatencyTable& latency
 
 TranslatedImage::~TranslatedImage() = default;
 
-void TranslatedImage::load(const Image& image, const TranslationOptions& options) {
+struct TranslatedImage::Source {
+  HostCompiler compiler;
+  Cache cache;
+  std::vector<SourceText> headers, units;
+  std::string key;
+};
+
+/// Nothing: there is no compiler, and it can be done without.
+std::optional<TranslatedImage::Source> TranslatedImage::source_of(const Image& image,
+                                                                  const TranslationOptions& options) {
   Blocks blocks(image, code_);
   const std::vector<GuestFunction> functions = make_functions(code_, blocks);
   ways_.resize((code_.end() - code_.begin()) / 2);
@@ -83,23 +100,55 @@ void TranslatedImage::load(const Image& image, const TranslationOptions& options
   }
   const Liveness liveness(code_, blocks);
   trap_handlers_ = liveness.trap_handlers();
-  const std::vector<SourceText> units = generate(code_, blocks, liveness, functions);
-  const std::vector<SourceText> headers = semantics_texts();
-  const HostCompiler compiler;
-  const Cache cache(options.cache_folder);
-  const std::string key = key_of(compiler, headers, units);
-  if (const auto found = cache.find(key)) {
-    from_cache_ = true;
-    library_ = std::make_unique<Library>(path_of(*found));
-  } else {
-    const TemporaryFolder folder;
-    const std::filesystem::path built = compiler.build(headers, units, folder.path());
-    cache.store(key, built);
-    library_ = std::make_unique<Library>(built.string());
+  try {
+    Source source{HostCompiler(), Cache(options.cache_folder), semantics_texts(),
+                  generate(code_, blocks, liveness, functions), ""};
+    source.key = key_of(source.compiler, source.headers, source.units);
+    return source;
+  } catch (const MachineFailure& failure) {
+    if (!options.in_background) throw;
+    tell_interpreted(failure.what());
+    return std::nullopt;
   }
+}
+
+void TranslatedImage::load(const Image& image, const TranslationOptions& options) {
+  std::optional<Source> source = source_of(image, options);
+  if (!source) return;
+  if (auto found = source->cache.find(source->key)) {
+    from_cache_ = true;
+    const std::string path = path_of(*found);
+    take(std::make_unique<Library>(path, std::move(found)));
+  } else if (options.in_background) {
+    compile_in_background(std::move(*source));
+  } else {
+    compile(*source, {});
+  }
+}
+
+void TranslatedImage::compile(const Source& source, const std::stop_token& stop) {
+  const TemporaryFolder folder;
+  const std::filesystem::path built = source.compiler.build(source.headers, source.units, folder.path(), stop);
+  source.cache.store(source.key, built);
+  take(std::make_unique<Library>(built.string()));
+}
+
+void TranslatedImage::compile_in_background(Source source) {
+  background_ = std::jthread([this, source = std::move(source)](const std::stop_token& stop) {
+    try {
+      compile(source, stop);
+    } catch (const MachineFailure& failure) {
+      if (!stop.stop_requested()) tell_interpreted(failure.what());
+    }
+  });
+}
+
+void TranslatedImage::take(std::unique_ptr<Library> library) {
+  library_ = std::move(library);
   enter_ = library_->symbol<EnterFunction>(kEnter);
   called_ = library_->symbol<const HostFunction*>(kCalledTable);
   resumed_ = library_->symbol<const HostFunction*>(kResumedTable);
+  is_translated_.store(true, std::memory_order_release);
 }
 
 void TranslatedImage::find_ways(const Block& block, std::size_t function, bool begins_function) {
@@ -160,7 +209,7 @@ void TranslatedImage::refresh(TranslatedPe& pe) const {
 }
 
 bool TranslatedImage::may_run_translated(const TranslatedPe& pe) const {
-  return !pe.interpreted && pe.may_fetch && pe.frm == 0 && (!has_float_ || !float_is_off(pe));
+  return is_translated() && !pe.interpreted && pe.may_fetch && pe.frm == 0 && (!has_float_ || !float_is_off(pe));
 }
 
 Interpreter::Step TranslatedImage::interpret(TranslatedPe& pe) const {
@@ -194,6 +243,21 @@ Exit TranslatedImage::run_translated(TranslatedPe& pe, const Way& way) const {
   return static_cast<Exit>(left.at >> 32U);
 }
 
+/// Nothing where the PE goes on.
+std::optional<TranslatedImage::Stop> TranslatedImage::stop_of(Interpreter::Step step, TranslatedPe& pe) {
+  switch (step) {
+    case Interpreter::Step::stuck:
+      return Stop::stuck;
+    case Interpreter::Step::waits:
+      return Stop::waits;
+    case Interpreter::Step::hint:
+      return call_marker(pe) ? std::nullopt : std::optional(Stop::hint);
+    case Interpreter::Step::done:
+      break;
+  }
+  return std::nullopt;
+}
+
 TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
   while (pe.cycles < pe.cycle_limit) {
     const Way* way = may_run_translated(pe) ? way_at(pe.pc) : nullptr;
@@ -204,10 +268,8 @@ TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
       give_back_rest(pe);
     }
     const Interpreter::Step step = interpret(pe);
-    if (step == Interpreter::Step::stuck) return Stop::stuck;
-    if (step == Interpreter::Step::waits) return Stop::waits;
-    if (step != Interpreter::Step::hint) continue;
-    if (!call_marker(pe)) return Stop::hint;
+    if (step == Interpreter::Step::done) continue;
+    if (const auto stop = stop_of(step, pe)) return *stop;
   }
   return Stop::cycle_limit;
 }

@@ -3,11 +3,14 @@
 // state, advanced to its next HINT. Everything here is const once made: any number of threads may run their PEs.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "emulator/description/description.hpp"
@@ -17,11 +20,17 @@
 #include "emulator/engines/translated/run/interpreter.hpp"
 #include "emulator/engines/translated/semantics/pe_state.hpp"
 
+namespace torolux::profile {
+class PeProfile;
+}
+
 namespace torolux::translated {
 
 struct TranslationOptions {
   std::filesystem::path cache_folder;  ///< empty: the user's; see Cache
   bool interpret = false;              ///< translate nothing: slow, needs no compiler
+  bool in_background = false;          ///< what the cache does not have is interpreted until it has been compiled, and
+                                       ///< to the end where that cannot be
 };
 
 class TranslatedImage {
@@ -35,6 +44,8 @@ class TranslatedImage {
 
   /// Whether the cache had it.
   bool from_cache() const { return from_cache_; }
+  /// Whether translated code runs from now on; before, and without, instructions are interpreted.
+  bool is_translated() const { return is_translated_.load(std::memory_order_acquire); }
 
   /// Puts a PE to the beginning of `_start`, without calls at HINTs and cycle limit. local_memory: the image is loaded
   /// and the NIU window filled in; it outlives the PE. mapped_bytes: as mapped_bytes_for, what QEMU would be given.
@@ -53,6 +64,8 @@ class TranslatedImage {
   };
   /// Goes on from where the PE stands. Call it again after each HINT.
   Stop run(TranslatedPe& pe) const;
+  /// The same, one instruction after the other, each told to the profile, which has begun.
+  Stop run_profiled(TranslatedPe& pe, profile::PeProfile& profile) const;
 
  private:
   struct Library;
@@ -63,7 +76,13 @@ class TranslatedImage {
     Cost rest{0, 0};  ///< of its block from this instruction on
   };
 
+  struct Source;  ///< all that the compiler needs
+
   void load(const Image& image, const TranslationOptions& options);
+  std::optional<Source> source_of(const Image& image, const TranslationOptions& options);
+  void compile(const Source& source, const std::stop_token& stop);
+  void compile_in_background(Source source);
+  void take(std::unique_ptr<Library> library);
   bool may_run_translated(const TranslatedPe& pe) const;
   void refresh(TranslatedPe& pe) const;
   Interpreter::Step interpret(TranslatedPe& pe) const;
@@ -71,6 +90,7 @@ class TranslatedImage {
   const Way* way_at(std::uint32_t address) const;
   void find_ways(const Block& block, std::size_t function, bool begins_function);
   Exit run_translated(TranslatedPe& pe, const Way& way) const;
+  static std::optional<Stop> stop_of(Interpreter::Step step, TranslatedPe& pe);
 
   CodeMap code_;
   Interpreter interpreter_;
@@ -83,6 +103,8 @@ class TranslatedImage {
   bool from_cache_ = false;
   bool has_float_ = false;
   bool interpret_ = false;
+  std::atomic<bool> is_translated_ = false;  // what stands above, from the library on, is there
+  std::jthread background_;                  // ends first
 };
 
 }  // namespace torolux::translated

@@ -11,6 +11,8 @@
 namespace torolux::test {
 namespace {
 
+constexpr const char* kPhases = ".torolux.phases";
+
 template <class T>
 void put(std::vector<std::byte>& file, const T& value) {
   file.resize(file.size() + sizeof(T));
@@ -37,7 +39,8 @@ Elf32_Ehdr make_header(const ElfPlan& plan, std::size_t sections_at) {
   header.e_phnum = 2;
   header.e_shoff = size32(sections_at);
   header.e_shentsize = sizeof(Elf32_Shdr);
-  header.e_shnum = 3;
+  header.e_shnum = plan.phases.empty() ? 3 : 5;
+  header.e_shstrndx = plan.phases.empty() ? SHN_UNDEF : 4;
   header.e_ehsize = sizeof(Elf32_Ehdr);
   return header;
 }
@@ -72,17 +75,27 @@ std::vector<std::byte> build_elf(const ElfPlan& plan) {
   const std::size_t code_at = sizeof(Elf32_Ehdr) + 2 * sizeof(Elf32_Phdr);
   const std::size_t symbols_at = code_at + code_bytes;
   const std::size_t names_at = symbols_at + symbols.size() * sizeof(Elf32_Sym);
+  const std::size_t phases_at = names_at + names.size();
+  const std::size_t section_names_at = phases_at + plan.phases.size();
+  const std::string section_names = plan.phases.empty() ? "" : std::string(1, '\0') + kPhases + '\0';
   std::vector<std::byte> file;
-  put(file, make_header(plan, names_at + names.size()));
+  put(file, make_header(plan, section_names_at + section_names.size()));
   put(file, Elf32_Phdr{PT_LOAD, size32(code_at), plan.code_address, plan.code_address, code_bytes, code_bytes,
                        plan.code_flags, 4});
   put(file, Elf32_Phdr{PT_LOAD, size32(symbols_at), data, data, 0, plan.data_bytes, plan.data_flags, 4096});
   for (const std::uint32_t word : plan.code) put(file, word);
   for (const Elf32_Sym& symbol : symbols) put(file, symbol);
   for (const char c : names) put(file, c);
+  file.insert(file.end(), plan.phases.begin(), plan.phases.end());
+  for (const char c : section_names) put(file, c);
   put(file, make_section(SHT_NULL, 0, 0, 0));
   put(file, make_section(SHT_SYMTAB, symbols_at, symbols.size() * sizeof(Elf32_Sym), 2));
   put(file, make_section(SHT_STRTAB, names_at, names.size(), 0));
+  if (plan.phases.empty()) return file;
+  Elf32_Shdr phases = make_section(SHT_PROGBITS, phases_at, plan.phases.size(), 0);
+  phases.sh_name = 1;
+  put(file, phases);
+  put(file, make_section(SHT_STRTAB, section_names_at, section_names.size(), 0));
   return file;
 }
 

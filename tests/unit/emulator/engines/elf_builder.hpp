@@ -30,6 +30,7 @@ struct ElfPlan {
   std::uint32_t stores_begin = 0;   ///< 0: behind the data
   bool name_window = true, name_stores = true;
   std::vector<BuiltSymbol> symbols;
+  std::vector<std::byte> phases = {};  ///< contents of .torolux.phases; empty: no such section, and no sections' names
 };
 
 std::vector<std::byte> build_elf(const ElfPlan& plan);

@@ -35,12 +35,12 @@ PeMemory make_pe(const Image& image, std::size_t number, std::size_t count) {
 }  // namespace
 
 BarePes::BarePes(const Image& image, std::size_t count, const MachineDescription& machine, const EngineFactory& factory)
-    : machine_(machine), image_(image) {
+    : machine_(machine), images_(image) {
   for (std::size_t i = 0; i < count; ++i) {
     pes_.push_back(make_pe(image, i, count));
     channel(i).most_cycles_between_hints = machine_.processor.most_cycles_between_hints;
   }
-  engine_ = factory(EngineSetup{machine_, image_, pes_, 1});
+  engine_ = factory(EngineSetup{machine_, images_, pes_, 1});
 }
 
 std::optional<TakenCommand> BarePes::next_command(std::size_t pe) {

@@ -40,7 +40,7 @@ class BarePes {
 
  private:
   MachineDescription machine_;
-  Image image_;
+  ImageSet images_;
   std::vector<PeMemory> pes_;
   std::unique_ptr<Engine> engine_;
 };

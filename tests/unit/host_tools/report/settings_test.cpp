@@ -195,16 +195,17 @@ RC_GTEST_PROP(Settings, OfARenderLeadToThemselves, ()) {
 
 RC_GTEST_PROP(Settings, OfAnImageLeadToThemselves, ()) {
   RunOptions options;
-  options.image = *rc::gen::element<std::string>("hello.elf", "a b.elf");
+  options.images.others = *rc::gen::element<std::string>("hello.elf", "a b.elf");
   perhaps([&] { options.pes = "3x5"; });
   perhaps([&] { options.pe_memory = "256K"; });
   options.machine_values = any_machine_values();
   perhaps([&] { options.program.arguments = {"-x", "two words", "--pes"}; });
   perhaps([&] { options.program.inputs = {{"data", "some file"}, {"stdin", "a=b"}}; });
   perhaps([&] { options.program.outputs = {{"out", "/dev/null"}}; });
-  ProgramFiles files{{{"image", options.image, sha256("image")}}, {}};
+  perhaps([&] { options.ending.until = 123'456'789'012; });
+  ProgramFiles files{InputFile{"image", options.images.others, sha256("image")}, {}, {}};
   for (const GivenFile& input : options.program.inputs) {
-    files.files.push_back({"input " + input.name, input.file.string(), sha256("input")});
+    files.read.push_back({"input " + input.name, input.file.string(), sha256("input")});
   }
   for (const GivenFile& output : options.program.outputs) files.outputs.push_back(output.name);
   const Json settings = settings_json(setup_from(options), files);
@@ -219,7 +220,7 @@ TEST(Settings, HoldEveryKeyOfTheMachine) {
   set_machine_value(description, "torus.link_error_rate=0.1");
   MachineSetup setup;
   setup.description = description;
-  const Json machine = settings_json(setup, {{{"image", "a.elf", ""}}, {}}).at("machine");
+  const Json machine = settings_json(setup, {InputFile{"image", "a.elf", ""}, {}, {}}).at("machine");
   for (const std::string& key : machine_description_keys()) {
     std::string pointer = "/" + key;
     std::ranges::replace(pointer, '.', '/');

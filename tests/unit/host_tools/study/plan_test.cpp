@@ -12,6 +12,7 @@
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/study/options.hpp"
 #include "host_tools/study/points.hpp"
+#include "host_tools/study/results.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace torolux::study {
@@ -45,6 +46,29 @@ TEST(Plan, SaysWhatRunsAndInTheOrderOfTheFile) {
   EXPECT_EQ(plan.vary[2].name, "allocation");
   EXPECT_THAT(plan.zip, ElementsAre(ElementsAre("size", "allocation")));
   EXPECT_EQ(plan.report.baseline.at("pes"), "1x1");
+}
+
+TEST(Plan, ArgumentsOfTheProgramStandLastAlsoBehindWhatAStudyAdds) {
+  const Plan plan = parse_plan(
+      "[base]\ncommand = 'run'\nimage = 'a.elf'\narguments = [512, '-v']\npes = '2x2'\n"
+      "[vary]\narguments = [7, 'a b', ['c', 8]]\n",
+      "folder/plan.toml");
+  const std::vector<PlanOption>& options = plan.base;
+  EXPECT_EQ(shell_line(words_of(plan, options)), "run folder/a.elf --pes 2x2 -- 512 -v");
+  ASSERT_EQ(plan.vary.size(), 1U);
+  EXPECT_EQ(plan.vary[0].values[0].value, "7");
+  EXPECT_EQ(plan.vary[0].values[1].value, "a b");
+  EXPECT_EQ(plan.vary[0].values[2].value, "c 8");
+  const std::string run_base = "[base]\ncommand = 'run'\nimage = 'a.elf'\n";
+  EXPECT_THAT(refusal(run_base + "arguments = ['a b']\n"), HasSubstr("plan.toml:4: an argument in a plan is a text"));
+  EXPECT_THAT(refusal(run_base + "arguments = [['a']]\n"), HasSubstr("an argument in a plan is a text"));
+  EXPECT_THAT(refusal(run_base + "pes = ['2x2']\n"), HasSubstr("'pes' must be a text, a number, or true or false"));
+  const testing_support::TemporaryFolder folder;
+  KeyedRun run;
+  run.words = words_of(plan, options);
+  run.key = "key";
+  EXPECT_THAT(shell_line(words_for_result(run, ResultFolder(folder.path(), "run"), 3)),
+              testing::MatchesRegex("run folder/a.elf --pes 2x2 --threads 3 --quiet --stats .*key.json -- 512 -v"));
 }
 
 TEST(Plan, NumbersAreExact) {
