@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # find_package(Torolux): images for the PEs, built and run in a project for this computer, without a toolchain file. The
-# program lies three folders up, in bin, both in an installation and in the build; it says where the kit is.
+# program lies three folders up, in bin, both in an installation and in the build (the prefix, which CMAKE_PREFIX_PATH or
+# Torolux_ROOT may name); it says where the kit is.
 #
 #   torolux_image(NAME SOURCES FILE... [OPTIONS OPTION...] [LINK_OPTIONS OPTION...] [DEPENDS FILE...])
 #       target NAME, part of all: NAME.elf in the current build folder, whose path is also in the target's property

@@ -2,7 +2,7 @@
 // A compiler as a child process: words enter; its exit code leaves, and what it said.
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <string>
 #include <vector>
 

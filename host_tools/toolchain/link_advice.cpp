@@ -8,10 +8,11 @@
 namespace torolux {
 namespace {
 
-/// Where one of the texts stands, the advice holds. $: whatever stands behind the text, as far as it is a number.
+/// Where one of the texts stands, the advice holds, unless another text tells more. $: the number behind the text.
 struct Advice {
-  std::array<std::string_view, 6> texts;
+  std::array<std::string_view, 8> texts;
   std::string_view advice;
+  std::string_view unless{};
 };
 
 constexpr std::array kAdvice = std::to_array<Advice>({
@@ -21,7 +22,8 @@ constexpr std::array kAdvice = std::to_array<Advice>({
     {{"region `local' overflowed by "},
      "the image is $ bytes larger than the largest local memory, 64 MiB: code, data and stack (--stack) together"},
     {{"image leaves no room for stores", "image is larger than its limit"},
-     "the image is larger than the limit that -Wl,--defsym=torolux_image_limit=BYTES gave it"},
+     "the image is larger than the limit that -Wl,--defsym=torolux_image_limit=BYTES gave it",
+     "' overflowed by "},
     {{"a static object has a constructor"},
      "an image with a pe_main of its own runs no constructors: mark the object constinit, make it in pe_main, or write "
      "main instead. Constructors are functions named _GLOBAL__sub_I_...: torolux cc -c, then riscv64-unknown-elf-nm, "
@@ -36,17 +38,16 @@ constexpr std::array kAdvice = std::to_array<Advice>({
      "them"},
     {{"vtable for __cxxabiv1::", "__dynamic_cast", "undefined reference to `typeinfo for"},
      "there is no run-time type information on a PE: leave out -frtti, dynamic_cast and typeid, or the object that was "
-     "compiled with them"},
-    {{"`std::cout'", "`std::cerr'", "std::basic_ostream", "std::basic_istream", "std::ios_base", "std::locale"},
-     "libstdc++'s streams are not in the kit: use printf (docs/writing_firmware.md says what is there)"},
+     "compiled with them",
+     "__cxa_"},
+    {{"`std::cout'", "`std::cerr'", "std::basic_ostream", "std::basic_istream", "std::ios_base", "std::locale",
+      "std::ostream::", "std::istream::"},
+     "libstdc++'s streams and locales are not in the kit: use printf (docs/command_line.md says what is there)"},
     {{"`std::thread::", "`pthread_", "`std::filesystem::", "`std::random_device::", "`std::chrono::_V2::"},
      "threads, files as objects, random devices and the system's clocks of the C++ library are not on a PE: use "
      "torolux.h, fopen, a generator with a seed, and torolux_clock"},
     {{"undefined reference to `__atomic_"},
      "atomics of 8 bytes are not there: a PE has one thread, plain variables will do"},
-    {{"undefined reference to `_fork'", "undefined reference to `_execve'", "undefined reference to `_wait'",
-      "undefined reference to `_kill'", "undefined reference to `_link'", "undefined reference to `_gettimeofday'"},
-     "the C library was asked for a service of an operating system that a PE does not have"},
 });
 
 std::string with_number(std::string_view advice, const std::string& errors, std::size_t behind) {
@@ -62,6 +63,7 @@ std::string with_number(std::string_view advice, const std::string& errors, std:
 std::vector<std::string> link_advice(const std::string& errors) {
   std::vector<std::string> found;
   for (const Advice& one : kAdvice) {
+    if (!one.unless.empty() && errors.find(one.unless) != std::string::npos) continue;
     for (const std::string_view text : one.texts) {
       if (text.empty()) break;
       const std::size_t at = errors.find(text);

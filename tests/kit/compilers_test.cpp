@@ -30,16 +30,22 @@ class OtherCompilers : public testing::Test {
 
 constexpr const char* kRing = "from 0: 0 0.33333\nfrom 1: 10 0.25000\nfrom 2: 20 0.20000\n";
 
+constexpr const char* kHeaders = "308 41 53 'words 42' -1.414214 1.259921 1.394e+01\n";
+
 class EachWayToCompile : public OtherCompilers, public testing::WithParamInterface<const char*> {};
 
 TEST_P(EachWayToCompile, LeavesTheStandardLibrarysResultsTheSame) {
   folder.succeed("torolux cc " + std::string(GetParam()) + " " + source("standard_headers.cpp") + " -o headers.elf");
-  EXPECT_EQ(texts_of(said_on_all_engines(folder, "headers.elf", "--pes 1x1")),
-            "308 41 53 'words 42' -1.414214 1.259921 1.394e+01\n");
+  EXPECT_EQ(texts_of(said_on_all_engines(folder, "headers.elf", "--pes 1x1")), kHeaders);
 }
 INSTANTIATE_TEST_SUITE_P(Options, EachWayToCompile,
-                         testing::Values("", "-Os", "-O3 -flto", "-Os -msave-restore", "-O0", "-march=rv32imaf"),
+                         testing::Values("", "-Os", "-O3 -flto", "-Os -msave-restore", "-march=rv32imaf"),
                          [](const auto& one) { return "Way" + std::to_string(one.index); });
+
+TEST_F(OtherCompilers, CodeThatIsNotOptimisedIsTheSameProgram) {
+  folder.succeed("torolux cc -O0 " + source("standard_headers.cpp") + " -o headers.elf");
+  EXPECT_EQ(texts_of(folder.succeed("torolux run headers.elf --pes 1x1 --quiet --engine interpreted")), kHeaders);
+}
 
 TEST_F(OtherCompilers, AssemblerStandsOnTheConstantsOfToroluxH) {
   folder.succeed("torolux cc -nostdlib " + source("own_start.S") + " -o own.elf -T $(torolux cc --kit)/pe.ld");

@@ -24,7 +24,7 @@ std::filesystem::path built_programs() {
 nlohmann::json figures_of(const std::filesystem::path& file) {
   std::ifstream stream(file);
   nlohmann::json all = nlohmann::json::parse(stream);
-  for (const char* const key : {"settings", "wall_seconds", "host"}) all.erase(key);
+  for (const char* const key : {"engine", "settings", "command_line", "wall_seconds", "host"}) all.erase(key);
   return all;
 }
 

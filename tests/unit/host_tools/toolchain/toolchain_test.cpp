@@ -53,6 +53,10 @@ TEST(LinkAdvice, ExplainsEachKindOnce) {
   EXPECT_THAT(link_advice(twice + twice), ElementsAre(HasSubstr("the image has no beginning")));
   EXPECT_THAT(link_advice("ld: region `local' overflowed by 6295552 bytes"),
               ElementsAre(HasSubstr("the image is 6295552 bytes larger")));
+  EXPECT_THAT(link_advice("ld: the image is larger than its limit\nld: region `local' overflowed by 8 bytes"),
+              ElementsAre(HasSubstr("the image is 8 bytes larger")));
+  EXPECT_THAT(link_advice("undefined reference to `__cxa_throw'\nundefined reference to `typeinfo for int'"),
+              ElementsAre(HasSubstr("no exceptions")));
   EXPECT_THAT(link_advice("undefined reference to `std::cout'\nundefined reference to `__cxa_throw'"),
               ElementsAre(HasSubstr("no exceptions"), HasSubstr("use printf")));
   EXPECT_THAT(link_advice("main.c:3:1: error: unknown type name"), IsEmpty());
