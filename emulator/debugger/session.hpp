@@ -26,7 +26,7 @@ namespace torolux::debugger {
 class GoesBack : public std::exception {};
 
 struct SessionOptions {
-  GdbEndpoint place;                   ///< where it listens; pe: not looked at
+  GdbEndpoint place{};                 ///< where it listens; pe: not looked at
   std::vector<unsigned> pes;           ///< that it holds, ascending; at least one
   unsigned columns = 1;                ///< of the torus, to tell places
   std::filesystem::path image;         ///< that the PEs run

@@ -91,7 +91,10 @@ std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned 
     if (!debugging.own_pes.empty()) throw UsageError("--gdb-pes names PEs for --gdb PORT, which is not there");
     return nullptr;
   }
-  debugger::SessionOptions options{.place = *debugging.own, .columns = columns, .image = image};
+  debugger::SessionOptions options;
+  options.place = *debugging.own;
+  options.columns = columns;
+  options.image = image;
   options.pes = pes_to_hold(debugging, columns * rows);
   options.goes_back = goes_back;
   options.goes_on = [] { return !interrupted(); };
