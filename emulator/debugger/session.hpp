@@ -26,10 +26,10 @@ namespace torolux::debugger {
 class GoesBack : public std::exception {};
 
 struct SessionOptions {
-  GdbEndpoint place{};                 ///< where it listens; pe: not looked at
-  std::vector<unsigned> pes;           ///< that it holds, ascending; at least one
-  unsigned columns = 1;                ///< of the torus, to tell places
-  std::filesystem::path image;         ///< that the PEs run
+  GdbEndpoint place{};                                            ///< where it listens; pe: not looked at
+  std::vector<unsigned> pes;                                      ///< that it holds, ascending; at least one
+  unsigned columns = 1;                                           ///< of the torus, to tell places
+  std::function<std::filesystem::path(unsigned pe)> image_of_pe;  ///< the file that a PE runs
   bool goes_back = false;              ///< whoever runs the machine does so again when GoesBack is thrown
   std::function<bool()> goes_on = {};  ///< asked while PEs are held; false: the run is to end
 };

@@ -181,8 +181,10 @@ std::string Session::transfer(std::string_view what) {
   if (takes_prefix(what, "features:read:target.xml:")) return part_of(target_description(), what);
   if (takes_prefix(what, "threads:read::")) return part_of(thread_list(true), what);
   if (takes_prefix(what, "exec-file:read:")) {
-    take_until(what, ':');  // all PEs run the same
-    return part_of(std::filesystem::absolute(options_.image).string(), what);
+    const std::string_view process = take_until(what, ':');
+    const auto pe = process.empty() ? std::optional(chosen_) : process_in(process);
+    if (!pe || !holds(*pe)) return kError;
+    return part_of(std::filesystem::absolute(options_.image_of_pe(*pe)).string(), what);
   }
   return "";
 }

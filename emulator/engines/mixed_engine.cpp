@@ -74,7 +74,8 @@ void check_debugger(std::string_view engine, const EngineSetup& setup, const Deb
                      " lends no PEs to the emulator's own debugger (--gdb PORT): take the engine translated or "
                      "interpreted, or QEMU's debugger for one PE (--gdb PE:PORT)");
   }
-  if (setup.profile != nullptr) throw UsageError("a profile is not made of PEs that a debugger holds: leave out either");
+  if (setup.profile != nullptr)
+    throw UsageError("a profile is not made of PEs that a debugger holds: leave out either");
   const std::vector<bool> on_qemu = debugging.on_qemu(setup.pes.size());
   for (unsigned pe = 0; pe < on_qemu.size(); ++pe) {
     if (on_qemu[pe] && setup.holds(pe)) {

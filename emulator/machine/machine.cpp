@@ -222,9 +222,9 @@ Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_
     p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
   }
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
-  p.engine = make_engine(
-      setup.engine,
-      {p.setup.description, p.images, p.pes, threads, {}, setup.profile, setup.debugging.debugger}, setup.debugging);
+  p.engine = make_engine(setup.engine,
+                         {p.setup.description, p.images, p.pes, threads, {}, setup.profile, setup.debugging.debugger},
+                         setup.debugging);
   p.stacks.emplace(p.images, p.pes, *p.engine);
 }
 

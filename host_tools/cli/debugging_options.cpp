@@ -86,7 +86,8 @@ void add_debugging_options(CLI::App& command, Debugging& debugging, const std::s
 }
 
 std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned columns, unsigned rows,
-                                                 const std::filesystem::path& image, bool goes_back) {
+                                                 const std::function<std::filesystem::path(unsigned pe)>& image_of_pe,
+                                                 bool goes_back) {
   if (!debugging.own) {
     if (!debugging.own_pes.empty()) throw UsageError("--gdb-pes names PEs for --gdb PORT, which is not there");
     return nullptr;
@@ -94,13 +95,14 @@ std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned 
   debugger::SessionOptions options;
   options.place = *debugging.own;
   options.columns = columns;
-  options.image = image;
+  options.image_of_pe = image_of_pe;
   options.pes = pes_to_hold(debugging, columns * rows);
   options.goes_back = goes_back;
   options.goes_on = [] { return !interrupted(); };
+  const unsigned first = options.pes.front();
   auto session = std::make_unique<debugger::Session>(std::move(options));
   debugging.debugger = session.get();
-  announce(*session, image);
+  announce(*session, image_of_pe(first));
   return session;
 }
 

@@ -3,11 +3,8 @@
 // of which the debugger is told.
 #pragma once
 
-#include <functional>
-
 #include "emulator/debugger/session.hpp"
 #include "emulator/errors.hpp"
-#include "emulator/machine/machine.hpp"
 
 namespace torolux {
 
@@ -24,7 +21,19 @@ auto run_with_debugger(debugger::Session* session, Run run) {
   }
 }
 
-/// The same with a debugger that may go back. run: as run_image, with its `from`.
-MachineFigures run_debugged(debugger::Session* session, const std::function<MachineFigures(SnapshotReader*)>& run);
+/// The same with a debugger that may go back. run: is given the state from which to go on (SnapshotReader*), null: from
+/// the beginning; each time with a machine of its own.
+template <class Run>
+auto run_debugged(debugger::Session* session, Run run) {
+  return run_with_debugger(session, [&] {
+    for (;;) {
+      try {
+        return run(session != nullptr ? session->from() : nullptr);
+      } catch (const debugger::GoesBack&) {
+        continue;
+      }
+    }
+  });
+}
 
 }  // namespace torolux

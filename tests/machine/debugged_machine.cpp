@@ -48,8 +48,11 @@ std::string exact(const MachineFigures& figures) {
 DebuggedMachine::DebuggedMachine(Options options)
     : options_(std::move(options)), image_(load_image(image_file(options_.image))) {
   if (!options_.held.empty()) {
-    debugger::SessionOptions session{
-        .place = {0, 0, socket()}, .pes = options_.held, .columns = 4, .image = image_.file};
+    debugger::SessionOptions session;
+    session.place.path = socket();
+    session.pes = options_.held;
+    session.columns = 4;
+    session.image_of_pe = [this](unsigned) { return image_.file; };
     session.goes_back = options_.goes_back;
     session.goes_on = [this] { return !ends_.load(); };
     session_.emplace(std::move(session));
