@@ -106,7 +106,7 @@ TEST(MixedEngines, WhatTheMachineDoesNotHaveIsRefused) {
   expect({"--gdb", "3:0", "--gdb", "3:0"}, 1, "PE 3 is to have two debuggers");
   expect({"--gdb", "3:65536"}, 2, "--gdb: \"3:65536\" is out of range: 0 to 65535 are allowed");
   expect({"--gdb", "x"}, 1, "--gdb: \"x\" is not a TCP port like 1234, or a path");
-  expect({"--gdb", "x:1"}, 1, "--gdb: \"x:1\" is not a PE and a TCP port like 3:1234, or a path");
+  expect({"--gdb", "x:1"}, 1, "--gdb: \"x\" is not a PE and a TCP port like 3:1234, or a path");
   expect({"--gdb", "0", "--gdb", "0"}, 1, "--gdb: given twice: one debugger holds all PEs");
   expect({"--gdb", "70000"}, 2, "--gdb: \"70000\" is out of range: 0 to 65535 are allowed");
   expect({"--gdb-pes", "3"}, 1, "--gdb-pes names PEs for --gdb PORT, which is not there");
@@ -258,7 +258,9 @@ TEST_F(Debugged, ARenderIsHeldToo) {
   const std::smatch match = await_line("the PEs are held.*\n.*127\\.0\\.0\\.1:([0-9]+)");
   ASSERT_FALSE(match.empty());
   GdbClient gdb(static_cast<std::uint16_t>(std::stoul(match[1])));
-  EXPECT_EQ(gdb.ask("vCont;s:p3.1"), "T05thread:p3.1;");
+  std::optional<std::string> reply = gdb.ask("vCont;s:p3.1");
+  for (int tries = 0; !reply && tries < 10; ++tries) reply = gdb.reply();  // the scene is prepared first
+  EXPECT_EQ(reply, "T05thread:p3.1;");
   EXPECT_EQ(gdb.ask("bs"), "E01");
   EXPECT_EQ(gdb.ask("D"), "OK");
   const Finished held = run_->wait();
