@@ -41,6 +41,7 @@ class MixedEngine final : public Engine {
   ProcessorWaker* waker(unsigned pe) override { return of(pe).waker(pe); }
   /// While QEMU runs the PE in question, others may run here.
   bool help(unsigned pe, std::uint64_t wanted) override { return most_->help(pe, wanted); }
+  bool takes_turns(unsigned pe) const override { return most_->takes_turns(pe); }
   void fetch_ahead(unsigned pe) const override { most_->fetch_ahead(pe); }
   double help_seconds() const override { return most_->help_seconds(); }
 
@@ -66,6 +67,24 @@ void check_profiled(std::string_view name, const std::vector<bool>& on_qemu) {
                    (all_here ? "the engine is `" + std::string(name) + "`" : "some are to run on QEMU"));
 }
 
+void check_debugger(std::string_view engine, const EngineSetup& setup, const Debugging& debugging) {
+  if (setup.debugger == nullptr) return;
+  if (!engine_runs_here(engine)) {
+    throw UsageError("the engine " + std::string(engine) +
+                     " lends no PEs to the emulator's own debugger (--gdb PORT): take the engine translated or "
+                     "interpreted, or QEMU's debugger for one PE (--gdb PE:PORT)");
+  }
+  if (setup.profile != nullptr)
+    throw UsageError("a profile is not made of PEs that a debugger holds: leave out either");
+  const std::vector<bool> on_qemu = debugging.on_qemu(setup.pes.size());
+  for (unsigned pe = 0; pe < on_qemu.size(); ++pe) {
+    if (on_qemu[pe] && setup.holds(pe)) {
+      throw UsageError("PE " + std::to_string(pe) +
+                       " cannot both run on QEMU and be held by the emulator's own debugger: name others in --gdb-pes");
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<bool> Debugging::on_qemu(std::size_t pes) const {
@@ -87,6 +106,7 @@ std::vector<bool> Debugging::on_qemu(std::size_t pes) const {
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const EngineSetup& setup, const Debugging& debugging) {
   const EngineFactory& factory = engine_named(name);
+  check_debugger(name, setup, debugging);
   std::vector<bool> on_qemu = debugging.on_qemu(setup.pes.size());
   const QemuOptions options{.gdb = debugging.gdb, .listens = debugging.listens};
   if (setup.profile != nullptr) check_profiled(name, on_qemu);

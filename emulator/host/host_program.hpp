@@ -15,6 +15,8 @@
 
 namespace torolux {
 
+class SnapshotWriter;  // emulator/snapshot/archive.hpp
+
 using protocol::PeNumber;
 using Cycles = std::uint64_t;  ///< virtual time
 
@@ -67,6 +69,11 @@ class HostProgram {
   virtual bool finished() const = 0;
   /// For the deadlock report: what the program waits for.
   virtual const char* waiting_for() const = 0;
+
+  /// Whether `save` gives all that a run changes of it: then a debugger may go back to states in between.
+  virtual bool can_be_saved() const { return false; }
+  /// Between two messages.
+  virtual void save(SnapshotWriter& /*archive*/) {}
 };
 
 using PixelSums = std::array<std::int64_t, 3>;

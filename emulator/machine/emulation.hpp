@@ -45,6 +45,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void restore(SnapshotReader& archive);
   /// Waits until no PE can do more before something else happens: so much may be saved.
   void let_rest();
+  /// The same, but for PEs that take turns: of those, what they have done is known.
+  void let_others_rest();
   void save(SnapshotWriter& archive);
   bool has_failed() const { return !failure_.empty(); }
   void tell_to_stop();
@@ -69,6 +71,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   // ---- Scheduling ----
   bool next_event(Event& event);
   void await(unsigned pe, Cycles wanted);
+  Cycles end_of_turn(unsigned pe, Cycles time) const;
   void fetch_next_turn_ahead() const;
   void attend_now_and_then();
   void hold_until_let(Cycles next);

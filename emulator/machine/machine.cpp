@@ -155,10 +155,23 @@ struct Machine::Parts {
     emulation.emplace(setup, channels, *stacks, *engine, program, images.phase_names());
     if (setup.keeper != nullptr) engine->will_be_saved();
     if (from != nullptr) restore(*from);
+    if (setup.debugging.debugger != nullptr) let_debugger_save(program);
     begin_wall = clock_seconds(CLOCK_MONOTONIC);
     begin_scheduler = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
     begin_process = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     begin_children = children_seconds();
+  }
+  /// Whoever goes back to what is saved restores the program, then runs an equal machine from there.
+  void let_debugger_save(HostProgram& program) {
+    if (setup.keeper != nullptr) {
+      throw UsageError("a machine in a debugger's hands cannot be saved: leave out either");
+    }
+    const auto save_all = [this, &program](SnapshotWriter& archive) {
+      program.save(archive);
+      emulation->let_others_rest();
+      save(archive);
+    };
+    setup.debugging.debugger->may_save(program.can_be_saved() ? PeDebugger::Save(save_all) : nullptr);
   }
   void save(SnapshotWriter& archive) {
     emulation->save(archive);
@@ -209,8 +222,9 @@ Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_
     p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
   }
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
-  p.engine =
-      make_engine(setup.engine, {p.setup.description, p.images, p.pes, threads, {}, setup.profile}, setup.debugging);
+  p.engine = make_engine(setup.engine,
+                         {p.setup.description, p.images, p.pes, threads, {}, setup.profile, setup.debugging.debugger},
+                         setup.debugging);
   p.stacks.emplace(p.images, p.pes, *p.engine);
 }
 

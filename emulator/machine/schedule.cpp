@@ -69,6 +69,12 @@ void Emulation::await(unsigned pe, Cycles wanted) {
   attend_now_and_then();
 }
 
+/// Of a PE that takes turns: until its clock is another's, or an event's.
+Cycles Emulation::end_of_turn(unsigned pe, Cycles time) const {
+  const std::size_t second = times_.bounds.second_index();
+  return second == pe ? time : std::min(time, times_.bounds.at(second) - kCommandCycles);
+}
+
 /// While one PE runs, what the next one needs is fetched: since its last turn all others have had theirs.
 void Emulation::fetch_next_turn_ahead() const {
   const auto pe = static_cast<unsigned>(times_.bounds.second_index());
@@ -99,7 +105,7 @@ bool Emulation::next_event(Event& event) {
     if (nius_[pe].refresh(events_, pool_, times_)) continue;
     nius_[pe].publish_horizon(known);
     fetch_next_turn_ahead();
-    await(pe, time);
+    await(pe, engine_.takes_turns(pe) ? end_of_turn(pe, time) : time);
   }
 }
 

@@ -31,6 +31,12 @@ void Emulation::let_rest() {
   }
 }
 
+void Emulation::let_others_rest() {
+  for (unsigned pe = 0; pe < pes_; ++pe) {
+    while (!at_rest(pe) && !engine_.takes_turns(pe)) await(pe, kNever);
+  }
+}
+
 void Emulation::save(SnapshotWriter& archive) {
   this->archive(archive);
 }

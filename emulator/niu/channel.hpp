@@ -213,9 +213,10 @@ struct NiuChannel {
   std::uint32_t pes;
   std::uint32_t copy_bytes;  ///< in a cycle of a copy engine; 0: copies take no time
   std::uint64_t most_cycles_between_hints;
-  std::uint64_t until;       ///< no HINT happens at this clock or later; 0: all do
-  std::uint32_t ring_bytes;  ///< there is memory for so many in each ring; 0: kMostRingBytes
-  std::uint32_t state_log;   ///< bytes from here to its StateLog; 0: nobody watches
+  std::uint64_t until;        ///< no HINT happens at this clock or later; 0: all do
+  std::uint32_t ring_bytes;   ///< there is memory for so many in each ring; 0: kMostRingBytes
+  std::uint32_t state_log;    ///< bytes from here to its StateLog; 0: nobody watches
+  std::uint32_t takes_turns;  ///< 1: its bound tells its clock, not when its next command may come at the earliest
 
   // Written by the processor's side.
   alignas(64) std::atomic<std::uint64_t> bound;  ///< no command with an earlier time will come

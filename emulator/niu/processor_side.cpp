@@ -58,7 +58,8 @@ NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uin
   window.retry = 0;
   if (StateLog* const log = state_log_of(channel_)) log->hint_ended();
   // The next HINT ends at least one cycle later.
-  publish_bound(channel_, std::max(run.clock() + kCommandCycles + 1, channel_.processor.last_command),
+  const std::uint64_t next = std::max(run.clock() + kCommandCycles + 1, channel_.processor.last_command);
+  publish_bound(channel_, channel_.takes_turns != 0 && happened ? run.clock() + kCommandCycles : next,
                 pack_wait(happened ? WaitKind::running : WaitKind::halted, 0));
   return {happened ? done : stop, run.clock()};
 }

@@ -42,7 +42,7 @@ std::optional<double> measured_slowness(const std::string& engine) {
 
 void remember_speed(const MachineChoice& machine, const RenderFigures& figures) {
   const std::filesystem::path file = file_of(machine.engine);
-  const bool alone = machine.debugging.qemu_pes.empty() && machine.debugging.gdb.empty();
+  const bool alone = machine.debugging.qemu_pes.empty() && machine.debugging.gdb.empty() && !machine.debugging.own;
   if (file.empty() || !alone || figures.run_seconds < kLeastSeconds) return;
   double packets = 0;
   for (const PeFigures& pe : figures.machine.pes) packets += static_cast<double>(pe.packets_sent);

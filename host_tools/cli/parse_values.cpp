@@ -198,6 +198,14 @@ FollowTarget parse_follow(const std::string& text) {
              "from 0");
 }
 
+GdbEndpoint parse_gdb_place(const std::string& text) {
+  if (text.find('/') != std::string::npos) return {0, 0, text};
+  const auto port = whole(text);
+  if (!port)
+    wrong_form(text, "a TCP port like 1234, or a path with a / like /tmp/pes; or these with a PE, like 3:1234");
+  return {0, static_cast<std::uint16_t>(in_range(text, *port, 0, std::numeric_limits<std::uint16_t>::max()))};
+}
+
 GdbEndpoint parse_gdb_endpoint(const std::string& text) {
   constexpr const char* kForm = "a PE and a TCP port like 3:1234, or a path with a / like 3:/tmp/pe3";
   const std::size_t colon = text.find(':');

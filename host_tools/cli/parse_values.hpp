@@ -61,6 +61,8 @@ std::uint64_t parse_file_size(const std::string& text, std::uint64_t least, std:
 
 /// "PE:PORT", each within its range of all machines, or "PE:PATH": what has a slash is a path.
 GdbEndpoint parse_gdb_endpoint(const std::string& text);
+/// The same without a PE: a port, or a path with a slash.
+GdbEndpoint parse_gdb_place(const std::string& text);
 
 /// "link:P": the chance P, 0 to 0.5, that a packet is spoilt on a link.
 double parse_link_fault(const std::string& text);

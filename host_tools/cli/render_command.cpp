@@ -27,6 +27,7 @@
 #include "host_tools/report/figures.hpp"
 #include "host_tools/report/html_report.hpp"
 #include "host_tools/report/progress_line.hpp"
+#include "host_tools/run/debugged_run.hpp"
 #include "host_tools/trace/story.hpp"
 
 namespace torolux {
@@ -238,11 +239,16 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   const auto growing = growing_picture(options.growing, prepared.run.scene, resolved);
   Shown shown(resolved, options, display.get(), growing.get());
   const std::function<bool(const RenderProgress&)> show = [&shown](const RenderProgress& p) { return shown.show(p); };
+  const auto debugger = open_debugger(
+      resolved.machine.debugging, resolved.machine.columns, resolved.machine.rows,
+      [](unsigned) { return std::filesystem::path(firmware_image()); }, false);
   RenderSession session(prepared.scene, resolved.camera, resolved.quality, resolved.machine, resolved.files,
                         firmware_image(), show);
   const bool stays = resolved.path.size() > 1 || display;
   const RenderResult result = run_displayed(display.get(), [&] {
-    return run_traced(trace.get(), [&] { return run_session(session, resolved, shown, stays); });
+    return run_traced(trace.get(), [&] {
+      return run_with_debugger(debugger.get(), [&] { return run_session(session, resolved, shown, stays); });
+    });
   });
   if (interrupted()) return {kInterrupted, ""};
   if (trace) finish_trace(*trace, options.quiet);

@@ -15,6 +15,7 @@
 #include "host_tools/report/csv.hpp"
 #include "host_tools/report/html_report.hpp"
 #include "host_tools/report/text.hpp"
+#include "host_tools/run/debugged_run.hpp"
 #include "host_tools/run/run.hpp"
 
 namespace torolux {
@@ -74,7 +75,6 @@ RunEnd run_prepared(const RunOptions& options) {
     check_file_writable(*options.report);
   }
   const std::vector<MemoryDump> dumps = checked_dumps(options.ending, setup, images);
-  ServedFiles files(std::move(read), options.program.outputs);
   const auto begin = std::chrono::steady_clock::now();
   const auto display = open_display(options.display, {"run",
                                                       inputs.images.names(),
@@ -90,7 +90,11 @@ RunEnd run_prepared(const RunOptions& options) {
     setup.pacer = &display->pace();
     setup.hop_watcher = &display->pace();
   }
-  const auto print = [&display, &options](const PeText& text) {
+  const auto debugger = open_debugger(
+      setup.debugging, setup.columns, setup.rows, [&images](unsigned pe) { return images.of(pe).file; },
+      !options.trace.file && !display);
+  const auto print = [&display, &options, &debugger](const PeText& text) {
+    if (debugger && !debugger->is_new()) return;
     print_text(text, options.program.raw);
     if (display) display->say(text);
   };
@@ -102,14 +106,18 @@ RunEnd run_prepared(const RunOptions& options) {
   const auto trace = trace_file(options.trace, TracedRun::image, setup.columns * setup.rows);
   if (trace) setup.watcher = &trace->watcher();
   const auto at_end = [&dumps](const Machine& machine) { write_dumps(machine, dumps); };
-  const RunOutcome outcome = run_displayed(display.get(), [&] {
-    return run_traced(trace.get(), [&] { return run_program(setup, images, files, print, progress, at_end); });
-  });
+  std::optional<ServedFiles> files;
+  const auto run = [&](SnapshotReader* from) {
+    files.emplace(debugger ? read : std::move(read), options.program.outputs);  // anew where a debugger goes back
+    return run_program(setup, images, *files, print, progress, at_end, from);
+  };
+  const RunOutcome outcome = run_displayed(
+      display.get(), [&] { return run_traced(trace.get(), [&] { return run_debugged(debugger.get(), run); }); });
   const MachineFigures& figures = outcome.figures;
   if (interrupted()) {
     return {kInterrupted, ""};
   }
-  files.finish();
+  files->finish();
   if (trace) {
     trace->finish();
     if (!trace->note().empty() && !options.quiet) std::cerr << "torolux: note: " << trace->note() << "\n";

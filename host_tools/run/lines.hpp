@@ -8,7 +8,10 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
+#include "emulator/snapshot/archive.hpp"
 #include "host_tools/run/pe_text.hpp"
 
 namespace torolux {
@@ -22,9 +25,27 @@ class Lines {
   void add(PeNumber pe, PeStream stream, Cycles now, std::span<const std::byte> bytes);
   /// What is left of all PEs, in the order of their numbers, standard output first.
   void finish(Cycles now);
+  /// All of it that a run changes.
+  template <class Archive>
+  void archive(Archive& archive) {
+    std::vector<Unfinished> all;
+    for (const auto& [pe, texts] : unfinished_) all.push_back({pe, texts});
+    archive(all);
+    unfinished_.clear();
+    for (Unfinished& one : all) unfinished_[one.pe] = std::move(one.texts);
+  }
 
  private:
   static constexpr std::size_t kStreams = 2;
+  struct Unfinished {
+    PeNumber pe;
+    std::array<std::string, kStreams> texts;
+
+    template <class Archive>
+    void archive(Archive& archive) {
+      archive(pe, texts);
+    }
+  };
   std::function<void(const PeText&)> on_line_;
   std::unordered_map<PeNumber, std::array<std::string, kStreams>> unfinished_;
 };

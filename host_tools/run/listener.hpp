@@ -19,6 +19,11 @@ struct PeExit {
   std::int32_t status;
   Cycles time;  ///< when the host learned of it
 
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(pe, status, time);
+  }
+
   int code() const { return static_cast<int>(static_cast<std::uint32_t>(status) % 256U); }  ///< of a process
 };
 
@@ -33,6 +38,11 @@ class Listener final : public HostProgram {
   /// It never has anything more to do: what counts is that the PEs have halted.
   bool finished() const override { return true; }
   const char* waiting_for() const override { return "text from the PEs"; }
+  /// What is in files is not.
+  bool can_be_saved() const override { return files_.are_none(); }
+  void save(SnapshotWriter& archive) override { this->archive(archive); }
+  /// Before the run. Throws InputError.
+  void restore(SnapshotReader& archive) { this->archive(archive); }
 
   /// The run has ended, well or not: what is left of unfinished lines.
   void finish();
@@ -46,6 +56,10 @@ class Listener final : public HostProgram {
     std::span<const std::byte> contents;
   };
 
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(lines_, last_, first_exit_);
+  }
   void text(const Request& request);
   void output(const Request& request);
   void exit_status(const Request& request);

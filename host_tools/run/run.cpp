@@ -57,13 +57,15 @@ std::string hang_of(const Machine& machine, const RunOutcome& outcome) {
 
 RunOutcome run_program(const MachineSetup& setup, ImageSet images, ServedFiles& files,
                        const std::function<void(const PeText&)>& on_text,
-                       const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end) {
+                       const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end,
+                       SnapshotReader* from) {
   Machine machine(setup, std::move(images));
   Listener listener(files, on_text);
+  if (from != nullptr) listener.restore(*from);
   std::string hang;
   try {
     machine.run(
-        listener, [&](Cycles now) { return !progress || progress(machine, now); }, Machine::Then::stay);
+        listener, [&](Cycles now) { return !progress || progress(machine, now); }, Machine::Then::stay, from);
     hang = hang_of(machine, {machine.figures(), listener.first_exit()});
     machine.end();
   } catch (const MachineFailure& failure) {

@@ -25,11 +25,12 @@ using AtEnd = std::function<void(const Machine&)>;
 
 /// Runs the images (an Image: all PEs have it) until every PE has halted, or until the set-up's end. on_text is called
 /// for each line or message of text, progress as by Machine::run, with the machine to look at. files: what programs may
-/// open; not finished here.
+/// open; not finished here. from: of a debugger that goes back: the run goes on from there; null: from its beginning.
 /// Throws InputError (the image does not fit), MachineFailure (trap, dead PE, PEs that wait for ever, ...).
 RunOutcome run_program(const MachineSetup& setup, ImageSet images, ServedFiles& files,
                        const std::function<void(const PeText&)>& on_text,
-                       const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end = {});
+                       const std::function<bool(const Machine&, Cycles)>& progress, const AtEnd& at_end = {},
+                       SnapshotReader* from = nullptr);
 
 /// The same without files.
 MachineFigures run_image(const MachineSetup& setup, ImageSet images, const std::function<void(const PeText&)>& on_text,

@@ -48,6 +48,8 @@ class ServedFiles {
   /// Opens the outputs under other names. Throws InputError.
   ServedFiles(std::vector<Input> inputs, const std::vector<GivenFile>& outputs);
 
+  /// Programs have no files.
+  bool are_none() const { return inputs_.empty() && outputs_.empty(); }
   /// Requests of a PE. A request that no program of the kit makes throws MachineFailure.
   protocol::FileAnswer open(PeNumber pe, std::uint32_t access, const std::string& name);
   /// Valid until the next call.

@@ -60,7 +60,7 @@ class RenderProgram : public LightProgram {
   std::uint64_t rounds_ended() const;
 
   /// Between two messages.
-  void save(SnapshotWriter& archive);
+  void save(SnapshotWriter& archive) override;
   /// Instead of the start: it goes on from what the program of an equal job has saved. Throws InputError.
   void restore(SnapshotReader& archive);
 

@@ -105,7 +105,14 @@ TEST(MixedEngines, WhatTheMachineDoesNotHaveIsRefused) {
   expect({"--gdb", "16:0"}, 1, "there is no PE 16 to run on QEMU: this machine's PEs are 0 to 15");
   expect({"--gdb", "3:0", "--gdb", "3:0"}, 1, "PE 3 is to have two debuggers");
   expect({"--gdb", "3:65536"}, 2, "--gdb: \"3:65536\" is out of range: 0 to 65535 are allowed");
-  expect({"--gdb", "3"}, 1, "--gdb: \"3\" is not a PE and a TCP port like 3:1234, or a path");
+  expect({"--gdb", "x"}, 1, "--gdb: \"x\" is not a TCP port like 1234, or a path");
+  expect({"--gdb", "x:1"}, 1, "--gdb: \"x\" is not a PE and a TCP port like 3:1234, or a path");
+  expect({"--gdb", "0", "--gdb", "0"}, 1, "--gdb: given twice: one debugger holds all PEs");
+  expect({"--gdb", "70000"}, 2, "--gdb: \"70000\" is out of range: 0 to 65535 are allowed");
+  expect({"--gdb-pes", "3"}, 1, "--gdb-pes names PEs for --gdb PORT, which is not there");
+  expect({"--gdb", "0", "--gdb-pes", "16"}, 1, "--gdb-pes: there is no PE 16: this machine's PEs are 0 to 15");
+  expect({"--gdb", "0", "--gdb-pes", "3", "--qemu-pes", "3"}, 1, "PE 3 cannot both run on QEMU and be held");
+  expect({"--gdb", "0", "--engine", "qemu"}, 1, "the engine qemu lends no PEs to the emulator's own debugger");
 }
 
 // ---- Debuggers ----
@@ -222,6 +229,45 @@ TEST_F(Debugged, CtrlCEndsAll) {
   run_->signal(SIGINT);
   EXPECT_EQ(run_->wait().exit_code, 130);
   EXPECT_TRUE(all_gone(qemus));
+}
+
+TEST_F(Debugged, OneDebuggerHoldsPesOfTheTranslatedEngine) {
+  start({}, {"--gdb", "0", "--gdb-pes", "0,3-5"});
+  const std::smatch match = await_line("the PEs are held.*\n.*127\\.0\\.0\\.1:([0-9]+)");
+  ASSERT_FALSE(match.empty());
+  GdbClient gdb(static_cast<std::uint16_t>(std::stoul(match[1])));
+  EXPECT_EQ(gdb.ask("qfThreadInfo"), "mp1.1,p4.1,p5.1,p6.1");
+  EXPECT_EQ(gdb.ask("Hgp5.1"), "OK");
+  EXPECT_EQ(gdb.ask("Z0," + hexadecimal(address_of("pe_main")) + ",2"), "OK");
+  EXPECT_THAT(gdb.ask("vCont;c").value_or(""), StartsWith("T05thread:p5.1;"));
+  EXPECT_EQ(gdb.pc(), address_of("pe_main"));
+  EXPECT_EQ(gdb.ask("Hcp5.1"), "OK");
+  EXPECT_EQ(gdb.ask("bs"), "T05thread:p5.1;");
+  EXPECT_NE(gdb.pc(), address_of("pe_main"));
+  EXPECT_EQ(gdb.ask("D"), "OK");
+  expect_undisturbed();
+}
+
+TEST_F(Debugged, ARenderIsHeldToo) {
+  const Arguments scene =
+      joined({"render", std::string(TOROLUX_SOURCE_DIR) + "/scenes/cornell_box"}, small_render_options());
+  const auto written = [&](const std::string& name) {
+    return Arguments{"--output", folder_.path() / (name + ".pfm"), "--stats", stats(name)};
+  };
+  run_.emplace(joined(joined(scene, written("held")), {"--gdb", "0", "--gdb-pes", "2"}));
+  const std::smatch match = await_line("the PEs are held.*\n.*127\\.0\\.0\\.1:([0-9]+)");
+  ASSERT_FALSE(match.empty());
+  GdbClient gdb(static_cast<std::uint16_t>(std::stoul(match[1])));
+  std::optional<std::string> reply = gdb.ask("vCont;s:p3.1");
+  for (int tries = 0; !reply && tries < 10; ++tries) reply = gdb.reply();  // the scene is prepared first
+  EXPECT_EQ(reply, "T05thread:p3.1;");
+  EXPECT_EQ(gdb.ask("bs"), "E01");
+  EXPECT_EQ(gdb.ask("D"), "OK");
+  const Finished held = run_->wait();
+  EXPECT_EQ(held.exit_code, 0) << held.errors;
+  EXPECT_EQ(run_torolux(joined(scene, written("plain"))).exit_code, 0);
+  EXPECT_EQ(contents(folder_.path() / "held.pfm"), contents(folder_.path() / "plain.pfm"));
+  EXPECT_EQ(statistics(stats("held")), statistics(stats("plain")));
 }
 
 TEST_F(Debugged, APortInUseIsRefused) {

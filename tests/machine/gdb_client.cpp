@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <stdexcept>
 #include <string_view>
 
@@ -52,7 +53,11 @@ GdbClient::~GdbClient() {
 
 std::optional<char> GdbClient::next() {
   char c = 0;
-  return recv(socket_, &c, 1, 0) == 1 ? std::optional(c) : std::nullopt;
+  ssize_t count = 0;
+  do {
+    count = recv(socket_, &c, 1, 0);
+  } while (count < 0 && errno == EINTR);
+  return count == 1 ? std::optional(c) : std::nullopt;
 }
 
 void GdbClient::send(const std::string& command) {

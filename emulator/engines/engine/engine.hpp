@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/description/description.hpp"
+#include "emulator/engines/engine/pe_debugger.hpp"
 #include "emulator/engines/engine/registers.hpp"
 #include "emulator/engines/engine/shared_memory.hpp"
 #include "emulator/engines/image/image_set.hpp"
@@ -39,7 +40,9 @@ struct EngineSetup {
   unsigned threads;                          ///< host threads to use, >= 1
   std::vector<bool> elsewhere = {};          ///< by number: PEs that another engine of this machine runs; empty: none
   profile::CycleProfile* profile = nullptr;  ///< filled in while the PEs run; null: none
+  PeDebugger* debugger = nullptr;            ///< holds some of the PEs, where the engine can lend them; null: nobody
 
+  bool holds(unsigned pe) const { return debugger != nullptr && debugger->holds(pe); }
   bool runs(std::size_t pe) const { return elsewhere.empty() || !elsewhere[pe]; }
 };
 
@@ -81,6 +84,9 @@ class Engine {
   /// The scheduler has nothing to do until this PE's bound is later than `wanted`: runs that PE, or another, for some
   /// milliseconds at most. False: nothing to run here; sleep. Throws as check() does.
   virtual bool help(unsigned /*pe*/, std::uint64_t /*wanted*/) { return false; }
+  /// This PE runs only when it is helped, and only as long as its clock is less than `wanted`, one instruction at
+  /// least: so that PEs of a debugger run in the order of virtual time.
+  virtual bool takes_turns(unsigned /*pe*/) const { return false; }
   /// This PE will probably be the next to be helped: what that needs, fetched into the caches meanwhile.
   virtual void fetch_ahead(unsigned /*pe*/) const {}
   /// Time spent in `help` so far [s].

@@ -10,6 +10,9 @@ namespace torolux {
 
 inline constexpr unsigned kProtectedRegions = 16;
 
+/// PeRegisters::halted of a PE that a debugger holds: it is in no HINT, and pc is that of the next instruction.
+inline constexpr std::uint32_t kStandsBetween = 2;
+
 /// All that a program can see. No padding: it is saved as it is.
 struct PeRegisters {
   std::uint64_t clock;         ///< [cycles] at the HINT, its own cost included, what it waits for not
@@ -18,7 +21,7 @@ struct PeRegisters {
   std::array<std::uint32_t, 32> f;  ///< bits of binary32
   std::uint32_t pc;                 ///< behind the HINT
   std::int32_t hint_immediate;      ///< of the HINT, which has not happened yet
-  std::uint32_t halted;             ///< 1: it has happened, and nothing follows
+  std::uint32_t halted;             ///< 1: it has happened, and nothing follows; kStandsBetween: see there
   std::uint32_t fflags, frm;
   std::uint32_t mstatus, mstatush, mtvec, mscratch, mepc, mcause, mtval, mie, mip;
   std::array<std::uint32_t, kProtectedRegions> pmpaddr;

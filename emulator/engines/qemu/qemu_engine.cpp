@@ -11,9 +11,9 @@
 #include <string>
 #include <thread>
 
+#include "emulator/engines/engine/gdb_socket.hpp"
 #include "emulator/engines/qemu/gdb_connection.hpp"
 #include "emulator/engines/qemu/gdb_registers.hpp"
-#include "emulator/engines/qemu/gdb_socket.hpp"
 #include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/engines/qemu/qemu_process.hpp"
 #include "emulator/errors.hpp"

@@ -129,7 +129,7 @@ PeRegisters Processor::save() const {
   registers.clock = pe_.cycles;
   registers.instructions = pe_.instructions;
   registers.hint_immediate = pe_.hint_immediate;
-  registers.halted = at_hint_ == AtHint::finished ? 1 : 0;
+  registers.halted = at_hint_ == AtHint::finished ? 1 : at_hint_ == AtHint::none ? kStandsBetween : 0;
   copy_registers(pe_, registers, [](const auto& of_pe, auto& saved) { std::memcpy(&saved, &of_pe, sizeof saved); });
   return registers;
 }
@@ -147,7 +147,9 @@ void Processor::restore(const PeRegisters& registers) {
   pe_.cycles = registers.clock;
   pe_.instructions = registers.instructions;
   pe_.hint_immediate = registers.hint_immediate;
-  at_hint_ = registers.halted != 0 ? AtHint::finished : AtHint::waits;
+  at_hint_ = registers.halted == kStandsBetween ? AtHint::none
+             : registers.halted != 0            ? AtHint::finished
+                                                : AtHint::waits;
   copy_registers(pe_, registers, [](auto& of_pe, const auto& saved) { std::memcpy(&of_pe, &saved, sizeof saved); });
   code_.resume(pe_);
 }
@@ -176,6 +178,32 @@ Processor::Stop Processor::run(const Goal* goal) {
         return give_up({NiuFaultCode::wait_for_interrupt, {pe_.pc, 0, 0}});
     }
   }
+}
+
+Processor::Stop Processor::step() {
+  if (fault_) return end();
+  if (at_hint_ == AtHint::none) {
+    switch (code_.step(pe_).value_or(TranslatedImage::Stop::cycle_limit)) {
+      case TranslatedImage::Stop::hint:
+        at_hint_ = AtHint::reached;
+        break;
+      case TranslatedImage::Stop::cycle_limit:
+        if (loops()) return give_up(endless_loop(channel_, pe_.pc));
+        break;
+      case TranslatedImage::Stop::stuck:
+        return give_up({NiuFaultCode::no_trap_handler, {pe_.mcause, pe_.mepc, pe_.mtval}});
+      case TranslatedImage::Stop::waits:
+        return give_up({NiuFaultCode::wait_for_interrupt, {pe_.pc, 0, 0}});
+    }
+  }
+  if (at_hint_ == AtHint::waits) at_hint_ = AtHint::reached;
+  if (at_hint_ == AtHint::reached) at_hint_ = ask(pe_.hint_immediate, pe_.cycles, pe_.instructions);
+  if (at_hint_ == AtHint::waits) return Stop::waits;
+  if (at_hint_ == AtHint::finished) return Stop::finished;
+  // Its clock is its bound: so the scheduler gives it its turn in the order of virtual time.
+  const std::uint64_t bound = pe_.cycles + kCommandCycles;
+  if (channel_.bound.load(std::memory_order_relaxed) < bound) channel_.bound.store(bound, std::memory_order_release);
+  return Stop::slice;
 }
 
 }  // namespace torolux::translated

@@ -39,6 +39,14 @@ class Processor {
   };
   /// Runs until one of these; goal: none.
   Stop run(const Goal* goal);
+  /// For a debugger: one instruction, interpreted, and the HINT that it is, if it is one. Stop::slice: it has happened.
+  Stop step();
+  const TranslatedImage& code() const { return code_; }
+  const TranslatedPe& state() const { return pe_; }
+  /// Between two steps, in no HINT.
+  TranslatedPe& state() { return pe_; }
+  bool waits_in_hint() const { return at_hint_ == AtHint::waits || at_hint_ == AtHint::reached; }
+  bool has_ended() const { return at_hint_ == AtHint::finished || fault_.has_value(); }
   /// What it begins with, into the caches.
   void fetch_ahead() const {
     const auto* const bytes = reinterpret_cast<const std::byte*>(this);
@@ -52,6 +60,8 @@ class Processor {
   void restore(const PeRegisters& registers);
   /// To be looked at by others: its bound, and what it waits for.
   const NiuChannel& channel() const { return channel_; }
+  /// It runs by `step` alone.
+  void take_turns() { channel_.takes_turns = 1; }
 
  private:
   static constexpr std::size_t kBeginsWith = 512;  // all but control and status registers

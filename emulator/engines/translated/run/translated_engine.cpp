@@ -8,6 +8,7 @@
 #include <deque>
 #include <thread>
 
+#include "emulator/engines/translated/run/lent_processor.hpp"
 #include "emulator/engines/translated/run/processor.hpp"
 #include "emulator/engines/translated/run/run_queue.hpp"
 #include "emulator/niu/channel.hpp"
@@ -51,7 +52,8 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
       codes_.emplace_back(image, setup.machine.processor.latency, options);
     }
     for (unsigned pe = 0; pe < setup.pes.size(); ++pe) {
-      if (!setup_.runs(pe) && queue_.claim(pe)) queue_.finish(pe);
+      // A debugger's PEs are run by nobody else.
+      if ((!setup_.runs(pe) || setup_.holds(pe)) && queue_.claim(pe)) queue_.finish(pe);
     }
   }
   TranslatedEngine(const TranslatedEngine&) = delete;
@@ -68,9 +70,13 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
       if (pe < restored_.size() && restored_[pe]) processors_.back().restore(*restored_[pe]);
     }
     restored_.clear();
+    lend_to_debugger();
     for (unsigned i = 1; i < setup_.threads; ++i) threads_.emplace_back([this] { work(); });
   }
 
+  void check() override {
+    if (setup_.debugger != nullptr) setup_.debugger->look();
+  }
   void stop() override { end(); }
 
   bool can_be_saved() const override { return true; }
@@ -83,11 +89,13 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
 
   ProcessorWaker* waker(unsigned /*pe*/) override { return this; }
   bool help(unsigned pe, std::uint64_t wanted) override;
+  bool takes_turns(unsigned pe) const override { return setup_.holds(pe); }
   void fetch_ahead(unsigned pe) const override { processors_[pe].fetch_ahead(); }
   double help_seconds() const override { return std::chrono::duration<double>(helped_).count(); }
 
  private:
   void wake(unsigned pe) override { queue_.wake(pe); }
+  void lend_to_debugger();
   void work();
   void run(unsigned pe, const Goal* goal);
   template <class Look>
@@ -127,7 +135,22 @@ void TranslatedEngine::work() {
   }
 }
 
+void TranslatedEngine::lend_to_debugger() {
+  if (setup_.debugger == nullptr) return;
+  std::vector<std::unique_ptr<DebuggedPe>> lent(setup_.pes.size());
+  for (unsigned pe = 0; pe < lent.size(); ++pe) {
+    if (!setup_.holds(pe)) continue;
+    processors_[pe].take_turns();
+    lent[pe] = translated::lend(processors_[pe]);
+  }
+  setup_.debugger->begin(std::move(lent));
+}
+
 bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
+  if (setup_.holds(pe)) {
+    setup_.debugger->turn(pe, wanted);
+    return true;
+  }
   const News news(processors_[pe].channel(), wanted, queue_);
   if (!queue_.claim(pe)) {
     std::optional<unsigned> other = queue_.take();
@@ -172,6 +195,7 @@ std::optional<StackRegisters> TranslatedEngine::stack_registers(unsigned pe) {
 
 void TranslatedEngine::end() {
   ending_ = true;
+  if (setup_.debugger != nullptr) setup_.debugger->end();
   queue_.close();
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();

@@ -258,6 +258,10 @@ std::optional<TranslatedImage::Stop> TranslatedImage::stop_of(Interpreter::Step 
   return std::nullopt;
 }
 
+std::optional<TranslatedImage::Stop> TranslatedImage::step(TranslatedPe& pe) const {
+  return stop_of(interpret(pe), pe);
+}
+
 TranslatedImage::Stop TranslatedImage::run(TranslatedPe& pe) const {
   while (pe.cycles < pe.cycle_limit) {
     const Way* way = may_run_translated(pe) ? way_at(pe.pc) : nullptr;

@@ -66,6 +66,9 @@ class TranslatedImage {
   Stop run(TranslatedPe& pe) const;
   /// The same, one instruction after the other, each told to the profile, which has begun.
   Stop run_profiled(TranslatedPe& pe, profile::PeProfile& profile) const;
+  /// Executes one instruction, whatever the cycle limit. Nothing: it may go on.
+  std::optional<Stop> step(TranslatedPe& pe) const;
+  const CodeMap& code() const { return code_; }
 
  private:
   struct Library;

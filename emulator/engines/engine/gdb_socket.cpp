@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // socket, bind, listen.
-#include "emulator/engines/qemu/gdb_socket.hpp"
+#include "emulator/engines/engine/gdb_socket.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
