@@ -20,8 +20,8 @@ namespace torolux {
 void add_debugging_options(CLI::App& command, Debugging& debugging, const std::string& group);
 
 /// The emulator's own debugger, if that is asked for, which then is in `debugging`; null: it does not. Prints on
-/// standard error how to connect. image_of_pe: the file that a PE runs. goes_back: as SessionOptions. Throws UsageError,
-/// InputError.
+/// standard error how to connect. image_of_pe: the file that a PE runs. goes_back: as SessionOptions. Throws
+/// UsageError, InputError.
 std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned columns, unsigned rows,
                                                  const std::function<std::filesystem::path(unsigned pe)>& image_of_pe,
                                                  bool goes_back);
