@@ -9,7 +9,7 @@
 static volatile int sink;
 
 static void out_of_memory(void) {
-  char* const text = malloc((size_t)1 << 30U);
+  char* volatile text = malloc((size_t)1 << 30U);
   text[0] = 'x';  // the mistake: nobody has looked at what malloc gave
   sink = text[0];
 }

@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, EveryExample,
                                          Example{"sort", "5x1", {"3"}}, Example{"heat", "3x2", {"24", "10"}},
                                          Example{"heat", "1x4", {"9", "5"}}, Example{"matrix_product", "3x3", {"21"}},
                                          Example{"matrix_product", "1x1", {"9"}}),
-                         [](const auto& info) { return info.param.name + "_" + std::to_string(info.index); });
+                         [](const auto& example) { return example.param.name + "_" + std::to_string(example.index); });
 
 TEST(Examples, TheSumOverARingIsRight) {
   EXPECT_THAT(run({"ring_sum", "4x4", {}}, {"--raw"}).output, StartsWith("1 + 2 + ... + 16 = 136, after "));

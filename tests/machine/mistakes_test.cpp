@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,7 @@
 namespace torolux::test {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
-using testing::Matcher;
 
 struct Mistake {
   std::string name;
@@ -28,7 +27,8 @@ std::string errors_of(const Mistake& mistake, const std::string& engine) {
   const Finished end = run_torolux({"run", image, "--pes", mistake.pes, "--engine", engine, "--set",
                                     "processor.most_cycles_between_hints=1000000", "--", mistake.name});
   EXPECT_EQ(end.exit_code, 3) << end.output << end.errors;
-  return end.errors;
+  // After a trap QEMU's clock is ahead by what stood behind the instruction in its block.
+  return std::regex_replace(end.errors, std::regex(R"( \(cycle \d+\))"), "");
 }
 
 class EveryMistake : public testing::TestWithParam<Mistake> {};
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"nowhere_to_go", "1x1", {"PE 0: trap: no access to the instruction", "nowhere_to_go"}},
         Mistake{"no_memory_for_what_waits", "2x1", {"PE ", "no memory", "wait", "no_memory_for_what_waits"}},
         Mistake{"different_sizes", "2x1", {"PE 1: ", "8 bytes", "4", "different_sizes", "mistakes.c:"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& mistake) { return mistake.param.name; });
 
 }  // namespace
 }  // namespace torolux::test

@@ -72,6 +72,15 @@ std::string function_name(Dwarf_Die* function) {
   return text_of(dwarf_diename(function));
 }
 
+/// By what each unit says of itself: the file's table of addresses may be cut short, and then knows no unit at all.
+bool find_unit(Dwarf* dwarf, std::uint32_t address, Dwarf_Die& unit) {
+  Dwarf_CU* at = nullptr;
+  while (dwarf_get_units(dwarf, at, &at, nullptr, nullptr, &unit, nullptr) == 0) {
+    if (dwarf_haspc(&unit, address) == 1) return true;
+  }
+  return false;
+}
+
 /// Compilers name sources from the folder in which they ran.
 std::string file_name(const char* name, Dwarf_Die* unit) {
   if (name == nullptr) return "";
@@ -131,7 +140,7 @@ DebugInfo::~DebugInfo() = default;
 std::vector<SourcePlace> DebugInfo::places(std::uint32_t address) const {
   std::vector<SourcePlace> places;
   Dwarf_Die unit{};
-  if (parts_->dwarf == nullptr || dwarf_addrdie(parts_->dwarf, address, &unit) == nullptr) return places;
+  if (parts_->dwarf == nullptr || !find_unit(parts_->dwarf, address, unit)) return places;
   SourcePlace place;
   if (Dwarf_Line* line = dwarf_getsrc_die(&unit, address); line != nullptr && dwarf_lineno(line, &place.line) == 0)
     place.file = file_name(dwarf_linesrc(line, nullptr, nullptr), &unit);
