@@ -13,18 +13,10 @@
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/cli/table_options.hpp"
+#include "host_tools/files/shell_line.hpp"
 
 namespace torolux {
 namespace {
-
-/// In single quotes for a shell, where it needs them.
-std::string shell_word(const std::string& text) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+,=:@%";
-  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 void append(std::vector<unsigned>& pes, const std::vector<unsigned>& more) {
   pes.insert(pes.end(), more.begin(), more.end());
@@ -65,7 +57,7 @@ std::string place_text(const GdbEndpoint& place) {
 
 void announce(const debugger::Session& session, const std::filesystem::path& image) {
   std::cerr << "torolux: the PEs are held until a debugger lets them go on:\n  gdb-multiarch "
-            << shell_word(image.string()) << " -ex " << shell_word("target remote " + place_text(session.place()))
+            << shell_line({image.string()}) << " -ex " << shell_line({"target remote " + place_text(session.place())})
             << " -ex 'set schedule-multiple on'" << std::endl;
 }
 
@@ -109,9 +101,9 @@ std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned 
 std::function<void(const GdbEndpoint&)> announce_debugger(
     std::function<std::filesystem::path(unsigned pe)> image_of_pe) {
   return [image_of_pe = std::move(image_of_pe)](const GdbEndpoint& debugger) {
-    const std::string file = shell_word(image_of_pe(debugger.pe).string());
+    const std::string file = shell_line({image_of_pe(debugger.pe).string()});
     std::cerr << "torolux: PE " << debugger.pe << " is halted until a debugger lets it go on:\n"
-              << "  gdb-multiarch " << file << " -ex " << shell_word("target remote " + place_text(debugger))
+              << "  gdb-multiarch " << file << " -ex " << shell_line({"target remote " + place_text(debugger)})
               << " -ex 'tbreak *" << std::hex << std::showbase << protocol::kLocalMemoryBase << std::dec
               << "' -ex continue" << std::endl;
   };

@@ -4,17 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "emulator/engines/image/source_line.hpp"
 #include "emulator/errors.hpp"
 #include "host_tools/run/run.hpp"
+#include "tests/images/run_support.hpp"
 
 namespace torolux {
 namespace {
 
+using test::line_with;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -190,17 +191,6 @@ TEST(LastWords, WaitingForAnInterruptIsTheSameTrapOnAllEngines) {
                           HasSubstr("there are none"), HasSubstr(" (cycle ")));
   EXPECT_EQ(last_words("translated", 3, 1).failure, qemu);  // pc and cycle, too
   EXPECT_EQ(last_words("interpreted", 3, 1).failure, qemu);
-}
-
-/// "FILE:LINE" of the only line of a test image's source that holds `text`.
-std::string line_with(const std::string& file, const std::string& text) {
-  std::ifstream source(std::filesystem::path(TOROLUX_SOURCE_DIR) / file);
-  std::string found;
-  std::string line;
-  for (int number = 1; std::getline(source, line); ++number) {
-    if (line.find(text) != std::string::npos) found += file + ":" + std::to_string(number);
-  }
-  return found;
 }
 
 TEST(Places, TrapsAndLoopsAreToldWithFileAndLine) {

@@ -267,6 +267,21 @@ bool is_store(Op op) {
   return (op >= Op::sb && op <= Op::sw) || op == Op::fsw;
 }
 
+std::uint32_t accessed_bytes(Op op) {
+  switch (op) {
+    case Op::lb:
+    case Op::lbu:
+    case Op::sb:
+      return 1;
+    case Op::lh:
+    case Op::lhu:
+    case Op::sh:
+      return 2;
+    default:
+      return 4;
+  }
+}
+
 bool is_csr(Op op) {
   return op >= Op::csrrw && op <= Op::csrrci;
 }

@@ -128,12 +128,13 @@ struct Instruction {
 /// bits: of a compressed instruction the upper half is ignored.
 Instruction decode(std::uint32_t bits);
 
-bool is_float(Op op);   ///< needs mstatus.FS on (loads and stores of f registers, too)
-bool writes_f(Op op);   ///< rd is an f register
-bool writes_x(Op op);   ///< rd is an x register
-bool is_branch(Op op);  ///< conditional
-bool is_access(Op op);  ///< load or store, not atomic
-bool is_store(Op op);   ///< likewise
-bool is_csr(Op op);     ///< csr*
+bool is_float(Op op);                 ///< needs mstatus.FS on (loads and stores of f registers, too)
+bool writes_f(Op op);                 ///< rd is an f register
+bool writes_x(Op op);                 ///< rd is an x register
+bool is_branch(Op op);                ///< conditional
+bool is_access(Op op);                ///< load or store, not atomic
+bool is_store(Op op);                 ///< likewise
+std::uint32_t accessed_bytes(Op op);  ///< of a load, a store or an atomic instruction: 1, 2 or 4
+bool is_csr(Op op);                   ///< csr*
 
 }  // namespace torolux::translated

@@ -15,21 +15,6 @@ std::uint32_t sign_extended(std::uint32_t value, unsigned bits) {
   return (value ^ sign) - sign;
 }
 
-std::uint32_t bytes_of(Op op) {
-  switch (op) {
-    case Op::lb:
-    case Op::lbu:
-    case Op::sb:
-      return 1;
-    case Op::lh:
-    case Op::lhu:
-    case Op::sh:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
 std::uint32_t combined(Op op, std::uint32_t old, std::uint32_t operand) {
   const auto is_less = static_cast<std::int32_t>(old) < static_cast<std::int32_t>(operand);
   switch (op) {
@@ -90,7 +75,7 @@ Interpreter::MaybeFault Interpreter::store(const TranslatedPe& pe, std::uint32_t
 
 Interpreter::MaybeFault Interpreter::memory(TranslatedPe& pe, const Instruction& i) const {
   const std::uint32_t address = pe.x[i.rs1] + i.immediate;
-  const std::uint32_t bytes = bytes_of(i.op);
+  const std::uint32_t bytes = accessed_bytes(i.op);
   if (i.op == Op::fsw) return store(pe, address, bytes, pe.f[i.rs2]);
   if (i.op >= Op::sb && i.op <= Op::sw) return store(pe, address, bytes, pe.x[i.rs2]);
   std::uint32_t value = 0;

@@ -9,21 +9,6 @@ namespace {
 
 constexpr std::uint32_t kHintBytes = 4;
 
-std::uint32_t bytes_of(Op op) {
-  switch (op) {
-    case Op::lb:
-    case Op::lbu:
-    case Op::sb:
-      return 1;
-    case Op::lh:
-    case Op::lhu:
-    case Op::sh:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
 class LentProcessor final : public DebuggedPe {
  public:
   explicit LentProcessor(Processor& processor) : processor_(processor) {}
@@ -101,8 +86,8 @@ std::optional<MemoryAccess> LentProcessor::next_access() const {
   const bool plain = is_access(next->op);
   const bool stores = is_store(next->op);
   const std::uint32_t base = processor_.state().x[next->rs1];
-  return MemoryAccess{plain ? base + next->immediate : base, bytes_of(next->op), plain ? !stores : next->op != Op::sc,
-                      plain ? stores : next->op != Op::lr};
+  return MemoryAccess{plain ? base + next->immediate : base, accessed_bytes(next->op),
+                      plain ? !stores : next->op != Op::sc, plain ? stores : next->op != Op::lr};
 }
 
 }  // namespace

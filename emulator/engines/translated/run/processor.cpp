@@ -117,6 +117,14 @@ Processor::Stop Processor::give_up(const NiuFault& fault) {
   return end();
 }
 
+Processor::Stop Processor::give_up_stuck() {
+  return give_up({NiuFaultCode::no_trap_handler, {pe_.mcause, pe_.mepc, pe_.mtval}});
+}
+
+Processor::Stop Processor::give_up_waiting() {
+  return give_up({NiuFaultCode::wait_for_interrupt, {pe_.pc, 0, 0}});
+}
+
 /// Its turn comes again where the network has no room for this yet.
 Processor::Stop Processor::end() {
   const bool loop = fault_->code == NiuFaultCode::too_long_without_hint;
@@ -173,9 +181,9 @@ Processor::Stop Processor::run(const Goal* goal) {
       case TranslatedImage::Stop::cycle_limit:
         return loops() ? give_up(endless_loop(channel_, pe_.pc)) : Stop::slice;
       case TranslatedImage::Stop::stuck:
-        return give_up({NiuFaultCode::no_trap_handler, {pe_.mcause, pe_.mepc, pe_.mtval}});
+        return give_up_stuck();
       case TranslatedImage::Stop::waits:
-        return give_up({NiuFaultCode::wait_for_interrupt, {pe_.pc, 0, 0}});
+        return give_up_waiting();
     }
   }
 }
@@ -191,9 +199,9 @@ Processor::Stop Processor::step() {
         if (loops()) return give_up(endless_loop(channel_, pe_.pc));
         break;
       case TranslatedImage::Stop::stuck:
-        return give_up({NiuFaultCode::no_trap_handler, {pe_.mcause, pe_.mepc, pe_.mtval}});
+        return give_up_stuck();
       case TranslatedImage::Stop::waits:
-        return give_up({NiuFaultCode::wait_for_interrupt, {pe_.pc, 0, 0}});
+        return give_up_waiting();
     }
   }
   if (at_hint_ == AtHint::waits) at_hint_ = AtHint::reached;

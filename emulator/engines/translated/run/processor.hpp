@@ -78,6 +78,8 @@ class Processor {
   TranslatedImage::Stop execute();
   WaitCycles waits() const;
   Stop give_up(const NiuFault& fault);
+  Stop give_up_stuck();
+  Stop give_up_waiting();
   Stop end();
   static void marker(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
   static bool hint(void* processor, std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
