@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "emulator/description/description.hpp"
 #include "emulator/engines/translated/compile/cache.hpp"
 #include "emulator/engines/translated/run/translated_image.hpp"
 #include "tests/translated/runs.hpp"
@@ -50,7 +51,7 @@ struct Pe {
 TEST(TranslationInBackground, GoesOnWhereTheInterpreterStands) {
   const TemporaryFolder cache;
   const Image image = counting();
-  const LatencyTable latency = {1, 2, 3};
+  const LatencyTable latency = MachineDescription().processor.latency;
   const TranslatedImage code(image, latency, in_background(cache.path()));
   ASSERT_FALSE(code.from_cache());
   Pe pe(code, image);
