@@ -22,7 +22,7 @@ inline bool send_to_listener(std::span<const std::byte> bytes) {
   ServedFiles files({{{"in", "in"}, {contents.begin(), contents.end()}}},
                     {{"out", "/dev/null"}, {"host", "/dev/null"}});
   std::size_t characters = 0;
-  const std::function<void(const PeText&)> hear = [&](const PeText& text) { characters += text.text.size(); };
+  const std::function<void(const PeText&)> hear = [&](const PeText& told) { characters += told.text.size(); };
   Listener listener(files, hear);
   test::FakePort port(kPes);
   try {

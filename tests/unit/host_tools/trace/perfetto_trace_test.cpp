@@ -24,7 +24,8 @@ std::string trace_of(TraceChoice choice, bool fails = false, std::optional<Cycle
   std::string bytes;
   PerfettoTrace trace(std::move(choice), [&](std::string_view more) { bytes += more; });
   const MachineDescription description;  // 100 MHz: a cycle takes 10 ns
-  trace.begin({description, 3, 2});
+  const PhaseNames phases = built_in_phase_names();
+  trace.begin({description, 3, 2, phases});
   trace.stage(0, "first");
   for (Cycles round = 0; round < rounds; ++round) {
     const Cycles t = 1000 * round;
