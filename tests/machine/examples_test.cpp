@@ -76,8 +76,9 @@ INSTANTIATE_TEST_SUITE_P(Examples, EveryExample,
                                          Example{"all_reduce", "4x2", {"tree", "100"}},
                                          Example{"sort", "3x2", {"2000"}}, Example{"sort", "1x1", {"100"}},
                                          Example{"sort", "5x1", {"3"}}, Example{"heat", "3x2", {"24", "10"}},
-                                         Example{"heat", "1x4", {"9", "5"}}, Example{"matrix_product", "3x3", {"21"}},
-                                         Example{"matrix_product", "1x1", {"9"}}),
+                                         Example{"heat", "1x4", {"9", "5"}},
+                                         Example{"matrix_product", "3x3", {"21", "check"}},
+                                         Example{"matrix_product", "1x1", {"9", "check"}}),
                          [](const auto& example) { return example.param.name + "_" + std::to_string(example.index); });
 
 TEST(Examples, TheSumOverARingIsRight) {
@@ -106,7 +107,8 @@ TEST(Examples, ArgumentsThatCannotBeUsedAreRefused) {
                                                    {"sort", "2x2", {"0"}},
                                                    {"heat", "2x2", {"1", "1"}},
                                                    {"matrix_product", "2x1", {"8"}},
-                                                   {"matrix_product", "2x2", {"9"}}}) {
+                                                   {"matrix_product", "2x2", {"9"}},
+                                                   {"matrix_product", "2x2", {"8", "twice"}}}) {
     const Finished end = run(wrong, {});
     EXPECT_EQ(end.exit_code, 1) << wrong.name;
     EXPECT_THAT(end.errors, HasSubstr("argument")) << wrong.name;
