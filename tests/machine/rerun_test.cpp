@@ -115,6 +115,26 @@ TEST(RerunOfAnImage, IsTheSameOnTheOtherEngine) {
   EXPECT_THAT(run.output, HasSubstr("cycles      the same\ntrace hash  the same\n"));
 }
 
+// What the program got: its arguments and files. What it wrote is written again only by a run.
+TEST(RerunOfAnImage, HasItsArgumentsAndFiles) {
+  const TemporaryFolder folder;
+  const std::string stats = folder.path() / "stats.json";
+  const std::string plate = folder.path() / "plate.ppm";
+  const std::string input = folder.path() / "input";
+  std::ofstream(input) << "as it was";
+  const Finished first =
+      run_torolux({"run", std::string(TOROLUX_FIRMWARE_DIR) + "/heat.elf", "--pes", "2x2", "--stats", stats, "--input",
+                   "a=" + input, "--output", "plate.ppm=" + plate, "--", "12", "20"});
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  std::filesystem::remove(plate);
+  const Finished again = run_torolux({"rerun", stats, "--engine", "interpreted"});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(again.output, first.output + "cycles      the same\ntrace hash  the same\n");
+  EXPECT_FALSE(std::filesystem::exists(plate));
+  std::ofstream(input) << "otherwise";
+  EXPECT_THAT(run_torolux({"rerun", stats}).errors, HasSubstr("input has changed"));
+}
+
 TEST(RerunOfAFile, ThatHoldsNoSettingsIsRefused) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "stats.json";
