@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "emulator/printable.hpp"
+
 namespace torolux {
 namespace {
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-/// Names may come from files: no control characters.
-std::string printable(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }, '?');
-  return text;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

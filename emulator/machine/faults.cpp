@@ -7,6 +7,7 @@
 
 #include "emulator/engines/image/source_line.hpp"
 #include "emulator/hexadecimal.hpp"
+#include "emulator/printable.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/messages.hpp"
@@ -190,11 +191,8 @@ std::string own_words(const std::uint32_t (&detail)[3], const Code& code, std::s
     return "";
   }
   std::string text;
-  for (const std::byte byte : local_memory.subspan(offset, detail[1])) {
-    const auto c = static_cast<unsigned char>(byte);
-    text += c < 0x20 || c == 0x7F ? '?' : static_cast<char>(c);
-  }
-  return text + (detail[2] != 0 ? "; called at " + place_in_words(detail[2], code) : "");
+  for (const std::byte byte : local_memory.subspan(offset, detail[1])) text += static_cast<char>(byte);
+  return printable(std::move(text)) + (detail[2] != 0 ? "; called at " + place_in_words(detail[2], code) : "");
 }
 
 }  // namespace

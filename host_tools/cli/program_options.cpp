@@ -7,6 +7,7 @@
 #include <set>
 
 #include "emulator/errors.hpp"
+#include "emulator/printable.hpp"
 #include "firmware/protocol/host_services.hpp"
 #include "host_tools/files/write_file.hpp"
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
+#include "emulator/printable.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "host_tools/render/running_render.hpp"
 #include "host_tools/report/progress_line.hpp"

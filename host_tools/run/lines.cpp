@@ -2,22 +2,9 @@
 // Pieces into lines, for each PE and stream.
 #include "host_tools/run/lines.hpp"
 
-#include <algorithm>
 #include <map>
 
 namespace torolux {
-
-std::string printable(std::string_view text) {
-  std::string shown(text);
-  std::ranges::replace_if(
-      shown,
-      [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return (byte < 0x20 && c != '\t') || byte == 0x7F;
-      },
-      '?');
-  return shown;
-}
 
 void Lines::add(PeNumber pe, PeStream stream, Cycles now, std::span<const std::byte> bytes) {
   std::string& line = unfinished_[pe][static_cast<std::size_t>(stream)];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/errors.hpp"
+#include "emulator/printable.hpp"
 #include "firmware/protocol/host_services.hpp"
 
 namespace torolux {

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "emulator/host/host_program.hpp"
 
@@ -20,8 +19,5 @@ struct PeText {
   PeStream stream = PeStream::output;
   bool ended = true;  ///< false: the program, or the longest line, ended before the line did
 };
-
-/// Text that can be shown: control characters but the tabulator become '?'.
-std::string printable(std::string_view text);
 
 }  // namespace torolux

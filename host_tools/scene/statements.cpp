@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "emulator/printable.hpp"
+
 namespace torolux {
 namespace {
 
@@ -98,9 +100,7 @@ bool StatementReader::next(Statement& statement) {
 
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t most = 60;
-  std::string text = "'";
-  for (const char c : word.substr(0, most))
-    text.push_back(static_cast<unsigned char>(c) < 0x20U || c == 0x7F ? '?' : c);
+  std::string text = "'" + printable(std::string(word.substr(0, most)));
   if (word.size() > most) text += "...";
   return text + "'";
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "emulator/errors.hpp"
+#include "emulator/printable.hpp"
 #include "host_tools/run/lines.hpp"
 #include "host_tools/run/served_files.hpp"
 #include "tests/support/temporary_folder.hpp"
