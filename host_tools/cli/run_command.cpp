@@ -110,7 +110,10 @@ std::optional<RunOutcome> run_watched(const RunOptions& options, MachineSetup& s
   RunOutcome outcome = run_displayed(
       display, [&] { return run_traced(trace.get(), [&] { return run_debugged(debugger.get(), run); }); });
   if (interrupted()) return std::nullopt;
-  files->finish();
+  for (const std::string& unused : files->finish()) {
+    if (!options.quiet)
+      std::cerr << "torolux: note: --output " << unused << ": no PE has opened it; nothing is written\n";
+  }
   if (trace) {
     trace->finish();
     if (!trace->note().empty() && !options.quiet) std::cerr << "torolux: note: " << trace->note() << "\n";

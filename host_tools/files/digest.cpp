@@ -55,9 +55,11 @@ std::string sha256(std::string_view text) {
 
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::error_code error;
+  const bool is_folder = std::filesystem::is_directory(file, error);
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, error))
-    throw InputError(file.string() + ": cannot be read: " + std::strerror(errno == 0 ? EISDIR : errno));
+  if (!stream || is_folder) {
+    throw InputError(file.string() + ": cannot be read: " + std::strerror(is_folder ? EISDIR : errno));
+  }
   Sha256 digest;
   std::vector<char> piece(1U << 16U);
   while (stream) {

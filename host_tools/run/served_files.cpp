@@ -158,8 +158,16 @@ void ServedFiles::append_to_host_file(PeNumber pe, std::span<const std::byte> by
   put(*output, output->bytes, bytes);
 }
 
-void ServedFiles::finish() {
-  for (const Output& output : outputs_) output.writer->finish();
+std::vector<std::string> ServedFiles::finish() {
+  std::vector<std::string> unused;
+  for (const Output& output : outputs_) {
+    if (output.opened_by.empty() && output.bytes == 0) {
+      unused.push_back(output.name);
+    } else {
+      output.writer->finish();
+    }
+  }
+  return unused;
 }
 
 }  // namespace torolux

@@ -59,8 +59,9 @@ class ServedFiles {
   void close(PeNumber pe, std::uint32_t file);
   void append_to_host_file(PeNumber pe, std::span<const std::byte> bytes);
 
-  /// The outputs get their names. Throws InputError.
-  void finish();
+  /// The outputs get their names. Returns those that no program has opened: their files stay as they were. Throws
+  /// InputError.
+  std::vector<std::string> finish();
 
  private:
   struct Output {

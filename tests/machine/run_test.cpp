@@ -200,6 +200,7 @@ TEST(Run, BadInputAndBadUsageHaveTheirExitCodes) {
   EXPECT_EQ(no_elf.exit_code, 2);
   EXPECT_THAT(no_elf.errors, HasSubstr("/proc/self/status"));
   EXPECT_EQ(run_torolux({"run", "/nowhere.elf"}).exit_code, 2);
+  EXPECT_THAT(run_torolux({"run", "/tmp"}).errors, HasSubstr("/tmp: cannot be read: Is a directory"));
   EXPECT_EQ(run_torolux({"run", image("hello"), "--machine", "/nowhere.toml"}).exit_code, 2);
   EXPECT_EQ(run_torolux({"run", image("hello"), "--stats", "/nowhere/stats.json"}).exit_code, 2);
   EXPECT_EQ(run_torolux({"run", image("hello"), "--engine", "abacus"}).exit_code, 1);

@@ -2,9 +2,9 @@
 // Numbers that lie on all PEs are sorted over all of them: afterwards each PE's are in order, and none is greater than
 // any of the next PE's. Argument: how many numbers in all. PE 0 prints the cycles, and how evenly they lie.
 //
-// By samples (Shi and Schaeffer 1992): each PE sorts its own and tells some that lie evenly in them; from the samples
-// of all come the borders between PEs; each PE sends each other one what lies between that one's borders, and sorts
-// what came.
+// By samples (Shi and Schaeffer 1992): each PE sorts its own and tells some that lie evenly among them; from the
+// samples of all come the borders between PEs; each PE sends each other one what lies between that one's borders, and
+// sorts what came.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,19 +56,53 @@ static struct numbers make_numbers(size_t all) {
   return made;
 }
 
-// The first number of each PE but 0, found by PE 0 and told to all.
+// Two parts that are in order, one behind the other, become one.
+static void merge_two(const uint32_t* a, const uint32_t* a_end, const uint32_t* b_end, uint32_t* out) {
+  const uint32_t* b = a_end;
+  while (a != a_end && b != b_end) *out++ = *b < *a ? *b++ : *a++;
+  while (a != a_end) *out++ = *a++;
+  while (b != b_end) *out++ = *b++;
+}
+
+// Parts that are in order become one, two by two: in log2 of their number times over all numbers.
+static struct numbers merge(struct numbers parts, size_t* begin, unsigned count) {
+  TOROLUX_ENTER_PHASE(3);
+  uint32_t* spare = memory_for(parts.count * sizeof *spare);
+  for (; count > 1; count = (count + 1) / 2) {
+    for (unsigned part = 0; part < count; part += 2) {
+      const size_t end = begin[part + 2 < count ? part + 2 : count];
+      const uint32_t* const middle = parts.number + (part + 1 < count ? begin[part + 1] : end);
+      merge_two(parts.number + begin[part], middle, parts.number + end, spare + begin[part]);
+      begin[part / 2] = begin[part];
+    }
+    begin[(count + 1) / 2] = parts.count;
+    uint32_t* const merged = spare;
+    spare = parts.number;
+    parts.number = merged;
+  }
+  free(spare);
+  TOROLUX_LEAVE_PHASE(3);
+  return parts;
+}
+
+// The first number of each PE but 0, found by PE 0 and told to all. Each PE samples at places of its own, a little
+// further on than those of the PE before: from the same places all would tell nearly the same numbers.
 static void find_borders(struct numbers own, uint32_t* borders) {
   TOROLUX_ENTER_PHASE(1);
   const unsigned pes = torolux_pes();
   uint32_t samples[kSamples];
   for (size_t i = 0; i < kSamples; ++i) {
-    samples[i] = own.count == 0 ? UINT32_MAX : own.number[(2 * i + 1) * own.count / (2 * kSamples)];
+    const size_t place = (size_t)((uint64_t)own.count * (2 * (i * pes + torolux_pe()) + 1) / (2 * kSamples * pes));
+    samples[i] = own.count == 0 ? UINT32_MAX : own.number[place];
   }
   if (torolux_pe() == 0) {
     struct numbers all = {memory_for(pes * sizeof samples), (size_t)pes * kSamples};
+    size_t* const begin = memory_for((pes + 1) * sizeof *begin);
+    for (unsigned pe = 0; pe <= pes; ++pe) begin[pe] = (size_t)pe * kSamples;
     memcpy(all.number, samples, sizeof samples);
-    for (unsigned pe = 1; pe < pes; ++pe) torolux_receive((int)pe, all.number + pe * kSamples, sizeof samples);
-    sort(all);
+    for (unsigned pe = 1; pe < pes; ++pe) torolux_receive((int)pe, all.number + begin[pe], sizeof samples);
+    all = merge(all, begin, pes);
+    free(begin);
     for (unsigned pe = 1; pe < pes; ++pe) borders[pe - 1] = all.number[pe * kSamples];
     free(all.number);
   } else {
@@ -118,35 +152,6 @@ static struct numbers exchange(struct numbers own, const uint32_t* borders, size
   free(first);
   TOROLUX_LEAVE_PHASE(2);
   return come;
-}
-
-// Two parts that are in order, one behind the other, become one.
-static void merge_two(const uint32_t* a, const uint32_t* a_end, const uint32_t* b_end, uint32_t* out) {
-  const uint32_t* b = a_end;
-  while (a != a_end && b != b_end) *out++ = *b < *a ? *b++ : *a++;
-  while (a != a_end) *out++ = *a++;
-  while (b != b_end) *out++ = *b++;
-}
-
-// Parts that are in order become one, two by two: in log2 of their number times over all numbers.
-static struct numbers merge(struct numbers parts, size_t* begin, unsigned count) {
-  TOROLUX_ENTER_PHASE(3);
-  uint32_t* spare = memory_for(parts.count * sizeof *spare);
-  for (; count > 1; count = (count + 1) / 2) {
-    for (unsigned part = 0; part < count; part += 2) {
-      const size_t end = begin[part + 2 < count ? part + 2 : count];
-      const uint32_t* const middle = parts.number + (part + 1 < count ? begin[part + 1] : end);
-      merge_two(parts.number + begin[part], middle, parts.number + end, spare + begin[part]);
-      begin[part / 2] = begin[part];
-    }
-    begin[(count + 1) / 2] = parts.count;
-    uint32_t* const merged = spare;
-    spare = parts.number;
-    parts.number = merged;
-  }
-  free(spare);
-  TOROLUX_LEAVE_PHASE(3);
-  return parts;
 }
 
 // In order here, and from PE to PE; none lost: their number and their sum are those of the beginning.

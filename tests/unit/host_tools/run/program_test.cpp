@@ -136,7 +136,7 @@ TEST(ServedFiles, OutputsAreWrittenByManyAndThereInTheEnd) {
   files.write(2, last.file, bytes_of("end"));
   files.append_to_host_file(1, bytes_of("raw"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
-  files.finish();
+  EXPECT_THAT(files.finish(), ElementsAre());
   EXPECT_EQ(contents_of(folder.path() / "out"), std::string("aaaaa\0bbend", 11));
   EXPECT_EQ(contents_of(folder.path() / "host"), "raw");
 }
@@ -152,8 +152,18 @@ TEST(ServedFiles, OneWriterEmptiesWhatItWroteAndManyDoNot) {
   write(0, "long and longer");
   write(0, "short one");
   write(1, "S");
-  files.finish();
+  EXPECT_THAT(files.finish(), ElementsAre());
   EXPECT_EQ(contents_of(folder.path() / "out"), "Short one");
+}
+
+TEST(ServedFiles, OutputsThatNobodyOpenedStayAsTheyWere) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "unused") << "of an earlier run";
+  ServedFiles files({}, {{"unused", folder.path() / "unused"}, {"empty", folder.path() / "empty"}});
+  files.open(0, kWrite, "empty");
+  EXPECT_THAT(files.finish(), ElementsAre("unused"));
+  EXPECT_EQ(contents_of(folder.path() / "unused"), "of an earlier run");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "empty"));
 }
 
 TEST(ServedFiles, AreLeftNowhereWithoutAnEnd) {
