@@ -21,14 +21,11 @@ add_library(torolux_boot_archive STATIC $<TARGET_OBJECTS:torolux_boot>)
 set_target_properties(torolux_boot_archive PROPERTIES OUTPUT_NAME torolux_boot LINKER_LANGUAGE CXX)
 
 set(kit ${PROJECT_BINARY_DIR}/kit)
-file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/firmware/*.h ${PROJECT_SOURCE_DIR}/firmware/*.hpp)
 add_custom_command(
   OUTPUT ${kit}/torolux.specs
   COMMAND ${PROJECT_SOURCE_DIR}/cmake/stage_kit.sh ${kit} ${PROJECT_BINARY_DIR}/torolux.specs ${TOROLUX_SYSROOT}
           $<TARGET_FILE:torolux_boot_archive> $<TARGET_FILE:torolux_kit>
-  DEPENDS ${headers}
-          ${PROJECT_SOURCE_DIR}/firmware/niu/native/fake_torus.cpp
-          ${PROJECT_BINARY_DIR}/torolux.specs
+  DEPENDS ${PROJECT_BINARY_DIR}/torolux.specs
           ${PROJECT_SOURCE_DIR}/cmake/pe_flags.txt
           ${PROJECT_SOURCE_DIR}/cmake/print_regions.sh
           ${PROJECT_SOURCE_DIR}/cmake/stage_kit.sh
@@ -36,5 +33,6 @@ add_custom_command(
           ${PROJECT_SOURCE_DIR}/linker/pe.ld
           torolux_boot_archive
           torolux_kit
+  DEPFILE ${kit}.d  # the headers; a glob would be looked through at each build, and at each call of torolux
   VERBATIM)
 add_custom_target(kit ALL DEPENDS ${kit}/torolux.specs)

@@ -93,8 +93,7 @@ setup_preset() {
   ((!setup_read_only)) || setup_stop_read_only
   setup_build "$preset" "$folder" "$@"
   # The table of regions of each image that was linked.
-  [[ $preset == firmware ]] && grep -E ' (address|0x[0-9a-f]{8}) ' "$root/build/build-firmware.log" >&2
-  return 0
+  if [[ $preset == firmware ]]; then grep -E ' (address|0x[0-9a-f]{8}) ' "$root/build/build-firmware.log" >&2 || true; fi
 }
 
 # setup_build PRESET FOLDER TARGET...: tells how far it is, and stops where it fails.
