@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 
 #include "firmware/kit/include/torolux.h"
@@ -13,16 +14,29 @@
 namespace torolux::kit {
 namespace {
 
-/// No value is aligned in a span of bytes as far as the compiler knows; memcpy costs nothing where it is.
-template <class Value, class Operation>
-void join_values(std::span<std::byte> into, std::span<const std::byte> from) {
+/// kAlignment: of both, in bytes. GCC makes one load of a value only where it knows the value to be aligned; bytes
+/// take five times as long.
+template <std::size_t kAlignment, class Value, class Operation>
+void join_aligned(std::span<std::byte> into, std::span<const std::byte> from) {
   for (std::size_t at = 0; at < into.size(); at += sizeof(Value)) {
+    std::byte* const place = std::assume_aligned<kAlignment>(&into[at]);
     Value mine;
     Value theirs;
-    std::memcpy(&mine, &into[at], sizeof mine);
-    std::memcpy(&theirs, &from[at], sizeof theirs);
+    std::memcpy(&mine, place, sizeof mine);
+    std::memcpy(&theirs, std::assume_aligned<kAlignment>(&from[at]), sizeof theirs);
     mine = Operation()(mine, theirs);
-    std::memcpy(&into[at], &mine, sizeof mine);
+    std::memcpy(place, &mine, sizeof mine);
+  }
+}
+
+/// C promises that the program's values are aligned, but nobody has to keep that here: any place works.
+template <class Value, class Operation>
+void join_values(std::span<std::byte> into, std::span<const std::byte> from) {
+  const auto places = reinterpret_cast<std::uintptr_t>(into.data()) | reinterpret_cast<std::uintptr_t>(from.data());
+  if (places % alignof(Value) == 0) {
+    join_aligned<alignof(Value), Value, Operation>(into, from);
+  } else {
+    join_aligned<1, Value, Operation>(into, from);
   }
 }
 

@@ -121,6 +121,13 @@ static void together(void) {
     double largest[3] = {pe, -(double)pe, 7.5};
     torolux_all_reduce(largest, 3, TOROLUX_DOUBLE, TOROLUX_MAXIMUM);
     check(largest[0] == pes - 1 && largest[1] == 0 && largest[2] == 7.5, "all_reduce: maximum");
+    unsigned char anywhere[2 * sizeof(uint32_t) + 1];  /* values that are not aligned */
+    for (uint32_t i = 0; i < 2; ++i) memcpy(anywhere + 1 + i * sizeof i, &(uint32_t){(pe + 1) * (i + 70000)}, sizeof i);
+    torolux_reduce(root, anywhere + 1, 2, TOROLUX_UINT32, TOROLUX_SUM);
+    for (uint32_t i = 0, got = 0; i < 2 && pe == root; ++i) {
+      memcpy(&got, anywhere + 1 + i * sizeof i, sizeof i);
+      check(got == pes * (pes + 1) / 2 * (i + 70000), "reduce: not aligned");
+    }
     unsigned char message[6000];
     for (unsigned bytes = 0; bytes <= sizeof message; bytes += 1500) {
       fill(message, bytes, pe);

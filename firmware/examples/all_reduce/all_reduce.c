@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sum of a vector over all PEs, for all PEs, in two ways: around a ring, and by a tree. Arguments: `ring` or
-// `tree`, and how many numbers the vector has (at least one for each PE). PE 0 prints the cycles; every PE checks the
-// result.
+// `tree`, how many numbers the vector has (at least one for each PE), and how often that is done (once). PE 0 prints
+// the cycles of one time; every PE checks the first result.
 //
 // Ring: the vector is cut into a part for each PE. In P - 1 steps each part goes around and gathers what each PE adds;
 // in P - 1 more the sums go around. Each PE sends 2 (P - 1) / P of a vector, whatever P is, but P times as many
@@ -64,34 +64,25 @@ static void ring_all_reduce(uint32_t* vector, unsigned count) {
   }
 }
 
-// What PE `pe` adds to number `i`.
-static uint32_t addend(unsigned pe, unsigned i) {
-  return (pe + 1) * 2654435761U + i * 40503U;
+// PE `pe` adds (pe + 1) * kOfPe + i * kOfNumber to number i.
+static const uint32_t kOfPe = 2654435761U;
+static const uint32_t kOfNumber = 40503U;
+
+static void fill(uint32_t* vector, unsigned count) {
+  uint32_t addend = (torolux_pe() + 1) * kOfPe;
+  for (unsigned i = 0; i < count; ++i, addend += kOfNumber) vector[i] = addend;
 }
 
 static void check(const uint32_t* vector, unsigned count) {
   const uint32_t pes = torolux_pes();
-  uint32_t of_places = 0;
-  for (unsigned pe = 0; pe < pes; ++pe) of_places += addend(pe, 0);
-  for (unsigned i = 0; i < count; ++i) {
-    if (vector[i] != of_places + pes * i * 40503U) torolux_fail("a sum is wrong");
+  uint32_t sum = 0;
+  for (unsigned pe = 0; pe < pes; ++pe) sum += (pe + 1) * kOfPe;
+  for (unsigned i = 0; i < count; ++i, sum += pes * kOfNumber) {
+    if (vector[i] != sum) torolux_fail("a sum is wrong");
   }
 }
 
-int main(int argc, char** argv) {
-  const unsigned count = argc == 3 ? (unsigned)strtoul(argv[2], NULL, 10) : 0;
-  const int by_ring = argc == 3 && strcmp(argv[1], "ring") == 0;
-  const int by_tree = argc == 3 && strcmp(argv[1], "tree") == 0;
-  if (count < torolux_pes() || (!by_ring && !by_tree)) {
-    if (torolux_pe() == 0) fprintf(stderr, "arguments: ring|tree NUMBERS, at least %u numbers\n", torolux_pes());
-    return 1;
-  }
-  uint32_t* const vector = malloc(count * sizeof *vector);
-  if (vector == NULL) torolux_fail("no memory for the vector: give the PEs more (--pe-memory)");
-  for (unsigned i = 0; i < count; ++i) vector[i] = addend(torolux_pe(), i);
-
-  torolux_barrier();
-  const uint64_t begin = torolux_clock();
+static void all_reduce(int by_ring, uint32_t* vector, unsigned count) {
   TOROLUX_ENTER_PHASE(0);
   if (by_ring) {
     ring_all_reduce(vector, count);
@@ -99,10 +90,33 @@ int main(int argc, char** argv) {
     torolux_all_reduce(vector, count, TOROLUX_UINT32, TOROLUX_SUM);
   }
   TOROLUX_LEAVE_PHASE(0);
-  torolux_barrier();
-  const uint64_t cycles = torolux_clock() - begin;
+}
 
-  check(vector, count);
-  if (torolux_pe() == 0) printf("%s: %u numbers, %llu cycles\n", argv[1], count, (unsigned long long)cycles);
+int main(int argc, char** argv) {
+  const int given = argc == 3 || argc == 4;
+  const unsigned count = given ? (unsigned)strtoul(argv[2], NULL, 10) : 0;
+  const unsigned times = argc == 4 ? (unsigned)strtoul(argv[3], NULL, 10) : 1;
+  const int by_ring = given && strcmp(argv[1], "ring") == 0;
+  const int by_tree = given && strcmp(argv[1], "tree") == 0;
+  if (count < torolux_pes() || times == 0 || (!by_ring && !by_tree)) {
+    if (torolux_pe() == 0) fprintf(stderr, "arguments: ring|tree NUMBERS [TIMES], at least %u numbers\n", torolux_pes());
+    return 1;
+  }
+  uint32_t* const vector = malloc(count * sizeof *vector);
+  if (vector == NULL) torolux_fail("no memory for the vector: give the PEs more (--pe-memory)");
+  fill(vector, count);
+
+  torolux_barrier();
+  uint64_t cycles = 0;
+  for (unsigned time = 0; time < times; ++time) {
+    const uint64_t begin = torolux_clock();
+    all_reduce(by_ring, vector, count);
+    torolux_barrier();
+    cycles += torolux_clock() - begin;
+    if (time == 0) check(vector, count);
+  }
+  if (torolux_pe() == 0) {
+    printf("%s: %u numbers, %llu cycles\n", argv[1], count, (unsigned long long)(cycles / times));
+  }
   return 0;
 }

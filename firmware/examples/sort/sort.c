@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Numbers that lie on all PEs are sorted over all of them: afterwards each PE's are in order, and none is greater than
-// any of the next PE's. Argument: how many numbers in all. PE 0 prints the cycles, and how evenly they lie.
+// any of the next PE's. Arguments: how many numbers in all, and `check` to have the result checked. PE 0 prints the
+// cycles, and how evenly they lie.
 //
-// By samples (Shi and Schaeffer 1992): each PE sorts its own and tells some that lie evenly among them; from the
-// samples of all come the borders between PEs; each PE sends each other one what lies between that one's borders, and
-// sorts what came.
+// By samples (Shi and Schaeffer 1992): each PE sorts its own and tells some that lie evenly in them; from the samples
+// of all come the borders between PEs; each PE sends each other one what lies between that one's borders, and merges
+// what came.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,9 +36,34 @@ static int compare(const void* a, const void* b) {
 }
 
 static void sort(struct numbers numbers) {
-  TOROLUX_ENTER_PHASE(0);
   qsort(numbers.number, numbers.count, sizeof *numbers.number, compare);
-  TOROLUX_LEAVE_PHASE(0);
+}
+
+// Two parts that are in order, one behind the other, become one.
+static void merge_two(const uint32_t* a, const uint32_t* a_end, const uint32_t* b_end, uint32_t* out) {
+  const uint32_t* b = a_end;
+  while (a != a_end && b != b_end) *out++ = *b < *a ? *b++ : *a++;
+  while (a != a_end) *out++ = *a++;
+  while (b != b_end) *out++ = *b++;
+}
+
+// Parts that are in order become one, two by two: in log2 of their number times over all numbers.
+static struct numbers merge(struct numbers parts, size_t* begin, unsigned count) {
+  uint32_t* spare = memory_for(parts.count * sizeof *spare);
+  for (; count > 1; count = (count + 1) / 2) {
+    for (unsigned part = 0; part < count; part += 2) {
+      const size_t end = begin[part + 2 < count ? part + 2 : count];
+      const uint32_t* const middle = parts.number + (part + 1 < count ? begin[part + 1] : end);
+      merge_two(parts.number + begin[part], middle, parts.number + end, spare + begin[part]);
+      begin[part / 2] = begin[part];
+    }
+    begin[(count + 1) / 2] = parts.count;
+    uint32_t* const merged = spare;
+    spare = parts.number;
+    parts.number = merged;
+  }
+  free(spare);
+  return parts;
 }
 
 // A hash (the finaliser of MurmurHash3): the numbers are the same on any torus.
@@ -56,60 +82,33 @@ static struct numbers make_numbers(size_t all) {
   return made;
 }
 
-// Two parts that are in order, one behind the other, become one.
-static void merge_two(const uint32_t* a, const uint32_t* a_end, const uint32_t* b_end, uint32_t* out) {
-  const uint32_t* b = a_end;
-  while (a != a_end && b != b_end) *out++ = *b < *a ? *b++ : *a++;
-  while (a != a_end) *out++ = *a++;
-  while (b != b_end) *out++ = *b++;
+// A PE's sample `i`: at another place on each PE, so that together they lie evenly where all PEs have alike numbers.
+// Were the places the same, the samples would stand in kSamples heaps, with most numbers between heaps.
+static uint32_t sample(struct numbers own, size_t i) {
+  if (own.count == 0) return UINT32_MAX;
+  const uint64_t places = 2 * kSamples * torolux_pes();
+  return own.number[own.count * (2 * (i * torolux_pes() + torolux_pe()) + 1) / places];
 }
 
-// Parts that are in order become one, two by two: in log2 of their number times over all numbers.
-static struct numbers merge(struct numbers parts, size_t* begin, unsigned count) {
-  TOROLUX_ENTER_PHASE(3);
-  uint32_t* spare = memory_for(parts.count * sizeof *spare);
-  for (; count > 1; count = (count + 1) / 2) {
-    for (unsigned part = 0; part < count; part += 2) {
-      const size_t end = begin[part + 2 < count ? part + 2 : count];
-      const uint32_t* const middle = parts.number + (part + 1 < count ? begin[part + 1] : end);
-      merge_two(parts.number + begin[part], middle, parts.number + end, spare + begin[part]);
-      begin[part / 2] = begin[part];
-    }
-    begin[(count + 1) / 2] = parts.count;
-    uint32_t* const merged = spare;
-    spare = parts.number;
-    parts.number = merged;
-  }
-  free(spare);
-  TOROLUX_LEAVE_PHASE(3);
-  return parts;
-}
-
-// The first number of each PE but 0, found by PE 0 and told to all. Each PE samples at places of its own, a little
-// further on than those of the PE before: from the same places all would tell nearly the same numbers.
+// The first number of each PE but 0, found by PE 0 and told to all.
 static void find_borders(struct numbers own, uint32_t* borders) {
-  TOROLUX_ENTER_PHASE(1);
   const unsigned pes = torolux_pes();
   uint32_t samples[kSamples];
-  for (size_t i = 0; i < kSamples; ++i) {
-    const size_t place = (size_t)((uint64_t)own.count * (2 * (i * pes + torolux_pe()) + 1) / (2 * kSamples * pes));
-    samples[i] = own.count == 0 ? UINT32_MAX : own.number[place];
-  }
+  for (size_t i = 0; i < kSamples; ++i) samples[i] = sample(own, i);
   if (torolux_pe() == 0) {
     struct numbers all = {memory_for(pes * sizeof samples), (size_t)pes * kSamples};
-    size_t* const begin = memory_for((pes + 1) * sizeof *begin);
-    for (unsigned pe = 0; pe <= pes; ++pe) begin[pe] = (size_t)pe * kSamples;
     memcpy(all.number, samples, sizeof samples);
-    for (unsigned pe = 1; pe < pes; ++pe) torolux_receive((int)pe, all.number + begin[pe], sizeof samples);
+    size_t* const begin = memory_for((pes + 1) * sizeof *begin);
+    for (unsigned pe = 1; pe < pes; ++pe) torolux_receive((int)pe, all.number + pe * kSamples, sizeof samples);
+    for (unsigned pe = 0; pe <= pes; ++pe) begin[pe] = pe * kSamples;
     all = merge(all, begin, pes);
-    free(begin);
     for (unsigned pe = 1; pe < pes; ++pe) borders[pe - 1] = all.number[pe * kSamples];
+    free(begin);
     free(all.number);
   } else {
     torolux_send(0, samples, sizeof samples);
   }
   torolux_broadcast(0, borders, (pes - 1) * sizeof *borders);
-  TOROLUX_LEAVE_PHASE(1);
 }
 
 // The number of each PE's part in the sorted numbers where it begins; one more: the end.
@@ -129,28 +128,26 @@ static size_t* cut_at(struct numbers own, const uint32_t* borders) {
 // Sends each PE its part of the sorted numbers; returns what has come from all, one part behind the other. In step s
 // everybody sends to the PE that is s further on, so that nobody is flooded. begin: of each part, and the end.
 static struct numbers exchange(struct numbers own, const uint32_t* borders, size_t* begin) {
-  TOROLUX_ENTER_PHASE(2);
   const unsigned pes = torolux_pes();
   const unsigned pe = torolux_pe();
   size_t* const first = cut_at(own, borders);
+  const size_t most = own.count + 1;  // from one PE: none had more than one more than another
   struct numbers come = {NULL, 0};
+  size_t room = 0;
   for (unsigned step = 0; step < pes; ++step) {
     const unsigned to = (pe + step) % pes;
     const int from = (int)((pe + pes - step) % pes);
     torolux_send((int)to, own.number + first[to], (first[to + 1] - first[to]) * sizeof *own.number);
-    while (torolux_waiting(from) < 0) {
+    if (room < come.count + most) {
+      room = 2 * (come.count + most);
+      come.number = realloc(come.number, room * sizeof *come.number);
+      if (come.number == NULL) torolux_fail("no memory for the numbers that come: give the PEs more (--pe-memory)");
     }
-    const size_t bytes = (size_t)torolux_waiting(from);
-    uint32_t* const more = realloc(come.number, come.count * sizeof *come.number + bytes + 1);
-    if (more == NULL) torolux_fail("no memory for the numbers that come: give the PEs more (--pe-memory)");
-    come.number = more;
     begin[step] = come.count;
-    torolux_receive(from, come.number + come.count, bytes);
-    come.count += bytes / sizeof *come.number;
+    come.count += torolux_receive(from, come.number + come.count, most * sizeof *come.number) / sizeof *come.number;
   }
   begin[pes] = come.count;
   free(first);
-  TOROLUX_LEAVE_PHASE(2);
   return come;
 }
 
@@ -176,9 +173,10 @@ static void check(struct numbers sorted, struct numbers before) {
 }
 
 int main(int argc, char** argv) {
-  const size_t all = argc == 2 ? strtoul(argv[1], NULL, 10) : 0;
-  if (all == 0) {
-    if (torolux_pe() == 0) fprintf(stderr, "argument: how many numbers\n");
+  const size_t all = argc == 2 || argc == 3 ? strtoul(argv[1], NULL, 10) : 0;
+  const int checked = argc == 3 && strcmp(argv[2], "check") == 0;
+  if (all == 0 || (argc == 3 && !checked)) {
+    if (torolux_pe() == 0) fprintf(stderr, "arguments: NUMBERS [check]\n");
     return 1;
   }
   struct numbers own = make_numbers(all);
@@ -187,13 +185,22 @@ int main(int argc, char** argv) {
 
   torolux_barrier();
   const uint64_t begin = torolux_clock();
+  TOROLUX_ENTER_PHASE(0);
   sort(own);
+  TOROLUX_LEAVE_PHASE(0);
+  TOROLUX_ENTER_PHASE(1);
   find_borders(own, borders);
-  const struct numbers sorted = merge(exchange(own, borders, parts), parts, torolux_pes());
+  TOROLUX_LEAVE_PHASE(1);
+  TOROLUX_ENTER_PHASE(2);
+  const struct numbers come = exchange(own, borders, parts);
+  TOROLUX_LEAVE_PHASE(2);
+  TOROLUX_ENTER_PHASE(3);
+  const struct numbers sorted = merge(come, parts, torolux_pes());
+  TOROLUX_LEAVE_PHASE(3);
   torolux_barrier();
   const uint64_t cycles = torolux_clock() - begin;
 
-  check(sorted, own);
+  if (checked) check(sorted, own);
   uint32_t most = (uint32_t)sorted.count;
   torolux_reduce(0, &most, 1, TOROLUX_UINT32, TOROLUX_MAXIMUM);
   if (torolux_pe() == 0) {
