@@ -156,9 +156,9 @@ class Debugged : public testing::Test {
     return {};
   }
 
-  static std::uint32_t address_of(const std::string& part_of_name) {
-    const Image token = load_image(image("token"));
-    for (const ImageSymbol& symbol : token.symbols) {
+  static std::uint32_t address_of(const std::string& part_of_name, const std::string& image_name = "token") {
+    const Image held = load_image(image(image_name));
+    for (const ImageSymbol& symbol : held.symbols) {
       if (symbol.function && symbol.name.find(part_of_name) != std::string::npos) return symbol.address;
     }
     ADD_FAILURE() << "no function " << part_of_name;
@@ -268,6 +268,44 @@ TEST_F(Debugged, ARenderIsHeldToo) {
   EXPECT_EQ(run_torolux(joined(scene, written("plain"))).exit_code, 0);
   EXPECT_EQ(contents(folder_.path() / "held.pfm"), contents(folder_.path() / "plain.pfm"));
   EXPECT_EQ(statistics(stats("held")), statistics(stats("plain")));
+}
+
+// So many steps that the machine was saved several times; the host's program and its files are part of what comes back.
+TEST_F(Debugged, ALongRunGoesBackToItsSavedStates) {
+  const auto heat = [&](const std::string& name, const Arguments& more) {
+    return joined(joined({"run", image("heat"), "--pes", "4x2", "--engine", "interpreted", "--stats", stats(name),
+                          "--output", "plate.ppm=" + (folder_.path() / (name + ".ppm")).string()},
+                         more),
+                  {"--", "64", "30"});
+  };
+  run_.emplace(heat("debugged", {"--gdb", "0", "--gdb-pes", "0"}));
+  const std::smatch match = await_line("the PEs are held.*\n.*127\\.0\\.0\\.1:([0-9]+)");
+  ASSERT_FALSE(match.empty());
+  GdbClient gdb(static_cast<std::uint16_t>(std::stoul(match[1])));
+  EXPECT_EQ(gdb.ask("Hgp1.1"), "OK");
+  EXPECT_TRUE(gdb.ask("qSupported:multiprocess+;swbreak+"));
+  const std::string breakpoint = "0," + hexadecimal(address_of("torolux_send", "heat")) + ",2";
+  EXPECT_EQ(gdb.ask("Z" + breakpoint), "OK");
+  const auto state = [&gdb] {
+    return gdb.ask("g").value_or("") + gdb.ask("p46").value_or("") + gdb.ask("m80010000,400").value_or("");
+  };
+  constexpr int kStops = 40;  // two in a step of the plate, which takes some 15,000 instructions
+  std::vector<std::string> states;
+  for (int i = 0; i < kStops; ++i) {
+    ASSERT_EQ(gdb.ask("vCont;c"), "T05thread:p1.1;swbreak:;") << i;
+    states.push_back(state());
+  }
+  for (int i = kStops - 2; i >= kStops - 8; --i) {
+    ASSERT_EQ(gdb.ask("bc"), "T05thread:p1.1;swbreak:;") << i;
+    EXPECT_EQ(state(), states[static_cast<std::size_t>(i)]) << i;
+  }
+  EXPECT_EQ(gdb.ask("z" + breakpoint), "OK");
+  EXPECT_EQ(gdb.ask("D"), "OK");
+  const Finished debugged = run_->wait();
+  const Finished plain = run_torolux(heat("plain", {}));
+  EXPECT_EQ(debugged.output, plain.output);
+  EXPECT_EQ(statistics(stats("debugged")), statistics(stats("plain")));
+  EXPECT_EQ(contents(folder_.path() / "debugged.ppm"), contents(folder_.path() / "plain.ppm"));
 }
 
 TEST_F(Debugged, APortInUseIsRefused) {
