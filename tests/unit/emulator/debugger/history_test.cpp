@@ -18,7 +18,7 @@ SavedState state(std::uint64_t first, std::uint64_t second, std::size_t bytes = 
 
 TEST(DebuggerHistory, TheLastStateBeforeAPlaceIsFound) {
   History history;
-  for (const std::uint64_t steps : {10, 20, 30}) history.keep(state(steps, steps));
+  for (const std::uint64_t steps : {10U, 20U, 30U}) history.keep(state(steps, steps));
   EXPECT_EQ(history.before(at(30, 30))->position.places[0].steps, 20U);
   EXPECT_EQ(history.before(at(30, 31))->position.places[0].steps, 30U);
   EXPECT_EQ(history.before(at(100, 25))->position.places[0].steps, 20U);
@@ -43,7 +43,7 @@ TEST(DebuggerHistory, StatesAreThinnedOut) {
 
 TEST(DebuggerHistory, AChangeForgetsWhatComesBehind) {
   History history;
-  for (const std::uint64_t steps : {10, 20, 30}) history.keep(state(steps, steps));
+  for (const std::uint64_t steps : {10U, 20U, 30U}) history.keep(state(steps, steps));
   history.forget_behind(at(20, 25), 0);  // the PE stands as in the second state, which lacks the change
   EXPECT_EQ(history.states(), 1U);
   EXPECT_EQ(history.before(at(100, 100))->position.places[0].steps, 10U);
