@@ -28,8 +28,10 @@ torolux_goal := $(.DEFAULT_GOAL)
 %.o: %.s $(torolux_kit)
 	$(CC) $(ASFLAGS) -c $< -o $@
 
-# An image: of the source of its name, and of whatever else is named for it. Headers are no part of a link.
-torolux_parts = $(filter %.c %.cpp %.cc %.S %.s %.o %.a,$^)
+# An image: of the source of its name, and of whatever else is named for it. Headers are no part of a link, nor is a
+# source whose object is one.
+torolux_linked_as_objects = $(foreach kind,c cpp cc S s,$(patsubst %.o,%.$(kind),$(filter %.o,$^)))
+torolux_parts = $(filter-out $(torolux_linked_as_objects),$(filter %.c %.cpp %.cc %.S %.s %.o %.a,$^))
 torolux_compiled = $(CPPFLAGS) -MMD -MP -MT $@ $(LDFLAGS) $(torolux_parts) $(LDLIBS) -o $@
 
 %.elf: %.c $(torolux_kit)

@@ -3,7 +3,9 @@
 // headers; leaves: memory, or the end of the run.
 #include <malloc.h>
 
+#include <cstdarg>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -12,6 +14,9 @@
 
 namespace torolux::kit {
 namespace {
+
+/// Longer words of an exception are cut.
+constexpr std::size_t kMostWhatBytes = 160;
 
 [[noreturn]] void refuse(std::size_t bytes, const void* caller) {
   end_run(Words() << "operator new: no memory for " << bytes << " bytes (torolux run --pe-memory)", caller);
@@ -34,6 +39,7 @@ void* aligned_or_end(std::size_t bytes, std::align_val_t alignment, const void* 
 
 using torolux::kit::aligned_or_end;
 using torolux::kit::end_run;
+using torolux::kit::kMostWhatBytes;
 using torolux::kit::memory_or_end;
 using torolux::kit::Words;
 
@@ -143,7 +149,12 @@ void __throw_length_error(const char* what) {
 void __throw_out_of_range(const char* what) {
   end_run(Words() << "std::out_of_range: " << what, TOROLUX_CALLER);
 }
-void __throw_out_of_range_fmt(const char* what, ...) {
+void __throw_out_of_range_fmt(const char* format, ...) {
+  char what[kMostWhatBytes];
+  va_list values;
+  va_start(values, format);
+  vsnprintf(what, sizeof what, format, values);
+  va_end(values);
   end_run(Words() << "std::out_of_range: " << what, TOROLUX_CALLER);
 }
 void __throw_runtime_error(const char* what) {

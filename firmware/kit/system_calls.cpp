@@ -7,6 +7,7 @@
 #include <sys/times.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -51,11 +52,17 @@ int errno_of(FileError error) {
   }
 }
 
-bool is_file(int number) {
-  return number >= kFirstFile && number < kFirstFile + static_cast<int>(protocol::kMostOpenFiles);
-}
+/// How each file was opened; 0: it is not open. Files number `kFirstFile` and on.
+constinit std::array<std::uint32_t, protocol::kMostOpenFiles> access_to{};
+
 std::uint32_t file_of(int number) {
   return static_cast<std::uint32_t>(number - kFirstFile);
+}
+bool is_file(int number) {
+  return number >= kFirstFile && file_of(number) < access_to.size() && access_to[file_of(number)] != 0;
+}
+bool is_file_for(int number, FileAccess use) {
+  return is_file(number) && (access_to[file_of(number)] & static_cast<std::uint32_t>(use)) != 0;
 }
 
 /// The user's file `stdin`, opened when something is first read of it.
@@ -93,18 +100,22 @@ extern "C" {
 int _open(const char* name, int flags, int /*mode*/) {
   const auto answer = open_file(name, access_of(flags));
   if (answer.error != FileError::none) return failed(errno_of(answer.error));
+  access_to[answer.file] = access_of(flags);
   return static_cast<int>(answer.file) + kFirstFile;
 }
 
 int _close(int number) {
-  if (is_file(number)) close_file(file_of(number));
-  return is_file(number) || (number >= 0 && number < kFirstFile) ? 0 : failed(EBADF);
+  if (number >= 0 && number < kFirstFile) return 0;
+  if (!is_file(number)) return failed(EBADF);
+  close_file(file_of(number));
+  access_to[file_of(number)] = 0;
+  return 0;
 }
 
 int _read(int number, void* data, std::size_t bytes) {
-  const auto file = number == STDIN_FILENO ? standard_input()
-                    : is_file(number)      ? std::optional(file_of(number))
-                                           : std::nullopt;
+  const auto file = number == STDIN_FILENO                  ? standard_input()
+                    : is_file_for(number, FileAccess::read) ? std::optional(file_of(number))
+                                                            : std::nullopt;
   if (!file) return number == STDIN_FILENO ? 0 : failed(EBADF);
   return static_cast<int>(read_file(*file, {static_cast<std::byte*>(data), bytes}));
 }
@@ -115,7 +126,7 @@ int _write(int number, const void* data, std::size_t bytes) {
     write_output(protocol::OutputStream::standard_output, contents);
   } else if (number == STDERR_FILENO) {
     write_output(protocol::OutputStream::standard_error, contents);
-  } else if (is_file(number)) {
+  } else if (is_file_for(number, FileAccess::write)) {
     write_file(file_of(number), contents);
   } else {
     return failed(EBADF);

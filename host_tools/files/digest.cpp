@@ -55,7 +55,11 @@ std::string sha256(std::string_view text) {
 
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::error_code error;
-  const bool is_folder = std::filesystem::is_directory(file, error);
+  namespace fs = std::filesystem;
+  const bool is_folder = fs::is_directory(file, error);
+  if (fs::exists(file, error) && !is_folder && !fs::is_regular_file(file, error)) {
+    throw InputError(file.string() + ": is a pipe or a device; it is read more than once and must be a file");
+  }
   std::ifstream stream(file, std::ios::binary);
   if (!stream || is_folder) {
     throw InputError(file.string() + ": cannot be read: " + std::strerror(is_folder ? EISDIR : errno));

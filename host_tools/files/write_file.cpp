@@ -3,6 +3,7 @@
 #include "host_tools/files/write_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -101,6 +102,17 @@ bool is_device(const fs::path& file) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+/// Of our standard output or standard error where `file` is the same: a shell's log, which others write, too.
+std::optional<int> standard_stream(const fs::path& file) {
+  struct stat wanted {};
+  if (::stat(file.c_str(), &wanted) != 0) return std::nullopt;
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat open {};
+    if (::fstat(stream, &open) == 0 && open.st_dev == wanted.st_dev && open.st_ino == wanted.st_ino) return stream;
+  }
+  return std::nullopt;
+}
+
 void refuse_folder(const fs::path& file) {
   std::error_code error;
   if (file.filename().empty() || fs::is_directory(file, error))
@@ -117,6 +129,11 @@ struct FileWriter::Parts {
 
 FileWriter::FileWriter(const fs::path& file) : file_(file), parts_(std::make_unique<Parts>()) {
   refuse_folder(file);
+  if (const auto stream = standard_stream(file)) {
+    parts_->device.emplace(::fcntl(*stream, F_DUPFD_CLOEXEC, 0));
+    if (!parts_->device->open()) refuse(file, "cannot be written", errno);
+    return;
+  }
   if (is_device(file)) {
     parts_->device.emplace(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
     if (!parts_->device->open()) refuse(file, "cannot be written", errno);

@@ -28,6 +28,10 @@ constexpr std::array kAdvice = std::to_array<Advice>({
      "an image with a pe_main of its own runs no constructors: mark the object constinit, make it in pe_main, or write "
      "main instead. Constructors are functions named _GLOBAL__sub_I_...: torolux cc -c, then riscv64-unknown-elf-nm, "
      "shows which file has one"},
+    {{"a variable is thread-local", "`__cxa_thread_atexit'", "`__tls_get_addr'"},
+     "a PE has one thread, and nothing sets up variables of threads: leave out thread_local (_Thread_local, __thread); "
+     "a "
+     "plain static variable is the same there"},
     {{"can't link soft-float modules with", "can't link single-float modules with", "can't link double-float modules",
       "can't link quad-float modules", "ABI is incompatible with that of the selected emulation",
       "can't link RVE with other target"},
@@ -40,8 +44,7 @@ constexpr std::array kAdvice = std::to_array<Advice>({
      "there is no run-time type information on a PE: leave out -frtti, dynamic_cast and typeid, or the object that was "
      "compiled with them",
      "__cxa_"},
-    {{"`std::cout'", "`std::cerr'", "std::basic_ostream", "std::basic_istream", "std::ios_base", "std::locale",
-      "std::ostream::", "std::istream::"},
+    {{"`std::cout'", "`std::cerr'", "stream<char", "std::ios_base", "std::locale", "std::ostream::", "std::istream::"},
      "libstdc++'s streams and locales are not in the kit: use printf (docs/command_line.md says what is there)"},
     {{"`std::thread::", "`pthread_", "`std::filesystem::", "`std::random_device::", "`std::chrono::_V2::"},
      "threads, files as objects, random devices and the system's clocks of the C++ library are not on a PE: use "

@@ -180,6 +180,13 @@ TEST(TheCompilersDriver, SaysWhatALinkersErrorsMean) {
                "int first() { return 2; }\nvolatile int n = 1;\nstruct Made { Made() { n = 5; } } object;\n"
                "void torolux::pe::pe_main(Niu&) {}\n");
   EXPECT_THAT(said_of_link(folder, "made.cpp"), HasSubstr("a pe_main of its own runs no constructors"));
+  folder.write("thread.c", "_Thread_local int of_thread = 5;\nint main(void) { return of_thread; }\n");
+  EXPECT_THAT(said_of_link(folder, "thread.c"), HasSubstr("a PE has one thread"));
+  folder.write("threads.cpp",
+               "struct Made { ~Made() {} int n; };\nint main() { thread_local Made made{1}; return made.n; }\n");
+  EXPECT_THAT(said_of_link(folder, "threads.cpp"), HasSubstr("a PE has one thread"));
+  folder.write("stream.cpp", "#include <fstream>\nint main() { std::ifstream in(\"a\"); return in.get(); }\n");
+  EXPECT_THAT(said_of_link(folder, "stream.cpp"), HasSubstr("streams and locales are not in the kit"));
 }
 
 }  // namespace

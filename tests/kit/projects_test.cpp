@@ -119,11 +119,15 @@ TEST_F(OwnProject, IsBuiltByMakeWithTheRulesOfTheKit) {
   folder.succeed(shell_line({"cp", "-r", prefix().string(), "torolux"}));
   folder.write("Makefile",
                "TOROLUX = torolux/bin/torolux\ninclude $(shell $(TOROLUX) cc --makefile)\n"
-               "CPPFLAGS = -DONE=1\nall: own.elf single.elf\nown.elf: main.o part/more.o\n");
+               "CPPFLAGS = -DONE=1\nall: own.elf single.elf named.elf\n"
+               "own.elf: main.o part/more.o\nnamed.elf: named.o part.o\n");
+  folder.write("part.c", "int number(void) { return 1; }\n");
+  folder.write("named.c", "int number(void);\nint main(void) { return number() - 1; }\n");
   folder.write("single.cpp", "#include \"firmware/boot/boot.hpp\"\nvoid torolux::pe::pe_main(Niu&) {}\n");
   folder.succeed("make");
   EXPECT_EQ(texts_of(folder.succeed("torolux run own.elf --pes 1x1 --quiet")), "number 4\n");
   folder.succeed("torolux run single.elf --pes 1x1 --quiet");
+  folder.succeed("torolux run named.elf --pes 1x1 --quiet");  // of an object whose source has the image's name
   EXPECT_THAT(folder.succeed("make"), HasSubstr("Nothing to be done"));
   folder.write("number.hpp", "#define NUMBER 4\n");
   EXPECT_THAT(folder.succeed("make"), AllOf(HasSubstr("main.o"), Not(HasSubstr("more.c")), Not(HasSubstr("single"))));

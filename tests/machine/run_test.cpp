@@ -3,6 +3,7 @@
 // exit codes for what goes wrong, and nothing left behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -201,6 +202,9 @@ TEST(Run, BadInputAndBadUsageHaveTheirExitCodes) {
   EXPECT_THAT(no_elf.errors, HasSubstr("/proc/self/status"));
   EXPECT_EQ(run_torolux({"run", "/nowhere.elf"}).exit_code, 2);
   EXPECT_THAT(run_torolux({"run", "/tmp"}).errors, HasSubstr("/tmp: cannot be read: Is a directory"));
+  const TemporaryName pipe("pipe");
+  ASSERT_EQ(::mkfifo(pipe.text().c_str(), 0600), 0);
+  EXPECT_THAT(run_torolux({"run", pipe.text()}).errors, HasSubstr("is a pipe or a device"));
   EXPECT_EQ(run_torolux({"run", image("hello"), "--machine", "/nowhere.toml"}).exit_code, 2);
   EXPECT_EQ(run_torolux({"run", image("hello"), "--stats", "/nowhere/stats.json"}).exit_code, 2);
   EXPECT_EQ(run_torolux({"run", image("hello"), "--engine", "abacus"}).exit_code, 1);

@@ -3,6 +3,7 @@
 // nothing is left behind.
 #include "host_tools/files/write_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -85,6 +86,24 @@ TEST(WriteFile, FullDiskKeepsTheOldFileAndLeavesNothing) {
     EXPECT_THAT(message_of<InputError>([&] { write_picture(picture, file); }), HasSubstr("a.pfm"));
   }
   EXPECT_EQ(read_file(file, kMost), bytes_of("old"));
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+// A shell's log, which other programs write before and after us.
+TEST(WriteFile, WhatIsOurStandardErrorIsWrittenToAndNotReplaced) {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "log";
+  const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int kept = ::dup(STDERR_FILENO);
+  ::dup2(file, STDERR_FILENO);
+  EXPECT_EQ(::write(STDERR_FILENO, "before, ", 8), 8);
+  write_file("/dev/stderr", "this, ");
+  write_file(log, "that, ");
+  EXPECT_EQ(::write(file, "after", 5), 5);
+  ::dup2(kept, STDERR_FILENO);
+  ::close(kept);
+  ::close(file);
+  EXPECT_EQ(read_file(log, kMost), bytes_of("before, this, that, after"));
   EXPECT_EQ(folder.files(), 1U);
 }
 
