@@ -15,14 +15,15 @@ namespace {
 
 using testing::ContainsRegex;
 
-/// What gdb-multiarch says to these commands, one a line; errors too.
+/// What gdb-multiarch says to these commands, one a line; errors too. From the checkout, where it finds the sources.
 std::string gdb(const DebuggedMachine& machine, const testing_support::TemporaryFolder& folder,
                 const std::string& commands) {
   const std::filesystem::path script = folder.path() / "script";
   std::ofstream(script) << "set pagination off\nset confirm off\nset debuginfod enabled off\ntarget remote "
                         << machine.socket().string() << "\nset schedule-multiple on\n"
                         << commands;
-  const std::string command = "timeout 40 gdb-multiarch -nx --batch -x " + script.string() + " 2>&1";
+  const std::string command =
+      "cd '" TOROLUX_SOURCE_DIR "' && timeout 40 gdb-multiarch -nx --batch -x " + script.string() + " 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");
   std::string text;
   std::array<char, 4096> part{};
