@@ -29,9 +29,9 @@ void print_summary(const MachineSetup& setup, const RunOutcome& outcome, double 
   }
   std::uint64_t packets = 0;
   for (const PeFigures& pe : figures.pes) packets += pe.packets_delivered;
-  std::cerr << "torolux: " << figures.pes.size()
-            << (figures.stopped ? " PEs stopped by --until at cycle " : " PEs halted at cycle ") << grouped(figures.now)
-            << " (" << significant(1e3 * static_cast<double>(figures.now) / setup.description.processor.clock_hertz, 4)
+  std::cerr << "torolux: " << figures.pes.size() << (figures.pes.size() == 1 ? " PE " : " PEs ")
+            << (figures.stopped ? "stopped by --until at cycle " : "halted at cycle ") << grouped(figures.now) << " ("
+            << significant(1e3 * static_cast<double>(figures.now) / setup.description.processor.clock_hertz, 4)
             << " ms of virtual time); " << grouped(figures.instructions()) << " instructions, " << grouped(packets)
             << " packets; " << duration(wall_seconds) << "\n";
 }

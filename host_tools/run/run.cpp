@@ -39,8 +39,8 @@ std::string hang_of(const Machine& machine, const RunOutcome& outcome) {
   }
   if (figures.stopped || count == 0) return "";
   return "at cycle " + std::to_string(figures.now) + " nothing is under way any more, and " + std::to_string(count) +
-         " PEs still wait to receive: PE " + waiting + (count > kMostNamed ? ", ..." : "") +
-         after_exit(outcome.first_exit) + machine.where_pes_stand();
+         (count == 1 ? " PE still waits to receive: PE " : " PEs still wait to receive: PE ") + waiting +
+         (count > kMostNamed ? ", ..." : "") + after_exit(outcome.first_exit) + machine.where_pes_stand();
 }
 
 /// What is wrong with what is kept of a run that has failed is told behind the failure.
