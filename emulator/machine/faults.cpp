@@ -7,6 +7,7 @@
 
 #include "emulator/engines/image/source_line.hpp"
 #include "emulator/hexadecimal.hpp"
+#include "emulator/phase_names.hpp"
 #include "emulator/printable.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/machine.hpp"
@@ -110,7 +111,7 @@ std::string_view name_of(NiuFaultCode code) {
     case too_many_released:
       return "more slots released than the list holds (slots)";
     case phase_mismatch:
-      return "phase markers do not nest (phase, innermost open phase)";
+      return "phase markers do not nest";
     case too_long_without_hint:
       return "an endless loop";
     case no_trap_handler:
@@ -119,6 +120,18 @@ std::string_view name_of(NiuFaultCode code) {
       return "wait for an interrupt";
   }
   return "fault";
+}
+
+/// By the names that the statistics have, too.
+std::string phases_in_words(const std::uint32_t (&detail)[3], const PhaseNames& names) {
+  const auto name = [&names](std::uint32_t phase) {
+    return phase < names.size() ? "the phase " + phase_name(names, phase)
+                                : "a phase that is none, " + std::to_string(phase);
+  };
+  if (detail[2] != 0)
+    return name(detail[0]) + " is entered where " + std::to_string(names.size()) + " are open, the most";
+  return name(detail[0]) + " is left, but " +
+         (detail[1] < names.size() ? "the innermost that is open is " + phase_name(names, detail[1]) : "none is open");
 }
 
 /// The program of the PE in question.
@@ -222,7 +235,9 @@ std::string describe_fault(unsigned pe, const NiuFault& fault, CallStacks& stack
     return who + "trap: wfi at " + place_in_words(fault.detail[0], code) +
            " waits for an interrupt, and there are none: call receive() to wait";
   }
-  return who + std::string(name_of(fault.code)) + ": " + details(fault.detail);
+  const std::string what = who + std::string(name_of(fault.code)) + ": ";
+  if (fault.code == NiuFaultCode::phase_mismatch) return what + phases_in_words(fault.detail, code.image.phase_names);
+  return what + details(fault.detail);
 }
 
 std::string calls_to(unsigned pe, const NiuFault& fault, CallStacks& stacks) {
@@ -232,7 +247,8 @@ std::string calls_to(unsigned pe, const NiuFault& fault, CallStacks& stacks) {
       return place != 0 ? stacks.of_pe(pe, place) : stacks.of_pe(pe);
     case NiuFaultCode::no_trap_handler:
     case NiuFaultCode::wait_for_interrupt:
-      return "";  // not every engine knows the registers there
+    case NiuFaultCode::phase_mismatch:  // the program has gone on to its next HINT
+      return "";                        // not every engine knows the registers there
     default:
       return stacks.of_pe(pe);
   }

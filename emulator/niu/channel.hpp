@@ -104,7 +104,7 @@ enum class NiuFaultCode : std::uint32_t {
   bad_slots,              ///< address, own, NIU's (set_slots)
   slots_in_use,           ///< slots in use (set_slots)
   too_many_released,      ///< released
-  phase_mismatch,         ///< phase, innermost open phase or kPhases
+  phase_mismatch,         ///< phase, innermost open phase or kPhases, 1: it was entered with all open, 0: left
   too_long_without_hint,  ///< limit (low, high word), pc or 0
   no_trap_handler,        ///< mcause, mepc, mtval; or kUnknownTrap
   wait_for_interrupt      ///< pc: of `wfi`

@@ -26,10 +26,10 @@ void charge(NiuChannel& channel, std::uint64_t clock) {
   state.phase_begin = busy;
 }
 
-void report_mismatch(NiuChannel& channel, std::uint8_t phase, std::uint64_t clock) {
+void report_mismatch(NiuChannel& channel, std::uint8_t phase, bool enters, std::uint64_t clock) {
   const ProcessorState& state = channel.processor;
   const std::uint32_t open = state.phase_depth != 0 ? state.phases[state.phase_depth - 1] : protocol::kPhases;
-  const NiuFault fault{NiuFaultCode::phase_mismatch, {phase, open, 0}};
+  const NiuFault fault{NiuFaultCode::phase_mismatch, {phase, open, enters ? 1U : 0U}};
   channel.commands.push({command_time(channel.processor, clock), CommandKind::fault, 0, 0, 0, 0, 0},
                         std::as_bytes(std::span(&fault, 1)));
 }
@@ -49,7 +49,7 @@ bool mark_phase(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock
     --state.phase_depth;
     return true;
   }
-  report_mismatch(channel, phase, clock);
+  report_mismatch(channel, phase, immediate < kLeave, clock);
   return false;
 }
 

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <torolux.h>
 
+TOROLUX_PHASE_NAME(3, "shift");
+
 static char buffer[2048];
 
 static void too_long_for_receiver(void) {
@@ -43,6 +45,7 @@ int main(int argc, char** argv) {
   if (strcmp(what, "overlap") == 0) torolux_exchange(0, buffer, 100, 0, buffer + 50, 100);
   if (strcmp(what, "broadcast") == 0) torolux_broadcast(0, buffer, torolux_pe() == 0 ? 100 : 50);
   if (strcmp(what, "root") == 0) torolux_reduce(9, buffer, 1, TOROLUX_FLOAT, TOROLUX_SUM);
+  if (strcmp(what, "phase") == 0) TOROLUX_LEAVE_PHASE(3);
   if (strcmp(what, "exit") == 0) exit(torolux_pe() == 1 ? 258 : 0);
   return 0;
 }

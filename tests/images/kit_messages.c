@@ -121,7 +121,7 @@ static void together(void) {
     double largest[3] = {pe, -(double)pe, 7.5};
     torolux_all_reduce(largest, 3, TOROLUX_DOUBLE, TOROLUX_MAXIMUM);
     check(largest[0] == pes - 1 && largest[1] == 0 && largest[2] == 7.5, "all_reduce: maximum");
-    unsigned char anywhere[2 * sizeof(uint32_t) + 1];  /* values that are not aligned */
+    unsigned char anywhere[2 * sizeof(uint32_t) + 1]; /* values that are not aligned */
     for (uint32_t i = 0; i < 2; ++i) memcpy(anywhere + 1 + i * sizeof i, &(uint32_t){(pe + 1) * (i + 70000)}, sizeof i);
     torolux_reduce(root, anywhere + 1, 2, TOROLUX_UINT32, TOROLUX_SUM);
     for (uint32_t i = 0, got = 0; i < 2 && pe == root; ++i) {
@@ -163,7 +163,8 @@ int main(void) {
   unsigned char* const out = malloc(ROOM);
   unsigned char* const in = malloc(ROOM);
   check(out != NULL && in != NULL, "memory");
-  check(torolux_pe_at(-1, -1) == torolux_pes() - 1 && torolux_pe_at((int)torolux_column(), (int)torolux_row()) == torolux_pe(),
+  check(torolux_pe_at(-1, -1) == torolux_pes() - 1 &&
+            torolux_pe_at((int)torolux_column(), (int)torolux_row()) == torolux_pe(),
         "place");
   shifts(out, in);
   torolux_barrier();

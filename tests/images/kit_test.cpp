@@ -205,10 +205,13 @@ TEST(KitFaults, OfTheMachineAreToldAsEver) {
   EXPECT_THAT(failure_of("stack"), HasSubstr("a stack overflow?"));
   EXPECT_THAT(failure_of("deadlock"), HasSubstr("2 PEs still wait to receive: PE 0, 1"));
   EXPECT_THAT(failure_of("host"), HasSubstr("--output host=FILE"));
+  EXPECT_THAT(
+      failure_of("phase"),
+      HasSubstr("phase markers do not nest: the phase shift is left, but the innermost that is open is program"));
 }
 
 TEST(KitFaults, AreTheSameOnQemu) {
-  for (const char* what : {"room", "assert"}) EXPECT_EQ(failure_of(what, "qemu"), failure_of(what)) << what;
+  for (const char* what : {"room", "assert", "phase"}) EXPECT_EQ(failure_of(what, "qemu"), failure_of(what)) << what;
 }
 
 TEST(Kit, TheFirstStatusThatIsNotZeroIsTheRunsExitCode) {
