@@ -7,6 +7,8 @@
 namespace torolux::kit {
 
 bool Peers::begin(std::uint32_t pes) {
+  // No make_unique of the library tells that memory is out.
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): owned at once
   groups_.reset(new (std::nothrow) Block<Group>[(pes + kGroup - 1) / kGroup]);
   return groups_ != nullptr;
 }
