@@ -43,6 +43,7 @@ std::vector<MemoryDump> checked_dumps(const EndingOptions& options, const Machin
 
 std::vector<NamedFile> files_of(const std::vector<DumpRequest>& dumps) {
   std::vector<NamedFile> files;
+  files.reserve(dumps.size());
   for (const DumpRequest& dump : dumps) files.push_back({"--dump", dump.file});
   return files;
 }
