@@ -98,9 +98,10 @@ namespace protocol = torolux::protocol;
 extern "C" {
 
 int _open(const char* name, int flags, int /*mode*/) {
-  const auto answer = open_file(name, access_of(flags));
+  const std::uint32_t access = access_of(flags);
+  const auto answer = open_file(name, access);
   if (answer.error != FileError::none) return failed(errno_of(answer.error));
-  access_to[answer.file] = access_of(flags);
+  access_to[answer.file] = access;
   return static_cast<int>(answer.file) + kFirstFile;
 }
 

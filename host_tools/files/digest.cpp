@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "emulator/errors.hpp"
+#include "host_tools/files/write_file.hpp"
 
 namespace torolux {
 
@@ -55,9 +56,8 @@ std::string sha256(std::string_view text) {
 
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::error_code error;
-  namespace fs = std::filesystem;
-  const bool is_folder = fs::is_directory(file, error);
-  if (fs::exists(file, error) && !is_folder && !fs::is_regular_file(file, error)) {
+  const bool is_folder = std::filesystem::is_directory(file, error);
+  if (is_device(file)) {
     throw InputError(file.string() + ": is a pipe or a device; it is read more than once and must be a file");
   }
   std::ifstream stream(file, std::ios::binary);

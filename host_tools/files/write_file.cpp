@@ -95,13 +95,6 @@ fs::path followed(const fs::path& file) {
   return error ? file : whole;
 }
 
-/// A device or pipe, which must not be replaced by a file.
-bool is_device(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 /// Of our standard output or standard error where `file` is the same: a shell's log, which others write, too.
 std::optional<int> standard_stream(const fs::path& file) {
   struct stat wanted {};
@@ -121,6 +114,12 @@ void refuse_folder(const fs::path& file) {
 
 }  // namespace
 
+bool is_device(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 struct FileWriter::Parts {
   std::optional<Descriptor> device;  // or
   fs::path target;
@@ -129,13 +128,9 @@ struct FileWriter::Parts {
 
 FileWriter::FileWriter(const fs::path& file) : file_(file), parts_(std::make_unique<Parts>()) {
   refuse_folder(file);
-  if (const auto stream = standard_stream(file)) {
-    parts_->device.emplace(::fcntl(*stream, F_DUPFD_CLOEXEC, 0));
-    if (!parts_->device->open()) refuse(file, "cannot be written", errno);
-    return;
-  }
-  if (is_device(file)) {
-    parts_->device.emplace(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  const std::optional<int> stream = standard_stream(file);
+  if (stream || is_device(file)) {
+    parts_->device.emplace(stream ? ::fcntl(*stream, F_DUPFD_CLOEXEC, 0) : ::open(file.c_str(), O_WRONLY | O_CLOEXEC));
     if (!parts_->device->open()) refuse(file, "cannot be written", errno);
     return;
   }

@@ -13,7 +13,8 @@
 namespace torolux {
 
 /// Writes `contents` to a temporary file in the same folder and renames it, so that `file` is never seen half written.
-/// A link is followed; devices and pipes (/dev/stdout) are written to directly. Throws InputError; leaves nothing then.
+/// A link is followed. Devices, pipes and what our standard output or standard error is, a shell's log, are written to
+/// directly. Throws InputError; leaves nothing then.
 void write_file(const std::filesystem::path& file, std::span<const std::byte> contents);
 void write_file(const std::filesystem::path& file, std::string_view text);
 
@@ -41,6 +42,9 @@ class FileWriter {
 /// Throws InputError where write_file would fail: no such folder, no right, `file` is a folder. For calling before
 /// hours of work. Leaves nothing behind.
 void check_file_writable(const std::filesystem::path& file);
+
+/// A device or pipe: it must not be replaced by a file, and can be read only once.
+bool is_device(const std::filesystem::path& file);
 
 /// The whole file. Throws InputError: not found, not readable, a folder, larger than `most_bytes`.
 std::vector<std::byte> read_file(const std::filesystem::path& file, std::size_t most_bytes);

@@ -30,8 +30,7 @@ constexpr std::array kAdvice = std::to_array<Advice>({
      "shows which file has one"},
     {{"a variable is thread-local", "`__cxa_thread_atexit'", "`__tls_get_addr'"},
      "a PE has one thread, and nothing sets up variables of threads: leave out thread_local (_Thread_local, __thread); "
-     "a "
-     "plain static variable is the same there"},
+     "a plain static variable is the same there"},
     {{"can't link soft-float modules with", "can't link single-float modules with", "can't link double-float modules",
       "can't link quad-float modules", "ABI is incompatible with that of the selected emulation",
       "can't link RVE with other target"},
