@@ -34,6 +34,7 @@ struct SceneMaterial {
   double exponent = 0;               ///< Ns, of the glossy lobe, >= 0
   Vec3d transmittance{1, 1, 1};      ///< Tf of glass, at each crossing, 0..1
   double refractive_index = 1.5;     ///< Ni of glass
+  bool thin = false;                 ///< glass that is a pane of one sheet: light passes unbent, by both its faces
   Vec3d emission{0, 0, 0};           ///< Ke, radiance [W/(m^2 sr)] from the front
 
   bool operator==(const SceneMaterial&) const = default;
