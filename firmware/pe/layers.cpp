@@ -76,4 +76,9 @@ bool note_irradiance(const Pe& pe, RayRecord& record, const glm::vec3& irradianc
   return true;
 }
 
+void dim_irradiance(const Pe& pe, RayRecord& record, const glm::vec3& passed) {
+  if (record.bounce != 0 || !wanted(pe, Plane::irradiance)) return;
+  carried_irradiance(record) = to_array(to_vector(carried_irradiance(record)) * passed);
+}
+
 }  // namespace torolux::pe

@@ -18,4 +18,7 @@ void note_surface(Pe& pe, Niu& niu, const protocol::RayRecord& record, const Hit
 /// True: it must go, whatever its weight, as its irradiance is asked for.
 bool note_irradiance(const Pe& pe, protocol::RayRecord& record, const glm::vec3& irradiance_over_pi);
 
+/// What a pane lets pass of the light that note_irradiance() keeps: factors by channel.
+void dim_irradiance(const Pe& pe, protocol::RayRecord& record, const glm::vec3& passed);
+
 }  // namespace torolux::pe

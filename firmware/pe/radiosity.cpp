@@ -27,7 +27,23 @@ void attenuate(Pe& pe, RadiosityRecord& record, const std::array<Fraction, 3>& f
   }
 }
 
-/// Turns the record's light at mirror or glass; of glass's two ways one is taken by chance. False: it has ended.
+/// part: 0 and up; above 1 by rounding alone.
+Fraction fraction_of(float part) {
+  return part < 1.0F ? Fraction{static_cast<std::uint32_t>(part * 0x1p32F)} : protocol::kOne;
+}
+
+/// Of a pane's two ways one by chance, with what of the light goes that way. True: it passes, unbent, and is an
+/// emitter's own light still, as shadow rays pass likewise.
+bool passes_pane(Pe& pe, RadiosityRecord& record, const Material& material, const glm::vec3& geometric) {
+  const PaneParts parts =
+      pane_parts(to_vector(record.direction), geometric, material.refractive_index, to_vector(material.transmittance));
+  const bool passes = !(protocol::uniform(record.key, protocol::Dimension::fresnel) < parts.reflectance);
+  const glm::vec3 kept = passes ? parts.passed / (1.0F - parts.reflectance) : parts.reflected / parts.reflectance;
+  attenuate(pe, record, {fraction_of(kept.x), fraction_of(kept.y), fraction_of(kept.z)});
+  return passes;
+}
+
+/// Turns the record's light at mirror, glass or pane; of glass's two ways one is taken by chance. False: it has ended.
 bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   const PhaseMark<Phase::shade> mark(niu);
   auto& record = pe.slots.at<RadiosityRecord>(slot);
@@ -45,9 +61,13 @@ bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   const glm::vec3 shading = shading_normal(pe.scene, polygon, hit);
   record.key = protocol::hash_combine(record.key, record.bounce);
   glm::vec3 out{};
+  bool passes = false;
   if (material.kind == MaterialKind::mirror) {
     attenuate(pe, record, material.specular_fraction);
     out = reflect(in, geometric, shading);
+  } else if (material.kind == MaterialKind::pane) {
+    passes = passes_pane(pe, record, material, geometric);
+    out = passes ? in : reflect(in, geometric, geometric);
   } else {
     const float eta = hit.front ? 1.0F / material.refractive_index : material.refractive_index;
     const Refraction way = refract(in, geometric, shading, eta);
@@ -59,7 +79,7 @@ bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
     }
   }
   turn(record, origin, out, polygon.number);
-  record.flags = static_cast<std::uint8_t>(record.flags & ~std::uint32_t{protocol::kDirect});
+  if (!passes) record.flags = static_cast<std::uint8_t>(record.flags & ~std::uint32_t{protocol::kDirect});
   if (record.flux[0] == 0 && record.flux[1] == 0 && record.flux[2] == 0) {
     end_record(pe, niu, slot);
     return false;

@@ -75,18 +75,30 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
   return true;
 }
 
-/// A shadow ray has met something: the emitter, or what is before it. Glass and mirrors cast shadows: the light that
-/// comes by way of them is no emitter's own, and is in the irradiance at vertices.
-void end_shadow(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit) {
-  if (pe.scene.polygons[hit.polygon].number != record.target) return;
-  pe.results.add_pixel(niu, record.pixel, to_vector(record.weight) * pe.scene.layout.pixel_scale);
+/// A shadow ray has met something: the emitter, a pane, or what else is before it. Glass and mirrors cast shadows: the
+/// light that comes by way of them is no emitter's own, and is in the irradiance at vertices. False: it has ended.
+bool pass_shadow(Pe& pe, Niu& niu, RayRecord& record, const Hit& hit) {
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const Material& material = pe.scene.materials[polygon.material];
+  if (material.kind == MaterialKind::pane) {
+    const glm::vec3 direction = to_vector(record.direction);
+    const glm::vec3 passed =
+        pane_parts(direction, unit_normal(polygon), material.refractive_index, to_vector(material.transmittance))
+            .passed;
+    record.weight = to_array(to_vector(record.weight) * passed);
+    dim_irradiance(pe, record, passed);
+    turn(record, leaving_point(polygon, to_vector(record.origin) + direction * hit.t), direction, polygon.number);
+    return true;
+  }
+  if (polygon.number == record.target)
+    pe.results.add_pixel(niu, record.pixel, to_vector(record.weight) * pe.scene.layout.pixel_scale);
+  return false;
 }
 
-/// Glass's two ways, each with what it weighs.
+/// Glass's two ways, each with what it weighs, or a pane's.
 struct Ways {
   glm::vec3 reflected, refracted;
   glm::vec3 reflected_weight, refracted_weight;
-  float reflectance;
 };
 
 Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hit, const glm::vec3& geometric,
@@ -95,7 +107,7 @@ Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hi
   const glm::vec3 weight = to_vector(record.weight);
   const float eta = hit.front ? 1.0F / glass.refractive_index : glass.refractive_index;
   const Refraction way = refract(in, geometric, shading, eta);
-  Ways ways{reflect(in, geometric, shading), way.direction, weight * way.reflectance, glm::vec3(0.0F), way.reflectance};
+  Ways ways{reflect(in, geometric, shading), way.direction, weight * way.reflectance, glm::vec3(0.0F)};
   // A ray keeps its radiance over the square of the refractive index (Born & Wolf, Principles of Optics, 4.8).
   const glm::vec3 passes = to_vector(glass.transmittance) * (eta * eta);
   if (way.reflectance < 1.0F) ways.refracted_weight = (weight * (1.0F - way.reflectance)) * passes;
@@ -104,6 +116,20 @@ Ways ways_at_glass(const RayRecord& record, const Material& glass, const Hit& hi
     const bool reflects = protocol::uniform(record.key, Dimension::fresnel) < way.reflectance;
     ways.reflected_weight = reflects ? weight : glm::vec3(0.0F);
     ways.refracted_weight = reflects ? glm::vec3(0.0F) : weight * passes;
+  }
+  return ways;
+}
+
+Ways ways_at_pane(const RayRecord& record, const Material& glass, const glm::vec3& geometric) {
+  const glm::vec3 in = to_vector(record.direction);
+  const glm::vec3 weight = to_vector(record.weight);
+  const PaneParts parts = pane_parts(in, geometric, glass.refractive_index, to_vector(glass.transmittance));
+  Ways ways{reflect(in, geometric, geometric), in, weight * parts.reflected, weight * parts.passed};
+  if (record.waiting == protocol::kMostBranches) {  // no room for a branch: take one by chance
+    const bool reflects = protocol::uniform(record.key, Dimension::fresnel) < parts.reflectance;
+    const float chance = reflects ? parts.reflectance : 1.0F - parts.reflectance;
+    ways.reflected_weight *= reflects ? 1.0F / chance : 0.0F;
+    ways.refracted_weight *= reflects ? 0.0F : 1.0F / chance;
   }
   return ways;
 }
@@ -174,7 +200,7 @@ bool scatter(const Pe& pe, RayRecord& record, const Hit& hit) {
   return aim_at_emitter(pe, record, hit);
 }
 
-/// Turns the ray at mirror or glass. False: nothing of it is worth following.
+/// Turns the ray at mirror, glass or pane. False: nothing of it is worth following.
 bool turn_ray(const Pe& pe, RayRecord& record, const Hit& hit) {
   ++record.bounce;
   if (record.bounce >= pe.scene.layout.bounces) return false;
@@ -192,7 +218,8 @@ bool turn_ray(const Pe& pe, RayRecord& record, const Hit& hit) {
     turn(record, origin, reflect(in, geometric, shading), polygon.number);
     return true;
   }
-  const Ways ways = ways_at_glass(record, material, hit, geometric, shading);
+  const Ways ways = material.kind == MaterialKind::pane ? ways_at_pane(record, material, geometric)
+                                                        : ways_at_glass(record, material, hit, geometric, shading);
   const bool reflects = worth_following(pe, ways.reflected_weight);
   const bool refracts = worth_following(pe, ways.refracted_weight);
   if (!reflects && !refracts) return false;
@@ -252,10 +279,7 @@ Next meet_surface(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
   const PhaseMark<Phase::shade> mark(niu);
   auto& record = pe.slots.at<RayRecord>(slot);
   const auto next = [](bool goes_on) { return goes_on ? Next::goes_on : Next::ended; };
-  if ((record.flags & protocol::kShadow) != 0) {
-    end_shadow(pe, niu, record, hit);
-    return Next::ended;
-  }
+  if ((record.flags & protocol::kShadow) != 0) return next(pass_shadow(pe, niu, record, hit));
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
   const SurfaceLight light = light_at(pe.scene, niu.pe(), polygon, hit);
   // A record that goes from PE to PE would never end.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mirror and glass: the law of reflection, Snell's law, Fresnel's equations.
+// Mirror, glass and panes: the law of reflection, Snell's law, Fresnel's equations.
 #include "firmware/pe/specular.hpp"
 
 #include <cmath>
@@ -42,6 +42,16 @@ Refraction refract(const glm::vec3& direction, const glm::vec3& geometric, const
   const Refraction out = refracted(direction, smooth, eta);
   if (out.reflectance < 1.0F && !(glm::dot(out.direction, facing) < 0.0F)) return refracted(direction, facing, eta);
   return out;
+}
+
+PaneParts pane_parts(const glm::vec3& direction, const glm::vec3& normal, float refractive_index,
+                     const glm::vec3& transmittance) {
+  const float face = refracted(direction, towards_light(normal, direction), 1.0F / refractive_index).reflectance;
+  if (!(face < 1.0F)) return {glm::vec3(1.0F), glm::vec3(0.0F), 1.0F};
+  const float through = 1.0F - face;
+  const glm::vec3 between = 1.0F / (1.0F - transmittance * transmittance * (face * face));
+  return {face + transmittance * transmittance * (face * through * through) * between,
+          transmittance * (through * through) * between, 2.0F * face / (1.0F + face)};
 }
 
 }  // namespace torolux::pe

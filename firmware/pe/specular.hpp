@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mirror and glass: directions in, directions and the reflected fraction out.
+// Mirror, glass and panes: directions in, directions and the reflected fraction out.
 #pragma once
 
 #include "firmware/pe/vectors.hpp"
@@ -19,5 +19,18 @@ glm::vec3 reflect(const glm::vec3& direction, const glm::vec3& geometric, const 
 
 /// eta: refractive index of the side that the light comes from over that of the other side.
 Refraction refract(const glm::vec3& direction, const glm::vec3& geometric, const glm::vec3& shading, float eta);
+
+/// What a pane does with light, both of its faces and all reflections between them taken together, without
+/// interference (Born & Wolf, Principles of Optics, 7.6.1, with intensities for amplitudes). Parts of the light that
+/// comes, by channel.
+struct PaneParts {
+  glm::vec3 reflected;
+  glm::vec3 passed;   ///< unbent
+  float reflectance;  ///< of the pane were it clear: 2 F / (1 + F); no channel of `reflected` is above it
+};
+
+/// transmittance: on one way between the faces. refractive_index: inside over outside. direction and normal: unit.
+PaneParts pane_parts(const glm::vec3& direction, const glm::vec3& normal, float refractive_index,
+                     const glm::vec3& transmittance);
 
 }  // namespace torolux::pe

@@ -203,9 +203,10 @@ class Verifier {
   }
 
   void check(const protocol::Material& material) {
-    require(material.kind <= protocol::MaterialKind::glossy, StoreIndex::material_kind,
-            static_cast<std::uint32_t>(material.kind), static_cast<std::uint32_t>(protocol::MaterialKind::glossy));
-    const bool bends = material.kind != protocol::MaterialKind::glass || material.refractive_index > 0.0F;
+    require(material.kind <= protocol::MaterialKind::pane, StoreIndex::material_kind,
+            static_cast<std::uint32_t>(material.kind), static_cast<std::uint32_t>(protocol::MaterialKind::pane));
+    const bool glass = material.kind == protocol::MaterialKind::glass || material.kind == protocol::MaterialKind::pane;
+    const bool bends = !glass || material.refractive_index > 0.0F;
     require(bends, StoreIndex::refractive_index, 0, 0);
     const bool spreads =
         material.kind != protocol::MaterialKind::glossy || (material.lobe_power > 0.0F && material.lobe_power <= 1.0F);

@@ -48,19 +48,20 @@ enum class MaterialKind : std::uint32_t {
   mirror,
   glass,
   glossy,  ///< diffuse, and a lobe about the mirror direction (firmware/pe/glossy.hpp)
+  pane,    ///< thin glass: one polygon stands for both faces
 };
 
-/// Mirror and glass: light is turned there, and none stays. The others have elements.
+/// Mirror, glass and pane: light is turned there or passes, and none stays. The others have elements.
 constexpr bool is_specular(MaterialKind kind) {
-  return kind == MaterialKind::mirror || kind == MaterialKind::glass;
+  return kind == MaterialKind::mirror || kind == MaterialKind::glass || kind == MaterialKind::pane;
 }
 
 struct Material {
   MaterialKind kind;
   Vec3f diffuse;           ///< reflectance, 0..0.99; times the texture's colour where there is one
   Vec3f specular;          ///< mirror: reflectance. Glossy: Ks (n + 2) / (n + 1), n the lobe's exponent; at most 2
-  Vec3f transmittance;     ///< glass: at each crossing, 0..1
-  float refractive_index;  ///< glass: inside over outside
+  Vec3f transmittance;     ///< glass: at each crossing; pane: on one way between its faces; 0..1
+  float refractive_index;  ///< glass and pane: inside over outside
   Vec3f emission;          ///< radiance from the front, in units of the scene's greatest
   std::uint32_t emits_from_back;              ///< 0 or 1 (--two-sided-lights)
   float lobe_power;                           ///< glossy: 1 / (n + 1), above 0 and at most 1

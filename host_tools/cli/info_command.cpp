@@ -33,8 +33,8 @@ std::string describe(const SceneMaterial& material, const Scene& scene) {
     case SurfaceKind::mirror:
       return "mirror, reflectance " + triple(material.specular);
     case SurfaceKind::glass:
-      return "glass, refractive index " + significant(material.refractive_index, 4) + ", transmittance " +
-             triple(material.transmittance);
+      return std::string(material.thin ? "pane of thin glass" : "glass") + ", refractive index " +
+             significant(material.refractive_index, 4) + ", transmittance " + triple(material.transmittance);
     case SurfaceKind::diffuse:
       break;
   }

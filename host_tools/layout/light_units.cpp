@@ -119,7 +119,7 @@ protocol::Material machine_material(const SceneMaterial& material, const LightUn
       set(material.specular, machine.specular, machine.specular_fraction);
       break;
     case SurfaceKind::glass:
-      machine.kind = protocol::MaterialKind::glass;
+      machine.kind = material.thin ? protocol::MaterialKind::pane : protocol::MaterialKind::glass;
       machine.refractive_index = static_cast<float>(material.refractive_index);
       set(material.transmittance, machine.transmittance, machine.transmittance_fraction);
       break;

@@ -132,8 +132,9 @@ void inspect_winding(const Scene& scene, double size, std::vector<std::string>& 
   // Many components: asking each for what it holds would take the square of their number.
   const bool look_for_rooms = all.size() < 20000;
   for (const Component& component : all) {
-    const SurfaceKind kind = scene.materials[scene.triangles[component.triangles[0]].material].kind;
-    if (kind == SurfaceKind::glass) {
+    const SceneMaterial& material = scene.materials[scene.triangles[component.triangles[0]].material];
+    if (material.thin) continue;
+    if (material.kind == SurfaceKind::glass) {
       if (!component.closed)
         tell("glass " + name_of(scene, component) +
              (component.one_way ? " is open: light that enters it may never be seen to leave"
@@ -147,7 +148,7 @@ void inspect_winding(const Scene& scene, double size, std::vector<std::string>& 
       continue;
     }
     const bool room = look_for_rooms && is_room(all, component, size);
-    if (room && component.volume > 0 && kind == SurfaceKind::diffuse)
+    if (room && component.volume > 0 && material.kind == SurfaceKind::diffuse)
       tell("closed room " + name_of(scene, component) + " has its fronts outwards; they are expected inwards");
     const bool whole = vec::largest(component.box.extent()) >= size;
     if (!room && !whole && component.volume < 0)

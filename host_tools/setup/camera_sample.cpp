@@ -82,8 +82,9 @@ class CameraFollower {
       way.ray.direction = reflected;
       return worth(way.weight);
     }
-    const double eta = front ? material.refractive_index : 1 / material.refractive_index;
-    const double share = fresnel(-vec::dot(normal, way.ray.direction), eta);
+    const double eta = front || material.thin ? material.refractive_index : 1 / material.refractive_index;
+    const double face = fresnel(-vec::dot(normal, way.ray.direction), eta);
+    const double share = material.thin ? 2 * face / (1 + face) : face;
     Way other = way;
     other.ray.direction = reflected;
     other.weight *= share;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/references/eye.hpp"
+#include "tests/references/panes.hpp"
 #include "tests/references/scattering.hpp"
 
 namespace torolux::references {
@@ -33,6 +34,11 @@ class LightPath {
       const auto hit = world_.closest(origin_, direction_, leaving_);
       if (!hit) return;
       const Material& material = world_.material(*hit);
+      if (material.model == Model::pane) {
+        by_way = !pass_pane(*hit, material) || by_way;
+        if (!survives()) return;
+        continue;
+      }
       const bool specular = material.model == Model::mirror || material.model == Model::glass;
       if (!specular && !by_way) return;  // seen from the eye without luck
       by_way = true;
@@ -66,6 +72,17 @@ class LightPath {
     brightest_ = weight_.maxCoeff();
     go(from, out);
     return true;
+  }
+
+  /// False: it is turned back.
+  bool pass_pane(const Hit& hit, const Material& material) {
+    const Vec& flat = world_.triangles()[hit.triangle].normal;
+    const PaneParts parts = pane(direction_, flat, material);
+    const double chance = parts.reflected.maxCoeff() / (parts.reflected.maxCoeff() + parts.passed.maxCoeff());
+    const bool passes = samples_.uniform() >= chance;
+    weight_ *= passes ? Colour(parts.passed / (1 - chance)) : Colour(parts.reflected / chance);
+    go(hit, passes ? direction_ : mirror(direction_, flat, flat));
+    return passes;
   }
 
   bool pass(const Hit& hit, const Material& material) {
@@ -116,8 +133,9 @@ class LightPath {
     const double cosine = reflection.cosine(out);
     if (cosine <= 0) return;
     const auto seen = eye_.see(hit.point);
-    if (!seen || world_.blocked(world_.leave(hit, out), eye_.place(), hit.triangle, kNoTriangle)) return;
-    sums_[seen->pixel] += weight_ * reflection.value(out) * (cosine * seen->share);
+    if (!seen) return;
+    const Colour through = passed(world_, world_.leave(hit, out), eye_.place(), hit.triangle, kNoTriangle);
+    sums_[seen->pixel] += weight_ * through * reflection.value(out) * (cosine * seen->share);
   }
 
   void go(const Hit& hit, const Vec& direction) {

@@ -12,6 +12,7 @@
 
 #include "tests/references/eye.hpp"
 #include "tests/references/light_paths.hpp"
+#include "tests/references/panes.hpp"
 #include "tests/references/scattering.hpp"
 
 namespace torolux::references {
@@ -61,12 +62,32 @@ class Path {
       case Model::glass:
         cross_glass(hit, material);
         return true;
+      case Model::pane:
+        return meet_pane(hit, material);
       case Model::diffuse:
         return scatter(hit, world_.diffuse_at(hit), Colour::Zero(), 0);
       case Model::glossy:
         return scatter(hit, world_.diffuse_at(hit), material.specular, material.exponent);
     }
     return false;
+  }
+
+  /// By chance through it, unbent, or back. What passes is found by asking emitters, too: so nothing is changed by
+  /// which that is weighed.
+  bool meet_pane(const Hit& hit, const Material& material) {
+    const Vec& flat = world_.triangles()[hit.triangle].normal;
+    const PaneParts parts = pane(direction_, flat, material);
+    const double chance = parts.reflected.maxCoeff() / (parts.reflected.maxCoeff() + parts.passed.maxCoeff());
+    if (samples_.uniform() < chance) {
+      weight_ *= parts.reflected / chance;
+      go(hit, mirror(direction_, flat, flat));
+      density_ = 0;
+    } else {
+      weight_ *= parts.passed / (1 - chance);
+      origin_ = world_.leave(hit, direction_);
+      leaving_ = hit.triangle;
+    }
+    return true;
   }
 
   void cross_glass(const Hit& hit, const Material& material) {
@@ -118,10 +139,11 @@ class Path {
     const double cosine = reflection.cosine(out);
     if (cosine <= 0 || cos_emitter == 0 || (cos_emitter < 0 && !world_.emits_from_back())) return;
     const Vec origin = world_.leave(hit, out);
-    if (world_.blocked(origin, target.point, hit.triangle, emitter.triangle)) return;
+    const Colour through = passed(world_, origin, target.point, hit.triangle, emitter.triangle);
+    if ((through == 0).all()) return;
     const double density = emitter.density * distance2 / std::fabs(cos_emitter);
     const double share = finding_ == LightFinding::both ? power(density, reflection.density(out)) : 1;
-    light_ += weight_ * radiance_scale_ * reflection.value(out) *
+    light_ += weight_ * through * radiance_scale_ * reflection.value(out) *
               world_.emission_at({target.triangle, 0, 0, cos_emitter > 0, target.point}) * (cosine / density * share);
   }
 

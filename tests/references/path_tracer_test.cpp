@@ -104,6 +104,33 @@ TEST(PathTracer, PlateOfGlassLetsThroughWhatTheoryAllows) {
   EXPECT_NEAR(mean.value, through, 4 * mean.error + 1e-4);
 }
 
+/// The same as a plate of one sheet, square to the view, and lit from beyond: the floor behind two panes gets as much
+/// by asking emitters as by chance.
+TEST(PathTracer, PaneLetsThroughWhatBothFacesDo) {
+  const std::string lamp = "v -9 -9 -3\nv 9 -9 -3\nv 9 9 -3\nv -9 9 -3\nusemtl lamp\nf 1 2 3 4\n";
+  const std::string sheet = "v -5 -5 1\nv 5 -5 1\nv 5 5 1\nv -5 5 1\nusemtl glass\nf 5 6 7 8\n";
+  const std::string paper = "v -5 -5 2\nv 5 -5 2\nv 5 5 2\nv -5 5 2\nusemtl paper\nf 12 11 10 9\n";
+  Scene scene =
+      scene_of(lamp + sheet + paper,
+               "newmtl lamp\nKd 0 0 0\nKe 1 1 1\nnewmtl paper\nKd 0 0 0\nnewmtl glass\nillum 7\nNi 1.5\nTf .9 .9 .9\n");
+  for (SceneMaterial& material : scene.materials) material.thin = material.kind == SurfaceKind::glass;
+  const World world(scene, false);
+  const Mean mean = mean_of(trace(world, {{0, 0, 1.9}, {0, 0, 0}, {0, 1, 0}, 1}, small(256)));
+  EXPECT_NEAR(mean.value, 0.96 * 0.96 * 0.9 / (1 - 0.81 * 0.04 * 0.04), 4 * mean.error + 1e-4);
+  double light[2];
+  for (const LightFinding finding : {LightFinding::emitters_only, LightFinding::directions_only}) {
+    Samples samples(1, 1);
+    double sum = 0;
+    constexpr std::uint32_t kSamples = 1U << 14U;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+      samples.begin(i);
+      sum += incident_over_pi(world, world.at(4, 0.3, 0.3, true), finding, samples)[1] / kSamples;
+    }
+    light[finding == LightFinding::emitters_only ? 0 : 1] = sum;
+  }
+  EXPECT_NEAR(light[0], light[1], 0.02 * light[1]);
+}
+
 /// Under the centre of a unit square at distance 1: form factor 0.239456470461 (../shared/data/references.md).
 TEST(PathTracer, LightUnderASquareLampIsExact) {
   const Scene scene = scene_of(

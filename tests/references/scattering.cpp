@@ -90,4 +90,17 @@ GlassWays glass(const Vec& in, const Vec& geometric, const Vec& shading, double 
   return ways;
 }
 
+PaneParts pane(const Vec& in, const Vec& geometric, const Material& material) {
+  const double face = at_interface(in, facing(geometric, in), 1 / material.refractive_index).reflectance;
+  PaneParts parts{Colour::Constant(face), Colour::Zero()};
+  // Light between the faces, from one reflection to the next, until nothing is left of it.
+  for (Colour inside = (1 - face) * material.transmittance; (inside > 1e-12).any();) {
+    parts.passed += inside * (1 - face);
+    inside *= face * material.transmittance;
+    parts.reflected += inside * (1 - face);
+    inside *= face * material.transmittance;
+  }
+  return parts;
+}
+
 }  // namespace torolux::references

@@ -46,4 +46,11 @@ struct GlassWays {
 /// Optics, 1.5.
 GlassWays glass(const Vec& in, const Vec& geometric, const Vec& shading, double eta);
 
+/// Parts of the light that comes, both faces and all reflections between them taken together.
+struct PaneParts {
+  Colour reflected, passed;
+};
+
+PaneParts pane(const Vec& in, const Vec& geometric, const Material& material);
+
 }  // namespace torolux::references

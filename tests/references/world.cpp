@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -30,7 +31,7 @@ Material read_material(const SceneMaterial& from) {
       material.specular = colour(from.specular);
       break;
     case SurfaceKind::glass:
-      material.model = Model::glass;
+      material.model = from.thin ? Model::pane : Model::glass;
       material.transmittance = colour(from.transmittance);
       material.refractive_index = from.refractive_index;
       break;
@@ -267,6 +268,10 @@ bool World::blocked(const Vec& from, const Vec& to, std::uint32_t leaving, std::
   set_ray(ray, from - caster_->middle, to - from, 1 - 1e-5F);
   rtcOccluded1(caster_->scene, &way.context, &ray);
   return ray.tfar < 0;
+}
+
+bool World::has_panes() const {
+  return std::ranges::any_of(materials_, [](const Material& material) { return material.model == Model::pane; });
 }
 
 Vec World::leave(const Hit& hit, const Vec& direction) const {

@@ -25,7 +25,7 @@ inline Colour colour(const Vec3d& v) {
   return {v[0], v[1], v[2]};
 }
 
-enum class Model : std::uint8_t { diffuse, mirror, glass, glossy };
+enum class Model : std::uint8_t { diffuse, mirror, glass, pane, glossy };
 
 struct Material {
   Model model = Model::diffuse;
@@ -33,8 +33,8 @@ struct Material {
   std::uint32_t texture = kNoImage;       ///< that multiplies it
   Colour specular = Colour::Zero();       ///< Ks: of a mirror its reflectance, of glossy the lobe's at normal incidence
   double exponent = 0;                    ///< Ns of glossy, >= 0
-  Colour transmittance = Colour::Ones();  ///< Tf of glass, at each crossing
-  double refractive_index = 1.5;          ///< Ni of glass, inside over outside
+  Colour transmittance = Colour::Ones();  ///< Tf of glass, at each crossing; of a pane, between its faces
+  double refractive_index = 1.5;          ///< Ni of glass and pane, inside over outside
   Colour emission = Colour::Zero();       ///< Ke, radiance [W/(m^2 sr)]
 };
 
@@ -108,6 +108,7 @@ class World {
   std::optional<Hit> closest(const Vec& origin, const Vec& direction, std::uint32_t leaving) const;
   /// Whether anything but these two triangles lies between two points.
   bool blocked(const Vec& from, const Vec& to, std::uint32_t leaving, std::uint32_t target) const;
+  bool has_panes() const;
   /// The hit's point, moved off the surface towards `direction` by some rounding errors of the ray caster.
   Vec leave(const Hit& hit, const Vec& direction) const;
 

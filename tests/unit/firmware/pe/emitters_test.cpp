@@ -268,6 +268,12 @@ TEST(ShadowRays, WhatStandsBeforeTheLampTakesItsLight) {
     covered.polygons[covered.polygons.size() - 2].sides = 0;
     EXPECT_NEAR(seen(covered, kEye, kUnderLamp, 64), kIndirect, 1e-6) << "material " << material;
   }
+  TestScene glazed = lit_room();  // a pane takes what both of its faces reflect, and what it absorbs
+  glazed.materials.push_back(pane_material(1.5F, 0.5F));
+  add_wall(glazed, {0.2F, 0.2F, 0.55F}, {0, 0.6F, 0}, {0.6F, 0, 0}, 1, 4);
+  glazed.polygons.back().sides = glazed.polygons[glazed.polygons.size() - 2].sides = 0;
+  // Light comes at up to 25 degrees, at which a face reflects 0.0405 of it.
+  EXPECT_NEAR(seen(glazed, kEye, kUnderLamp, 1024), kDirect * 0.96 * 0.96 * 0.5 + kIndirect, 4e-3);
   TestScene half = lit_room();  // up to the middle
   add_wall(half, {0.0F, 0.2F, 0.3F}, {0, 0.6F, 0}, {0.5F, 0, 0}, 1, 0);
   EXPECT_NEAR(seen(half, {0.9F, 0.1F, 0.2F}, kUnderLamp, 1024), kDirect / 2 + kIndirect, 2e-3);

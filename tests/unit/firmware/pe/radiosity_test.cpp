@@ -123,6 +123,31 @@ TEST(Radiosity, DirectFluxIsKeptApart) {
   }
 }
 
+// A pane right under the lamp lets the lamp's own light through, as shadow rays will find it.
+TEST(Radiosity, LightThroughAPaneIsDirect) {
+  TestScene bare = room_with_balls(3, {3, 3, 3});
+  bare.polygons.erase(bare.polygons.begin() + 50, bare.polygons.end());  // without the balls
+  bare.materials[4] = diffuse_material(0.2F);
+  TestScene glazed = bare;
+  glazed.materials.push_back(pane_material(1.5F, 0.5F));
+  add_wall(glazed, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
+  for (std::size_t i = 50; i < glazed.polygons.size(); ++i) glazed.polygons[i].sides = 0;
+  const auto on_floor = [](const Outcome& outcome, std::size_t which) {
+    double sum = 0;
+    for (const auto& [place, list] : outcome.flux) {
+      if (place.first >= 8 + 3 * 3) continue;  // eight polygons, three of them of four patches
+      for (std::size_t e = which; e < list.size(); e += 2) sum += static_cast<double>(list[e][0]);
+    }
+    return sum;
+  };
+  const Outcome without = radiate(bare, 5, 64, 200);
+  const Outcome with = radiate(glazed, 5, 64, 200);
+  expect_balance(with);
+  // Most of it comes at less than 45 degrees: 0.96^2 * 0.5 there, 0.45 at 45 degrees. Chance: 2,000 records.
+  EXPECT_NEAR(on_floor(with, 2) / on_floor(without, 2), 0.45, 0.02);
+  EXPECT_EQ(on_floor(with, 1), on_floor(with, 2)) << "no other light comes to the floor";
+}
+
 // Random little scenes on random machines: credits (checked at every grant by FakeMachine::shoot), slots and flux
 // close.
 TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
@@ -135,8 +160,12 @@ TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
     s.points = pick(1, 4);
     s.seed = pick(0, 1'000'000);
     s.bounces = pick(1, 9);
-    s.materials = {diffuse_material(0.5F), diffuse_material(0.5F, 1), mirror_material(0.9F), glass_material(1.5F, 0.9F),
-                   glossy_material(0.3F, 0.69F, static_cast<float>(pick(0, 30)))};
+    s.materials = {diffuse_material(0.5F),
+                   diffuse_material(0.5F, 1),
+                   mirror_material(0.9F),
+                   glass_material(1.5F, 0.9F),
+                   glossy_material(0.3F, 0.69F, static_cast<float>(pick(0, 30))),
+                   pane_material(1.5F, 0.9F)};
     const std::uint32_t polygons = pick(2, 30);
     for (std::uint32_t p = 0; p < polygons; ++p) {
       TestPolygon polygon{};
@@ -146,9 +175,9 @@ TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {
       const glm::vec3 a = pe::to_vector(polygon.corner[1]) - pe::to_vector(polygon.corner[0]);
       const glm::vec3 b = pe::to_vector(polygon.corner[2]) - pe::to_vector(polygon.corner[0]);
       if (glm::length(glm::cross(a, b)) == 0.0F) continue;
-      polygon.material = p == 0 ? std::uint16_t{1} : static_cast<std::uint16_t>(pick(0, 5));
-      polygon.sides =
-          polygon.material == 2 || polygon.material == 3 ? std::uint8_t{0} : static_cast<std::uint8_t>(pick(1, 4));
+      polygon.material = p == 0 ? std::uint16_t{1} : static_cast<std::uint16_t>(pick(0, 6));
+      polygon.sides = protocol::is_specular(s.materials[polygon.material].kind) ? std::uint8_t{0}
+                                                                                : static_cast<std::uint8_t>(pick(1, 4));
       polygon.patch_level = static_cast<std::uint8_t>(pick(0, 2));
       polygon.element_level = static_cast<std::uint8_t>(polygon.patch_level + pick(0, 3));
       s.polygons.push_back(polygon);

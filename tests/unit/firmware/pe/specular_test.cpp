@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Proves: mirror and glass follow the laws of reflection and refraction and Fresnel's equations (known values), and in
-// the radiosity stage what they take is what the tally says.
+// Proves: mirror, glass and panes follow the laws of reflection and refraction and Fresnel's equations (known values),
+// and in the radiosity stage what they take is what the tally says.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -89,6 +89,36 @@ TEST(Specular, FresnelHasItsKnownValues) {
   const float out = std::asin(std::sin(in) / 1.5F);
   EXPECT_NEAR(pe::refract({std::sin(in), 0, -std::cos(in)}, n, n, 1 / 1.5F).reflectance,
               pe::refract({std::sin(out), 0, std::cos(out)}, n, n, 1.5F).reflectance, 1e-6F);
+}
+
+TEST(Specular, PaneHasItsKnownValues) {
+  const vec3 n{0, 0, 1};
+  const pe::PaneParts clear = pe::pane_parts({0, 0, -1}, n, 1.5F, vec3(1));
+  EXPECT_NEAR(clear.reflected.x, 0.08F / 1.04F, 1e-6F);  // 2 F / (1 + F), F = 0.04
+  EXPECT_NEAR(clear.passed.x, 0.96F / 1.04F, 1e-6F);
+  EXPECT_EQ(clear.reflectance, clear.reflected.x);
+  const pe::PaneParts grey = pe::pane_parts({0, 0, 1}, n, 1.5F, vec3(0.9F, 0.5F, 0));
+  EXPECT_NEAR(grey.passed.x, 0.96F * 0.96F * 0.9F / (1 - 0.81F * 0.0016F), 1e-6F);  // as of a plate, all ways summed
+  EXPECT_NEAR(grey.reflected.z, 0.04F, 1e-6F);                                      // of the first face alone
+  EXPECT_EQ(grey.passed.z, 0.0F);
+}
+
+// In the radiosity stage one way is taken by chance, with what goes that way over the chance: never more than came.
+TEST(Specular, PaneMakesNoLight) {
+  const bool holds = rc::check([] {
+    const vec3 d = random_unit();
+    const vec3 n = random_unit();
+    RC_PRE(std::abs(glm::dot(d, n)) > 1e-3F);
+    const float index = static_cast<float>(*rc::gen::inRange(20, 500)) / 100.0F;
+    const float through = static_cast<float>(*rc::gen::inRange(0, 101)) / 100.0F;
+    const pe::PaneParts parts = pe::pane_parts(d, n, index, vec3(through));
+    RC_ASSERT(parts.reflected.x >= 0.0F && parts.passed.x >= 0.0F);
+    RC_ASSERT(parts.reflected.x + parts.passed.x <= 1.0F + 1e-6F);
+    RC_ASSERT(parts.reflected.x <= parts.reflectance + 1e-6F);
+    RC_ASSERT(parts.passed.x <= 1.0F - parts.reflectance + 1e-6F);
+    if (through == 1.0F) RC_ASSERT(std::abs(parts.reflected.x + parts.passed.x - 1.0F) < 1e-5F);
+  });
+  EXPECT_TRUE(holds);
 }
 
 }  // namespace

@@ -261,6 +261,11 @@ protocol::Material glass_material(float refractive_index, float transmittance) {
   m.transmittance_fraction.fill(protocol::to_fraction(static_cast<double>(transmittance)));
   return m;
 }
+protocol::Material pane_material(float refractive_index, float transmittance) {
+  protocol::Material m = glass_material(refractive_index, transmittance);
+  m.kind = protocol::MaterialKind::pane;
+  return m;
+}
 protocol::Material glossy_material(float diffuse, float specular, float exponent) {
   protocol::Material m = diffuse_material(diffuse);
   m.kind = protocol::MaterialKind::glossy;

@@ -57,6 +57,8 @@ struct TestScene {
 protocol::Material diffuse_material(float reflectance, float emission = 0);
 protocol::Material mirror_material(float reflectance);
 protocol::Material glass_material(float refractive_index, float transmittance = 1);
+/// transmittance: on one way between the faces.
+protocol::Material pane_material(float refractive_index, float transmittance = 1);
 protocol::Material glossy_material(float diffuse, float specular, float exponent);
 
 /// Makes all polygons of one material the scene's emitters, each chosen with the same chance.
