@@ -13,6 +13,7 @@
 #include "host_tools/mesh/lit_sides.hpp"
 #include "host_tools/mesh/mesh_size.hpp"
 #include "host_tools/mesh/reflectance.hpp"
+#include "host_tools/mesh/retriangulate.hpp"
 #include "host_tools/mesh/wall_pieces.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -112,27 +113,37 @@ static_assert((sizeof(protocol::Element) * 2 + sizeof(protocol::Facet) + sizeof(
                   << 2 * kMostLevelsOfPatch <=
               protocol::kDefaultLocalMemory * 3 / 4);
 
+/// As chosen, or as the surface asks for. Returns the lit triangles' longest edges; of the others 0.
+std::vector<double> set_lengths(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
+  std::vector<double> edges(mesh.triangles.size(), 0);
+  std::vector<CutTriangle> cut;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangles[t].sides == 0) continue;
+    edges[t] = longest_edge(scene, mesh.triangles[t].position);
+    cut.push_back({edges[t], mesh.triangles[t].area});
+  }
+  if (cut.empty()) return edges;
+  MeshLengths& lengths = mesh.lengths;
+  if (!choice.patch_length || !choice.element_length) lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
+  lengths.patch = choice.patch_length.value_or(lengths.patch * choice.patch_factor);
+  lengths.element = choice.element_length.value_or(lengths.element * choice.element_factor);
+  lengths.cluster = lengths.element * choice.cluster_factor;
+  return edges;
+}
+
 Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes, Mesh& mesh) {
   Cutting cutting{std::vector<int>(mesh.triangles.size(), -1), std::vector<int>(mesh.triangles.size(), -1), {}};
-  std::vector<CutTriangle> cut;
   std::vector<SizedTriangle> sized;
-  for (const MeshTriangle& triangle : mesh.triangles) {
-    if (triangle.sides == 0) continue;
-    cut.push_back({longest_edge(scene, triangle.position), triangle.area});
-    sized.push_back({cut.back().longest_edge, triangle.side_count()});
-  }
+  const std::vector<double> edges = set_lengths(scene, choice, mesh);
+  for (std::size_t t = 0; t < edges.size(); ++t)
+    if (mesh.triangles[t].sides != 0) sized.push_back({edges[t], mesh.triangles[t].side_count()});
   std::vector<bool> small(mesh.triangles.size(), false);
-  MeshLengths& lengths = mesh.lengths;
-  if (!cut.empty()) {
-    if (!choice.patch_length || !choice.element_length) lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
-    lengths.patch = choice.patch_length.value_or(lengths.patch * choice.patch_factor);
-    lengths.element = choice.element_length.value_or(lengths.element * choice.element_factor);
-    lengths.cluster = lengths.element * choice.cluster_factor;
+  const MeshLengths& lengths = mesh.lengths;
+  if (!sized.empty()) {
     require_possible(sized, lengths, machine_bytes);
-    std::size_t next = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.triangles[t].sides == 0) continue;
-      const double edge = cut[next++].longest_edge;
+      const double edge = edges[t];
       cutting.patch_level[t] = level_for(edge, lengths.patch);
       cutting.element_level[t] = std::max<int>(cutting.patch_level[t], level_for(edge, lengths.element));
       if (!choice.patch_length)
@@ -290,14 +301,40 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
   }
 }
 
-}  // namespace
-
-Mesh make_mesh(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes) {
+Mesh mesh_of(const Scene& scene, const MeshChoice& choice) {
   Mesh mesh;
   mesh.space = scene_space(scene);
   take_triangles(scene, mesh);
   choose_sides(scene, choice, mesh);
-  make_patches(choose_cutting(scene, choice, machine_bytes, mesh), choice.splits, mesh);
+  return mesh;
+}
+
+/// The scene but for its images, its flat regions cut anew: with few triangles first, as lengths depend on these.
+Scene retriangulated(const Scene& scene, const MeshChoice& choice) {
+  Scene cut{scene.name,
+            scene.positions,
+            scene.normals,
+            scene.texture_points,
+            scene.triangles,
+            scene.materials,
+            {},
+            std::nullopt,
+            {},
+            {}};
+  retriangulate(cut, kAnyLength);
+  Mesh mesh = mesh_of(cut, choice);
+  set_lengths(cut, choice, mesh);
+  // Smaller triangles share their elements with others.
+  if (mesh.lengths.element > 0) retriangulate(cut, mesh.lengths.element / 2);
+  return cut;
+}
+
+}  // namespace
+
+Mesh make_mesh(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes) {
+  const Scene cut = retriangulated(scene, choice);
+  Mesh mesh = mesh_of(cut, choice);
+  make_patches(choose_cutting(cut, choice, machine_bytes, mesh), choice.splits, mesh);
   for (MeshFacet& facet : mesh.facets) facet.sends_from = sending_part(mesh, facet);
   for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, choice.texels));
   set_reflectances(scene, mesh);

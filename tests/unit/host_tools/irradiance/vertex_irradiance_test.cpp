@@ -57,11 +57,11 @@ std::vector<protocol::Flux> equal_irradiance(const Mesh& mesh) {
 }
 
 Scene strip() {
-  // Three quads side by side, of which the middle one is larger: its triangles are cut more finely.
+  // A square and a larger triangle beside it, which is cut more finely.
   test::SceneBuilder builder;
   const std::uint32_t white = builder.material({0.5, 0.5, 0.5});
   builder.quad(white, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-  builder.triangle(white, {1, 0, 0}, {7, 0, 0}, {1, 1, 0});
+  builder.triangle(white, {1, 0, 0}, {3, 0.5, 0.2}, {1, 1, 0});  // bent, so that they are no region
   builder.quad(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 2}, {0, 1, 2}, {1, 1, 2}, {1, 0, 2});
   return builder.scene;
 }
@@ -129,8 +129,9 @@ TEST(VertexIrradiance, SharpEdgesKeepTheirOwnValues) {
 test::SceneBuilder floor_around_a_vertex(std::uint32_t& white) {
   test::SceneBuilder builder;
   white = builder.material({0.5, 0.5, 0.5});
+  constexpr double h = 1e-4;  // bent a little, so that they are no flat region
   const std::array<Vec3d, 9> rim{
-      {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}};
+      {{1, 0, 0}, {2, 0, h}, {2, 1, 0}, {2, 2, h}, {1, 2, 0}, {0, 2, h}, {0, 1, 0}, {0, 0, h}, {1, 0, 0}}};
   for (std::size_t i = 0; i < 8; ++i) builder.triangle(white, {1, 1, 0}, rim[i], rim[i + 1]);
   builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 4}, {0, 1, 4}, {1, 1, 4});
   return builder;
@@ -227,14 +228,15 @@ TEST(VertexIrradiance, ClustersAreSmooth) {
   }
   // One vertex and normal, one value: continuous over all triangles of the same slope.
   const VertexIrradiance irradiance = make_vertex_irradiance(mesh, uneven_flux(mesh), 1.0, 1.0);
-  std::map<std::pair<std::uint32_t, long>, float> value_of;
+  std::map<std::array<long, 3>, float> value_of;
   for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
     const MeshTriangle& triangle = mesh.triangles[mesh.facets[f].triangle];
     if (triangle.material != 0) continue;
-    const long slope = std::lround(1e4 * mesh.facet_normal(mesh.facets[f])[0]);
+    const Vec3d normal = mesh.facet_normal(mesh.facets[f]);
     for (std::size_t c = 0; c < 3; ++c) {
       const float value = irradiance.triangles[irradiance.first[f]].irradiance_over_pi[c][0];
-      const auto [found, fresh] = value_of.emplace(std::pair{triangle.position[c], slope}, value);
+      const auto [found, fresh] = value_of.emplace(
+          std::array<long, 3>{triangle.position[c], std::lround(1e4 * normal[0]), std::lround(1e4 * normal[1])}, value);
       EXPECT_NEAR(found->second, value, 1e-4F * value) << (fresh ? "" : "a second value");
     }
   }
@@ -344,7 +346,9 @@ TEST(VertexIrradiance, NothingPassesBetweenClustersThatDoNotTouch) {
   const std::uint32_t dark = builder.material({0.4, 0.4, 0.4});
   for (int i = 0; i < 20; ++i) {
     for (int j = 0; j < 20; ++j) {
-      const auto at = [&](int a, int b, double z) { return Vec3d{a / 20.0, b / 20.0, z}; };
+      const auto at = [&](int a, int b, double z) {  // nowhere flat
+        return Vec3d{a / 20.0, b / 20.0, z + 1e-3 * std::sin(3.0 * a * a + 5.0 * b * b + a * b)};
+      };
       builder.quad(lit, at(i, j, 0.02), at(i + 1, j, 0.02), at(i + 1, j + 1, 0.02), at(i, j + 1, 0.02));
       builder.quad(dark, at(i, j, 0), at(i + 1, j, 0), at(i + 1, j + 1, 0), at(i, j + 1, 0));
     }

@@ -14,8 +14,9 @@
 namespace torolux {
 namespace {
 
-double one_wave(double x, double /*z*/) {
-  return 0.1 * std::sin(x);
+/// Nowhere flat.
+double waves(double x, double z) {
+  return 0.1 * std::sin(x) + 0.05 * std::sin(z);
 }
 /// 10 x 10 bumps, each with slopes of more than 30 degrees: of several clusters.
 double bumps(double x, double z) {
@@ -23,7 +24,7 @@ double bumps(double x, double z) {
 }
 
 /// A wavy sheet of 2 x `edge` x `edge` triangles, 10 x 10.
-Scene sheet(std::uint32_t edge, double (*height)(double, double) = one_wave) {
+Scene sheet(std::uint32_t edge, double (*height)(double, double) = waves) {
   Scene scene;
   scene.materials.emplace_back().diffuse = {0.5, 0.5, 0.5};
   for (std::uint32_t j = 0; j <= edge; ++j) {

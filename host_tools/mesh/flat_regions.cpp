@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Regions grow from the largest triangle on, over edges.
+#include "host_tools/mesh/flat_regions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "host_tools/mesh/edges.hpp"
+#include "host_tools/scene/vec.hpp"
+
+namespace torolux {
+namespace {
+
+/// Of the scene's size, from the seed's plane: as surfaces in one plane (docs/scenes.md).
+constexpr double kSamePlane = 0.5e-6;
+/// Cosine between normals; small triangles lie near every plane through them.
+constexpr double kSameNormal = 0.9999;
+
+Vec3d cross_of(const Scene& scene, const SceneTriangle& t) {
+  const Vec3d& a = scene.positions[t.position[0]];
+  return vec::cross(vec::subtract(scene.positions[t.position[1]], a), vec::subtract(scene.positions[t.position[2]], a));
+}
+
+/// Triangle by triangle over edges that just two share, one each way.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_over_edges(const Scene& scene) {
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  corners.reserve(scene.triangles.size());
+  for (const SceneTriangle& t : scene.triangles) corners.push_back(t.position);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for_each_edge(edge_uses(corners), [&](std::span<const EdgeUse> uses) {
+    if (uses.size() != 2 || uses[0].forward == uses[1].forward) return;
+    pairs.emplace_back(uses[0].triangle, uses[1].triangle);
+    pairs.emplace_back(uses[1].triangle, uses[0].triangle);
+  });
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+class RegionFinder {
+ public:
+  explicit RegionFinder(const Scene& scene) : scene_(scene), beside_(pairs_over_edges(scene)) {
+    vec::Box box;
+    for (const Vec3d& point : scene.positions) box.include(point);
+    size_ = scene.positions.empty() ? 0 : vec::largest(box.extent());
+  }
+
+  FlatRegions find() {
+    const auto count = static_cast<std::uint32_t>(scene_.triangles.size());
+    std::vector<double> area(count);
+    for (std::uint32_t t = 0; t < count; ++t) area[t] = vec::length(cross_of(scene_, scene_.triangles[t]));
+    std::vector<std::uint32_t> largest_first(count);
+    std::iota(largest_first.begin(), largest_first.end(), 0U);
+    std::ranges::stable_sort(largest_first, [&](std::uint32_t a, std::uint32_t b) { return area[a] > area[b]; });
+    FlatRegions found;
+    taken_.assign(count, false);
+    for (const std::uint32_t seed : largest_first)
+      if (!taken_[seed]) found.all.push_back(grow(seed));
+    std::ranges::sort(found.all, {}, [](const FlatRegion& region) { return region.triangles.front(); });
+    found.region_of.resize(count);
+    for (std::uint32_t r = 0; r < found.all.size(); ++r)
+      for (const std::uint32_t t : found.all[r].triangles) found.region_of[t] = r;
+    return found;
+  }
+
+ private:
+  FlatRegion grow(std::uint32_t seed) {
+    FlatRegion region{{seed}, seed};
+    taken_[seed] = true;
+    if (!is_plain(seed)) return region;
+    const SceneTriangle& first = scene_.triangles[seed];
+    const Vec3d normal = vec::unit(cross_of(scene_, first));
+    for (std::size_t next = 0; next < region.triangles.size(); ++next) {
+      const auto at = std::pair(region.triangles[next], std::uint32_t{0});
+      for (auto to = std::ranges::lower_bound(beside_, at); to != beside_.end() && to->first == at.first; ++to) {
+        const std::uint32_t t = to->second;
+        if (taken_[t] || !is_plain(t) || !belongs(t, first, normal)) continue;
+        taken_[t] = true;
+        region.triangles.push_back(t);
+      }
+    }
+    std::ranges::sort(region.triangles);
+    return region;
+  }
+
+  /// Its normals, where it has any, are those of its plane.
+  bool is_plain(std::uint32_t number) const {
+    const SceneTriangle& t = scene_.triangles[number];
+    const Vec3d cross = cross_of(scene_, t);
+    if (!(vec::length(cross) > 0)) return false;
+    return t.normal[0] == kNoNormal || std::ranges::all_of(t.normal, [&](std::uint32_t n) {
+             return vec::dot(scene_.normals[n], vec::unit(cross)) > kSameNormal;
+           });
+  }
+
+  bool belongs(std::uint32_t number, const SceneTriangle& seed, const Vec3d& normal) const {
+    const SceneTriangle& t = scene_.triangles[number];
+    if (t.material != seed.material || !(vec::dot(vec::unit(cross_of(scene_, t)), normal) > kSameNormal)) return false;
+    const Vec3d& origin = scene_.positions[seed.position[0]];
+    const bool flat = std::ranges::all_of(t.position, [&](std::uint32_t p) {
+      return std::abs(vec::dot(normal, vec::subtract(scene_.positions[p], origin))) <= kSamePlane * size_;
+    });
+    return flat && continues_texture(t, seed);
+  }
+
+  /// But for whole periods, by which texture points are moved so that they are small.
+  bool continues_texture(const SceneTriangle& t, const SceneTriangle& seed) const {
+    if ((t.texture_points == kNoImage) != (seed.texture_points == kNoImage)) return false;
+    if (t.texture_points == kNoImage) return true;
+    using Point = std::array<double, 2>;
+    const Point* of_seed = &scene_.texture_points[seed.texture_points];
+    std::optional<Point> moved;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const Point there = interpolated(weights_at(scene_, seed, scene_.positions[t.position[i]]),
+                                       std::array<Point, 3>{of_seed[0], of_seed[1], of_seed[2]});
+      const Point& own = scene_.texture_points[t.texture_points + i];
+      const Point by{there[0] - own[0], there[1] - own[1]};
+      if (!moved) moved = Point{std::round(by[0]), std::round(by[1])};
+      if (std::abs(by[0] - (*moved)[0]) > kSameTexel || std::abs(by[1] - (*moved)[1]) > kSameTexel) return false;
+    }
+    return true;
+  }
+
+  /// Periods: a fraction of the finest texture's texel.
+  static constexpr double kSameTexel = 1e-4;
+  const Scene& scene_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> beside_;
+  double size_ = 0;
+  std::vector<bool> taken_;
+};
+
+}  // namespace
+
+std::array<double, 3> weights_at(const Scene& scene, const SceneTriangle& triangle, const Vec3d& point) {
+  const Vec3d& a = scene.positions[triangle.position[0]];
+  const Vec3d b = vec::subtract(scene.positions[triangle.position[1]], a);
+  const Vec3d c = vec::subtract(scene.positions[triangle.position[2]], a);
+  const Vec3d p = vec::subtract(point, a);
+  const Vec3d normal = vec::cross(b, c);
+  const double square = vec::dot(normal, normal);
+  const double at_b = vec::dot(vec::cross(p, c), normal) / square;
+  const double at_c = vec::dot(vec::cross(b, p), normal) / square;
+  return {1 - at_b - at_c, at_b, at_c};
+}
+
+FlatRegions flat_regions(const Scene& scene) {
+  return RegionFinder(scene).find();
+}
+
+}  // namespace torolux
