@@ -3,68 +3,15 @@
 #include "host_tools/scene/build_scene.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
+#include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/resolve_material.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/texture_edges.hpp"
 
 namespace torolux {
-namespace {
-
-using Matrix = std::array<Vec3d, 3>;  // rows
-
-Vec3d times(const Matrix& m, const Vec3d& v) {
-  return {vec::dot(m[0], v), vec::dot(m[1], v), vec::dot(m[2], v)};
-}
-
-/// Rotation about one axis; multiples of 90 degrees are exact.
-Matrix rotation(std::size_t axis, double degrees) {
-  const double turns = degrees / 90.0;
-  double sine = std::sin(degrees * std::numbers::pi / 180.0);
-  double cosine = std::cos(degrees * std::numbers::pi / 180.0);
-  if (turns == std::round(turns)) {
-    sine = std::round(sine);
-    cosine = std::round(cosine);
-  }
-  const std::size_t u = (axis + 1) % 3;
-  const std::size_t v = (axis + 2) % 3;
-  Matrix m{};
-  m[axis][axis] = 1;
-  m[u][u] = cosine;
-  m[u][v] = -sine;
-  m[v][u] = sine;
-  m[v][v] = cosine;
-  return m;
-}
-
-struct Transform {
-  Matrix rotate;
-  Vec3d scale, translate;
-
-  explicit Transform(const MeshEntry& entry) : rotate{}, scale(entry.scale), translate(entry.translate) {
-    const Matrix x = rotation(0, entry.rotate[0]);
-    const Matrix y = rotation(1, entry.rotate[1]);
-    const Matrix z = rotation(2, entry.rotate[2]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      Vec3d unit{0, 0, 0};
-      unit[i] = 1;
-      const Vec3d column = times(z, times(y, times(x, unit)));
-      for (std::size_t row = 0; row < 3; ++row) rotate[row][i] = column[row];
-    }
-  }
-  Vec3d position(const Vec3d& p) const {
-    return vec::add(times(rotate, {p[0] * scale[0], p[1] * scale[1], p[2] * scale[2]}), translate);
-  }
-  /// By the inverse transpose; any length.
-  Vec3d normal(const Vec3d& n) const { return times(rotate, {n[0] / scale[0], n[1] / scale[1], n[2] / scale[2]}); }
-  bool mirrors() const { return scale[0] * scale[1] * scale[2] < 0; }
-};
-
-}  // namespace
-
 void SceneBuilder::check_material(SceneMaterial& material, const Place& place) {
   if (material.kind != SurfaceKind::diffuse && vec::largest(material.emission) > 0)
     refuse(place, "material " + in_quotes(material.name) +
@@ -154,7 +101,7 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
   constexpr std::uint32_t not_yet = 0xFFFF'FFFFU;
   std::vector<std::uint32_t> number(mesh.materials.size(), not_yet);
   std::vector<TextureUse> textures(mesh.materials.size());
-  const Transform transform(entry);
+  const MeshTransform transform(entry);
   const auto first_position = static_cast<std::uint32_t>(positions_.size());
   const auto first_normal = static_cast<std::uint32_t>(normals_.size());
   for (const Vec3d& p : mesh.positions) {
@@ -168,7 +115,7 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
   const bool turn = transform.mirrors() != entry.flip;
   std::vector<CutOut> cuts(mesh.materials.size());
   for (ImportedTriangle read : mesh.triangles) {
-    const Place place{mesh.file, read.line};
+    const Place place = mesh.place_of(read);
     CutOut& cut = cuts[read.material];
     if (number[read.material] == not_yet) {
       const ImportedMaterial material = resolve_material(mesh, read.material, entry, overrides, missing_, notices_);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the OBJ and MTL importers hand to the scene builder: one file's triangles and materials, in the file's units.
+// What the importers of OBJ, MTL and glTF hand to the scene builder: one file's triangles and materials, in the file's
+// units.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,7 +18,9 @@ namespace torolux {
 
 /// map_Kd: an image, and what is done with texture points before it is looked up.
 struct TextureUse {
-  std::vector<std::string> names;  ///< of the file as written, the likeliest reading first; none: no texture
+  std::vector<std::string> names;            ///< of the file as written, the likeliest reading first; none: no texture
+  std::shared_ptr<const std::string> bytes;  ///< of an image that no file of its own holds; its name says which it is
+  double cutoff = 0.5;                       ///< of alpha: what has less is not there. 0: alpha is not used
   std::array<double, 2> scale{1, 1}, offset{0, 0};
   double base = 0, gain = 1;  ///< of the file's values, 0..1: base + gain * value
   char channel = 0;           ///< of an image of opacity: r, g, b, l (brightness), m (alpha); 0: alpha, else brightness
@@ -65,18 +69,31 @@ struct ImportedTriangle {
   std::array<std::uint32_t, 3> position;
   std::array<std::uint32_t, 3> normal;  ///< all kNoNormal where a corner has none, or all kUnusable
   std::uint32_t material;               ///< into ImportedMesh::materials
-  std::uint32_t line;                   ///< of its face
+  std::uint32_t line;                   ///< of its face; where the mesh has parts, which of them
   std::array<std::uint32_t, 3> texture_point{kNoNormal, kNoNormal, kNoNormal};  ///< likewise
+};
+
+/// Of a file that has several; one of them is chosen by its name.
+struct ImportedCamera {
+  std::vector<std::string> names;  ///< any of them
+  Camera camera;                   ///< in the file's space
+  Place place;
 };
 
 struct ImportedMesh {
   std::string file;
+  std::vector<std::string> parts;  ///< of a file without lines: what messages call the places of its faces
   std::vector<Vec3d> positions;
   std::vector<Vec3d> normals;  ///< as written, any length
   std::vector<std::array<double, 2>> texture_points;
   std::vector<ImportedTriangle> triangles;
   std::vector<ImportedMaterial> materials;
   std::vector<std::pair<std::string, Place>> missing_libraries;
+  std::vector<ImportedCamera> cameras;
+
+  Place place_of(const ImportedTriangle& triangle) const {
+    return parts.empty() ? Place{file, triangle.line} : Place{parts[triangle.line], 0};
+  }
 };
 
 /// More are refused, with the number: what a PE's polygon numbers and this computer's memory bear with ease.

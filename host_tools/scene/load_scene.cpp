@@ -8,6 +8,8 @@
 #include "emulator/nearest_name.hpp"
 #include "host_tools/scene/build_scene.hpp"
 #include "host_tools/scene/camera.hpp"
+#include "host_tools/scene/choose_camera.hpp"
+#include "host_tools/scene/gltf.hpp"
 #include "host_tools/scene/obj.hpp"
 #include "host_tools/scene/part_overlaps.hpp"
 #include "host_tools/scene/plain_text.hpp"
@@ -25,9 +27,20 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-constexpr const char* kAllowed = "a scene is a folder with scene.toml, a .toml or an .obj";
+constexpr const char* kAllowed = "a scene is a folder with scene.toml, a .toml, an .obj, a .gltf or a .glb";
 
-/// The .toml or .obj that is meant.
+bool is_mesh(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+}
+
+ImportedMesh import_mesh(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at,
+                         const SceneOptions& options, Notices& notices) {
+  if (lower_extension(path) == ".obj") return import_obj(path, files, asked_at, notices);
+  return import_gltf(path, files, asked_at, options.gltf_units, notices);
+}
+
+/// The .toml or mesh that is meant.
 std::filesystem::path scene_path(const std::filesystem::path& path, SceneFiles& files) {
   std::error_code error;
   if (path.empty()) refuse({}, std::string("no scene is named; ") + kAllowed);
@@ -36,7 +49,7 @@ std::filesystem::path scene_path(const std::filesystem::path& path, SceneFiles& 
   if (files.exists(inside)) return inside;
   std::vector<std::string> meshes;
   for (const auto& entry : std::filesystem::directory_iterator(path, error))
-    if (lower_extension(entry.path()) == ".obj") meshes.push_back(entry.path().filename().string());
+    if (is_mesh(entry.path())) meshes.push_back(entry.path().filename().string());
   std::sort(meshes.begin(), meshes.end());
   std::string hint = std::string("; ") + kAllowed;
   if (!meshes.empty()) hint = "; name one of its meshes:";
@@ -89,28 +102,31 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
                    "; " + kAllowed);
   }
   const std::string extension = lower_extension(path);
-  if (extension != ".toml" && extension != ".obj")
+  if (extension != ".toml" && !is_mesh(path))
     refuse({path.string()}, "'" + extension + "' is not a kind of scene that is read; " + kAllowed);
   const Place whole{path.string(), 0};
   Notices notices;
   const std::string text =
-      extension == ".obj" ? "" : plain_text(files.read(path, whole, kMostTextBytes), path.string(), notices);
-  const SceneFile file = extension == ".obj" ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
+      is_mesh(path) ? "" : plain_text(files.read(path, whole, kMostTextBytes), path.string(), notices);
+  const SceneFile file = is_mesh(path) ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
   if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
 
+  std::vector<ImportedCamera> cameras;
   SceneBuilder builder(files, options.missing_materials, notices);
   for (const MeshEntry& entry : file.meshes) {
     const std::filesystem::path mesh = path.parent_path() / entry.file;
     const Place asked_at = entry.place.file.empty() ? whole : entry.place;
-    if (lower_extension(mesh) != ".obj") refuse(asked_at, "'" + entry.file + "' is not an .obj; no other mesh is read");
-    builder.add_mesh(import_obj(mesh, files, asked_at, notices), entry, file.materials);
+    if (!is_mesh(mesh)) refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf or .glb; no other mesh is read");
+    const ImportedMesh imported = import_mesh(mesh, files, asked_at, options, notices);
+    builder.add_mesh(imported, entry, file.materials);
+    add_cameras(imported, entry, cameras);
   }
   add_lights(file, builder);
 
   Scene scene;
   scene.name = file.name.value_or(scene_name(path));
   scene.defaults = file.defaults;
-  scene.camera = file.camera;
+  scene.camera = choose_camera(cameras, options.camera_name, file.camera, whole, notices);
   const vec::Box bounds = builder.bounds();
   if (options.studio) {
     if (!builder.has_surface()) refuse(whole, "no surface with an area: there is nothing to put into the studio");

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// From what the user names (a folder with scene.toml, a .toml or an .obj) to a checked scene.
+// From what the user names (a folder with scene.toml, a .toml, or a mesh) to a checked scene.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "host_tools/scene/files.hpp"
+#include "host_tools/scene/gltf_units.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/scene/scene.hpp"
 
@@ -15,6 +17,8 @@ struct SceneOptions {
   bool studio = false;           ///< add a room and a lamp fitted to the mesh
   std::optional<Camera> camera;  ///< the user's own; a studio then holds it
   MissingMaterials missing_materials = MissingMaterials::refuse;
+  std::string camera_name;  ///< of a camera that a mesh brings along; "": none is asked for
+  GltfUnits gltf_units = GltfUnits::watt;
   bool strict = false;  ///< what would be told is refused
 };
 

@@ -159,7 +159,7 @@ DecodedImage decode_texture(std::string_view bytes, const std::string& file, con
   const ImageKind kind = kind_of(bytes);
   if (kind == ImageKind::unknown)
     refuse(place,
-           "the texture '" + file + "' is neither PNG, JPEG, TGA nor BMP; convert it, or take the map_Kd line out");
+           "the texture '" + file + "' is neither PNG, JPEG, TGA nor BMP; convert it, or take out what names it");
   DecodedImage image = kind == ImageKind::png    ? decoder.png(bytes)
                        : kind == ImageKind::jpeg ? decoder.jpeg(bytes)
                                                  : decoder.tga_or_bmp(bytes);

@@ -31,6 +31,16 @@ std::uint8_t with_base_and_gain(std::uint8_t value, const TextureUse& use) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(255 * use.base + use.gain * value, 0.0, 255.0)));
 }
 
+/// Straight from 0 to the cutoff, and from there to 1: where alpha was the cutoff it is then one half.
+void move_cutoff(double cutoff, std::vector<std::uint8_t>& alpha) {
+  if (cutoff == 0.5) return;
+  for (std::uint8_t& value : alpha) {
+    const double a = value / 255.0;
+    const double moved = a < cutoff ? a / cutoff * 127 : 128 + (cutoff < 1 ? (a - cutoff) / (1 - cutoff) * 127 : 0);
+    value = static_cast<std::uint8_t>(moved);
+  }
+}
+
 /// Into the image's alpha.
 void opacity_of(char channel, DecodedImage& image) {
   if (channel == 'm' && image.alpha.empty()) image.alpha.assign(image.colours.texels.size(), 255);
@@ -51,6 +61,7 @@ double linear_of_srgb(std::uint8_t value) {
 }
 
 std::optional<std::string> TextureLibrary::find(const TextureUse& use) const {
+  if (use.bytes) return use.names[0];
   for (const std::string& name : use.names) {
     const auto found = find_file(name, use.folders, files_, use.place);
     if (!found) continue;
@@ -65,26 +76,34 @@ std::optional<std::string> TextureLibrary::find(const TextureUse& use) const {
     return std::nullopt;
   }
   if (missing_ == MissingMaterials::refuse)
-    refuse(use.place, "there is no texture '" + (use.folders.at(0) / use.names[0]).lexically_normal().string() +
-                          "'; put it there (names are relative to the material library), take the line out, give the "
-                          "material in scene.toml, or use --missing-materials white");
+    refuse(use.place,
+           "there is no texture '" + (use.folders.at(0) / use.names[0]).lexically_normal().string() +
+               "'; put it there (names are relative to the file that names them), take the line out, give the "
+               "material in scene.toml, or use --missing-materials white");
   notices_.note("there is no texture, white stands for it", use.place, in_quotes(use.names[0]));
   return std::nullopt;
+}
+
+std::string TextureLibrary::read(const TextureUse& use, const std::string& file) const {
+  return use.bytes ? *use.bytes : files_.read(file, use.place, kMostImageBytes);
 }
 
 std::uint32_t TextureLibrary::load(const TextureUse& use) {
   const auto file = find(use);
   if (!file) return kNoImage;
   const auto [entry, fresh] =
-      number_.emplace(std::tuple(*file, use.base, use.gain), static_cast<std::uint32_t>(textures_.size()));
+      number_.emplace(std::tuple(*file, use.base, use.gain, use.cutoff), static_cast<std::uint32_t>(textures_.size()));
   if (!fresh) return entry->second;
-  DecodedImage image = decode_texture(files_.read(*file, use.place, kMostImageBytes), *file, use.place, notices_);
+  DecodedImage image = decode_texture(read(use, *file), *file, use.place, notices_);
   for (auto& texel : image.colours.texels)
     for (std::uint8_t& value : texel) value = with_base_and_gain(value, use);
   masks_.emplace_back();
+  if (use.cutoff == 0) image.alpha.clear();
   if (!image.alpha.empty()) {
-    notices_.note("the alpha of a texture cuts its faces out: less than one half is not there", use.place,
-                  in_quotes(*file));
+    if (use.cutoff == 0.5)
+      notices_.note("the alpha of a texture cuts its faces out: less than one half is not there", use.place,
+                    in_quotes(*file));
+    move_cutoff(use.cutoff, image.alpha);
     masks_.back() = cut_out_mask(image.alpha, image.colours.width, image.colours.height);
     fill_hidden(image);
   }
@@ -95,7 +114,7 @@ std::uint32_t TextureLibrary::load(const TextureUse& use) {
 std::optional<CutOutMask> TextureLibrary::load_mask(const TextureUse& use) {
   const auto file = find(use);
   if (!file) return std::nullopt;
-  DecodedImage image = decode_texture(files_.read(*file, use.place, kMostImageBytes), *file, use.place, notices_);
+  DecodedImage image = decode_texture(read(use, *file), *file, use.place, notices_);
   notices_.note("map_d cuts faces out: less than one half is not there", use.place, in_quotes(*file));
   opacity_of(use.channel, image);
   for (std::uint8_t& value : image.alpha) value = with_base_and_gain(value, use);

@@ -51,7 +51,9 @@ class TextureLibrary {
   SceneFiles& files_;
   MissingMaterials missing_;
   Notices& notices_;
-  std::map<std::tuple<std::string, double, double>, std::uint32_t> number_;  // by file, base and gain
+  std::string read(const TextureUse& use, const std::string& file) const;
+
+  std::map<std::tuple<std::string, double, double, double>, std::uint32_t> number_;  // by file, base, gain, cutoff
   std::vector<SceneTexture> textures_;
   std::vector<std::optional<CutOutMask>> masks_;  // of textures_
 };

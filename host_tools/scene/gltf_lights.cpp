@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Makes an icosahedron of a point light, and an octagon of a spot.
+#include "host_tools/scene/gltf_lights.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "host_tools/scene/statements.hpp"
+
+namespace torolux {
+namespace {
+
+struct Body {
+  std::vector<Vec3d> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  double area() const {
+    double sum = 0;
+    for (const auto& t : triangles)
+      sum += 0.5 * vec::length(vec::cross(vec::subtract(positions[t[1]], positions[t[0]]),
+                                          vec::subtract(positions[t[2]], positions[t[0]])));
+    return sum;
+  }
+};
+
+Body icosahedron(const Vec3d& centre, double radius) {
+  constexpr double g = std::numbers::phi;
+  constexpr std::array<Vec3d, 12> corners{Vec3d{-1, g, 0}, Vec3d{1, g, 0}, Vec3d{-1, -g, 0}, Vec3d{1, -g, 0},
+                                          Vec3d{0, -1, g}, Vec3d{0, 1, g}, Vec3d{0, -1, -g}, Vec3d{0, 1, -g},
+                                          Vec3d{g, 0, -1}, Vec3d{g, 0, 1}, Vec3d{-g, 0, -1}, Vec3d{-g, 0, 1}};
+  Body body;
+  for (const Vec3d& corner : corners) body.positions.push_back(vec::add(centre, vec::scale(vec::unit(corner), radius)));
+  body.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  return body;
+}
+
+/// Faces along `axis`.
+Body octagon(const Vec3d& centre, const Vec3d& axis, double radius) {
+  const Vec3d aside = std::abs(axis[0]) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d u = vec::unit(vec::cross(aside, axis));
+  const Vec3d v = vec::cross(axis, u);
+  Body body;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const double angle = std::numbers::pi / 4 * i;
+    body.positions.push_back(
+        vec::add(centre, vec::add(vec::scale(u, radius * std::cos(angle)), vec::scale(v, radius * std::sin(angle)))));
+    if (i >= 2) body.triangles.push_back({0, i - 1, i});
+  }
+  return body;
+}
+
+void add_body(const Body& body, const std::string& name, const Vec3d& emission, const Place& place,
+              ImportedMesh& mesh) {
+  SceneMaterial material;
+  material.name = name;
+  material.emission = emission;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto part = static_cast<std::uint32_t>(mesh.parts.size());
+  const auto number = static_cast<std::uint32_t>(mesh.materials.size());
+  mesh.materials.push_back({material, true, place});
+  mesh.parts.push_back(place.file);
+  mesh.positions.insert(mesh.positions.end(), body.positions.begin(), body.positions.end());
+  for (const auto& t : body.triangles)
+    mesh.triangles.push_back(
+        {{first + t[0], first + t[1], first + t[2]}, {kNoNormal, kNoNormal, kNoNormal}, number, part});
+}
+
+}  // namespace
+
+void add_gltf_light(const GltfObject& root, const GltfLight& light, double size, GltfUnits units, ImportedMesh& mesh,
+                    Notices& notices) {
+  const auto lights = root.extension("KHR_lights_punctual");
+  const GltfObject object = lights->element("lights", light.number, "light");
+  const Place place = object.place();
+  const std::string type = object.text("type").value_or("");
+  const double intensity = object.number("intensity", 0, kMostCoordinate).value_or(1) * radiance_per_luminance(units);
+  const Vec3d power = vec::scale(object.colour("color").value_or(Vec3d{1, 1, 1}), intensity);  // [W/sr]
+  const std::string name = object.text("name").value_or("light " + std::to_string(light.number));
+  if (object.has("range")) notices.note("the range of a light is not used: light goes on for ever", place);
+  if (type == "directional") return notices.note("a sun (directional light) is not rendered", place);
+  if (type != "point" && type != "spot")
+    refuse(place, "'type' is " + in_quotes(type) + "; expected point, spot or directional");
+  if (!(vec::largest(power) > 0)) return;
+  if (type == "point") {
+    const Body body = icosahedron(light.place.origin, size);
+    // The mean projected area of a convex body is a quarter of its surface (A. Cauchy 1841).
+    return add_body(body, name, vec::scale(power, 4 / body.area()), place, mesh);
+  }
+  const Vec3d axis = vec::scale(light.place.axes[2], -1);
+  if (!(vec::length(axis) > 0)) refuse(place, "its node's scale is zero: it shines nowhere");
+  notices.note(
+      "a spot is a disc that has its intensity on the axis and falls off as the cosine: its cone is not rendered",
+      place);
+  const Body body = octagon(light.place.origin, vec::unit(axis), size);
+  add_body(body, name, vec::scale(power, 1 / body.area()), place, mesh);
+}
+
+}  // namespace torolux
