@@ -301,6 +301,12 @@ MissingMaterials parse_missing_materials(const std::string& text) {
   throw UsageError(no_such_name(text, "nothing that is done with missing materials", {"refuse", "white"}));
 }
 
+GltfUnits parse_gltf_units(const std::string& text) {
+  if (text == "watt") return GltfUnits::watt;
+  if (text == "lumen") return GltfUnits::lumen;
+  throw UsageError(no_such_name(text, "no unit of light of glTF files", {"watt", "lumen"}));
+}
+
 std::size_t parse_name(const std::string& text, std::span<const std::string_view> names, std::string_view kind) {
   const auto found = std::ranges::find(names, text);
   if (found == names.end()) throw UsageError(no_such_name(text, kind, {names.begin(), names.end()}));

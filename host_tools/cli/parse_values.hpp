@@ -15,6 +15,7 @@
 
 #include "emulator/engines/engine/debugging.hpp"
 #include "host_tools/picture/layers.hpp"
+#include "host_tools/scene/gltf_units.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/presets.hpp"
 #include "host_tools/trace/follow_target.hpp"
@@ -72,6 +73,7 @@ std::vector<double> parse_rates(const std::string& text);
 
 /// "refuse" or "white".
 MissingMaterials parse_missing_materials(const std::string& text);
+GltfUnits parse_gltf_units(const std::string& text);
 
 /// The number of the name among `names`. kind: of another one, as in "no filter".
 std::size_t parse_name(const std::string& text, std::span<const std::string_view> names, std::string_view kind);

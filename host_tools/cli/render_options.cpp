@@ -31,6 +31,11 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
             [&options](const std::string& text) { options.missing_materials = parse_missing_materials(text); })
       ->default_str("refuse")
       ->group("Scene");
+  add_value(command, "--gltf-units", "watt|lumen",
+            "Light of glTF files: numbers as they are (1 cd is 1 W/sr), or divided by 683 lm/W",
+            [&options](const std::string& text) { options.gltf_units = parse_gltf_units(text); })
+      ->default_str("watt")
+      ->group("Scene");
   command
       .add_flag(
           "--strict", options.strict,
@@ -102,6 +107,12 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
   const auto vector = [&](const std::string& name, const std::string& help, auto& to) {
     add_value(command, name, "X,Y,Z", help, [&to](const std::string& text) { to = parse_vector(text); })->group(group);
   };
+  add_value(command, "--camera", "NAME", "One of the cameras that the scene's glTF files bring along [the first]",
+            [&options](const std::string& text) {
+              if (text.empty()) throw UsageError("the name is empty");
+              options.camera_name = text;
+            })
+      ->group(group);
   vector("--eye", "Where the camera is, in scene units [the scene's]", options.eye);
   vector("--look-at", "A point that it looks at, in scene units [the scene's]", options.look_at);
   vector("--up", "Direction that is up in the picture [the scene's, else 0,1,0]", options.up);

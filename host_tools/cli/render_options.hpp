@@ -16,6 +16,7 @@
 #include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/trace_options.hpp"
 #include "host_tools/growing_picture/growing_picture.hpp"
+#include "host_tools/scene/gltf_units.hpp"
 #include "host_tools/scene/missing_materials.hpp"
 #include "host_tools/settings/given_settings.hpp"
 #include "host_tools/settings/presets.hpp"
@@ -33,6 +34,7 @@ struct RenderOptions {
   std::filesystem::path scene;
   bool studio = false;
   MissingMaterials missing_materials = MissingMaterials::refuse;
+  GltfUnits gltf_units = GltfUnits::watt;
   bool strict = false;
 
   // What comes out.
@@ -49,6 +51,7 @@ struct RenderOptions {
   // The view.
   std::optional<std::array<double, 3>> eye, look_at, up;
   std::optional<double> field_of_view_degrees;
+  std::string camera_name;                    ///< of a camera that a mesh brings along
   std::optional<std::filesystem::path> path;  ///< cameras of an animation
 
   // The light.
@@ -62,11 +65,11 @@ struct RenderOptions {
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
 };
 
-/// SCENE, --studio, --missing-materials, --strict. name, help: of the first.
+/// SCENE, --studio, --missing-materials, --gltf-units, --strict. name, help: of the first.
 void add_scene_options(
     CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
     const std::string& help =
-        "A folder with scene.toml, a .toml file, an .obj file, or the name of a scene that came with "
+        "A folder with scene.toml, a .toml, .obj, .gltf or .glb file, or the name of a scene that came with "
         "the program");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, GivenSettings& given, const std::string& group);

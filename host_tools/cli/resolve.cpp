@@ -131,6 +131,8 @@ SceneOptions scene_options(const RenderOptions& options) {
   SceneOptions result;
   result.studio = options.studio;
   result.missing_materials = options.missing_materials;
+  result.camera_name = options.camera_name;
+  result.gltf_units = options.gltf_units;
   result.strict = options.strict;
   if (!options.eye || !options.look_at) return result;
   Camera camera;
@@ -172,6 +174,8 @@ RunDescription describe(const RenderOptions& options, const Resolved& resolved, 
   run.inputs = {options.scene.string(),
                 options.studio,
                 options.missing_materials == MissingMaterials::white,
+                options.gltf_units == GltfUnits::lumen,
+                options.camera_name,
                 {},
                 std::move(files)};
   const auto given = [&](const auto& value, const char* name) {

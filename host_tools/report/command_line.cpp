@@ -133,6 +133,8 @@ Words render_words(const Json& settings) {
   Words words = {"render", text(settings.at("scene_path"))};
   if (settings.at("studio").get<bool>()) words.emplace_back("--studio");
   if (settings.contains("missing_materials")) add(words, "--missing-materials", text(settings.at("missing_materials")));
+  if (settings.contains("gltf_units")) add(words, "--gltf-units", text(settings.at("gltf_units")));
+  if (settings.contains("camera_name")) add(words, "--camera", text(settings.at("camera_name")));
   bool has_path = false;
   for (const Json& input : settings.at("inputs")) {
     if (input.at("role") == "radiosity") add(words, "--radiosity", text(input.at("path")));

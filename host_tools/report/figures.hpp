@@ -16,6 +16,8 @@ struct RunInputs {
   std::string scene_path;  ///< as the user named it
   bool studio = false;
   bool missing_are_white = false;  ///< --missing-materials white
+  bool gltf_in_lumens = false;     ///< --gltf-units lumen
+  std::string camera_name;         ///< --camera; "": not given
   /// Of eye, look_at, up and field_of_view: those that the user gave, which matters to a studio.
   std::vector<std::string> camera_given;
   std::vector<InputFile> files;  ///< scene files in the order in which they are read, saved radiosity, firmware

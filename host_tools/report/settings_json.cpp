@@ -125,6 +125,8 @@ Json settings_json(const RunDescription& run, const RenderFigures* figures) {
   json["scene_path"] = run.inputs.scene_path;
   json["studio"] = run.inputs.studio;
   if (run.inputs.missing_are_white) json["missing_materials"] = "white";
+  if (run.inputs.gltf_in_lumens) json["gltf_units"] = "lumen";
+  if (!run.inputs.camera_name.empty()) json["camera_name"] = run.inputs.camera_name;
   json["inputs"] = inputs_json(run.inputs.files);
   const AllSettings settings{run.quality, run.tone, run.machine};
   add_camera(json, run);

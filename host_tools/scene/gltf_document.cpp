@@ -105,9 +105,16 @@ void check_depth(std::string_view text, const std::string& file) {
   }
 }
 
-void check_version(const GltfObject& root) {
-  const auto asset = root.object("asset");
-  const std::string version = asset ? asset->text("version").value_or("") : "";
+/// A text; early files of version 1 have a number.
+std::string version_of(const nlohmann::json& json) {
+  const auto asset = json.find("asset");
+  if (asset == json.end() || !asset->is_object()) return "";
+  const auto version = asset->find("version");
+  if (version == asset->end()) return "";
+  return version->is_string() ? version->get<std::string>() : version->dump();
+}
+
+void check_version(const GltfObject& root, const std::string& version) {
   if (version.starts_with("2.") || version == "2") return;
   if (version.starts_with("1") || root.has("techniques") || root.has("programs"))
     refuse(root.place(),
@@ -140,7 +147,7 @@ GltfDocument read_gltf_document(std::string bytes, const std::string& file, Noti
     refuse({file}, "its JSON cannot be read: " + std::string(error.what()).substr(0, 200));
   }
   if (!document.json.is_object()) refuse({file}, "its JSON is not an object: it is not glTF");
-  check_version(document.root());
+  check_version(document.root(), version_of(document.json));
   check_required(document.root());
   return document;
 }

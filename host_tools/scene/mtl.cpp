@@ -22,6 +22,26 @@ bool is_zero(const Vec3d& v) {
   return v == Vec3d{0, 0, 0};
 }
 
+bool is_grey(const Vec3d& v) {
+  constexpr double told_apart = 0.004;  // of one step of eight bits
+  return std::max({v[0], v[1], v[2]}) - std::min({v[0], v[1], v[2]}) < told_apart;
+}
+
+/// Blender has no place in MTL for what makes a metal: it writes illum 3, the metal's colour as Kd, and its setting
+/// "specular", which does nothing on metals, as a grey Ks.
+void set_mirror(const Vec3d& specular, const Vec3d& diffuse, const CheckedMaterial& checked, SceneMaterial& material,
+                Notices& notices) {
+  material.kind = SurfaceKind::mirror;
+  material.specular = specular;
+  if (is_grey(specular) && !is_grey(diffuse)) {
+    material.specular = diffuse;
+    notices.note("a mirror with a grey Ks and a coloured Kd is a metal as Blender writes it: it reflects Kd",
+                 checked.place);
+  } else if (!is_zero(diffuse) || checked.texture.present()) {
+    notices.note("a mirror reflects by Ks alone; its Kd is not used", checked.place);
+  }
+}
+
 SceneMaterial mapped(const tinyobj::material_t& read, const CheckedMaterial& checked, Notices& notices) {
   SceneMaterial material;
   material.name = checked.name;
@@ -39,10 +59,7 @@ SceneMaterial mapped(const tinyobj::material_t& read, const CheckedMaterial& che
     return material;
   }
   if (mirror) {
-    material.kind = SurfaceKind::mirror;
-    material.specular = specular;
-    if (!is_zero(triple(read.diffuse)) || checked.texture.present())
-      notices.note("a mirror reflects by Ks alone; its Kd is not used", checked.place);
+    set_mirror(specular, triple(read.diffuse), checked, material, notices);
     return material;
   }
   material.diffuse = triple(read.diffuse);

@@ -177,6 +177,8 @@ RC_GTEST_PROP(Settings, OfARenderLeadToThemselves, ()) {
   options.scene = *rc::gen::element<std::string>("scenes/room", "a scene's room");
   options.studio = *rc::gen::arbitrary<bool>();
   options.missing_materials = *rc::gen::element(MissingMaterials::refuse, MissingMaterials::white);
+  options.gltf_units = *rc::gen::element(GltfUnits::watt, GltfUnits::lumen);
+  options.camera_name = *rc::gen::element<std::string>("", "Camera.001", "from the door");
   any_light(options);
   any_view(options);
   any_machine(options);
