@@ -14,7 +14,7 @@
 
 namespace torolux {
 
-enum class SceneText { obj, mtl, scene_toml, texture };
+enum class SceneText { obj, mtl, scene_toml, texture, gltf };
 
 inline std::map<std::string, std::string> scene_with(SceneText kind, const std::string& text) {
   const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n";
@@ -29,6 +29,8 @@ inline std::map<std::string, std::string> scene_with(SceneText kind, const std::
       return {{"fuzz.obj", "mtllib a.mtl\n" + quad + "vt 0 0\nvt 2 0\nvt 2 2\nusemtl m\nf 1/1 2/2 3/3\n"},
               {"a.mtl", "newmtl m\nKd .5 .5 .5\nmap_Kd fuzz.png\n"},
               {"fuzz.png", text}};
+    case SceneText::gltf:  // or a .glb: the first bytes decide
+      return {{"fuzz.gltf", text}, {"a.bin", std::string(400, '\0')}};
     case SceneText::scene_toml:
       break;
   }
@@ -43,7 +45,10 @@ inline bool load_text(SceneText kind, const std::string& text, bool studio) {
   SceneOptions options;
   options.studio = studio;
   try {
-    const Scene scene = load_scene_from(files, kind == SceneText::scene_toml ? "fuzz.toml" : "fuzz.obj", options);
+    const char* const named = kind == SceneText::scene_toml ? "fuzz.toml"
+                              : kind == SceneText::gltf     ? "fuzz.gltf"
+                                                            : "fuzz.obj";
+    const Scene scene = load_scene_from(files, named, options);
     for (const SceneTriangle& triangle : scene.triangles)
       for (const std::uint32_t p : triangle.position)
         if (p >= scene.positions.size()) std::abort();

@@ -29,6 +29,9 @@ TEST(FuzzSmoke, Mtl) {
 TEST(FuzzSmoke, SceneToml) {
   smoke(SceneText::scene_toml, "scene_toml", 10'000);
 }
+TEST(FuzzSmoke, Gltf) {
+  smoke(SceneText::gltf, "gltf", 10'000);
+}
 TEST(FuzzSmoke, Texture) {
   smoke(SceneText::texture, "texture", 10'000);
 }

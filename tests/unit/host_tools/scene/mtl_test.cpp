@@ -83,6 +83,16 @@ TEST(Mtl, DiffuseAndGlossyTogetherAreScaled) {
   EXPECT_THAT(with_material("Kd 0.7\nKs 0.29\nNs 9\nillum 2\n").warnings, testing::Not(Contains(HasSubstr("scaled"))));
 }
 
+TEST(Mtl, ABlenderMetalKeepsItsColour) {
+  const Scene gold = with_material("Ns 250\nKa 1 1 1\nKd 0.9 0.6 0.2\nKs 0.5 0.5 0.5\nillum 3\n");
+  EXPECT_EQ(gold.materials[0].kind, SurfaceKind::mirror);
+  expect_colour(gold.materials[0].specular, 0.9, 0.6, 0.2);
+  EXPECT_THAT(gold.warnings, Contains(HasSubstr("is a metal as Blender writes it")));
+  // Where Ks has a colour of its own, or Kd has none, Ks counts.
+  expect_colour(with_material("Kd 0.9 0.6 0.2\nKs 0.5 0.4 0.5\nillum 3\n").materials[0].specular, 0.5, 0.4, 0.5);
+  expect_colour(with_material("Kd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nillum 3\n").materials[0].specular, 0.5, 0.5, 0.5);
+}
+
 TEST(Mtl, Illum7IsGlassWithFilter) {
   const SceneMaterial glass = with_material("Kd 1 1 1\nKs 1 1 1\nNi 2.5\nTf 0.1 0.2 0.3\nillum 7\n").materials[0];
   EXPECT_EQ(glass.kind, SurfaceKind::glass);
