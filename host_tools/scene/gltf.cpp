@@ -76,6 +76,7 @@ class Importer {
       Held held{read_gltf_surface(primitive, accessors_, read.mapping, data_, notices_), place,
                 static_cast<std::uint32_t>(mesh_.parts.size()),
                 static_cast<std::uint32_t>(mesh_.texture_points.size())};
+      check_room(read_vertices_ += held.surface.positions.size(), primitive.place());
       if (held.surface.triangles.empty()) continue;
       mesh_.parts.push_back(primitive.place().file);
       check_room(mesh_.texture_points.size() + held.surface.texture_points.size(), primitive.place());
@@ -213,6 +214,7 @@ class Importer {
   GltfUnits units_;
   Notices& notices_;
   std::size_t accessors_;
+  std::size_t read_vertices_ = 0;
   ImportedMesh mesh_;
   std::map<std::size_t, std::vector<Held>> surfaces_;  // by mesh
   std::map<std::optional<std::size_t>, std::pair<GltfMaterial, std::uint32_t>> read_;

@@ -123,7 +123,7 @@ void check_version(const GltfObject& root, const std::string& version) {
   refuse(root.place(), "is glTF of version " + in_quotes(version) + "; 2 is read");
 }
 
-void check_required(const GltfObject& root) {
+void check_extensions(const GltfObject& root, Notices& notices) {
   for (const std::string& name : root.texts("extensionsRequired")) {
     const auto remedy = std::ranges::find(kRemedies, name, &Remedy::extension);
     if (remedy != kRemedies.end())
@@ -131,6 +131,9 @@ void check_required(const GltfObject& root) {
     if (std::ranges::find(kUnderstood, name) == kUnderstood.end())
       refuse(root.place(), "requires the extension " + in_quotes(name) + ", which is not read; export it without");
   }
+  for (const std::string& name : root.texts("extensionsUsed"))
+    if (std::ranges::find(kUnderstood, name) == kUnderstood.end() && name.find("_materials_") == std::string::npos)
+      notices.note("the extension " + in_quotes(name) + " is not read", root.place());
 }
 
 }  // namespace
@@ -148,7 +151,7 @@ GltfDocument read_gltf_document(std::string bytes, const std::string& file, Noti
   }
   if (!document.json.is_object()) refuse({file}, "its JSON is not an object: it is not glTF");
   check_version(document.root(), version_of(document.json));
-  check_required(document.root());
+  check_extensions(document.root(), notices);
   return document;
 }
 

@@ -48,7 +48,7 @@ class Reader {
     set_surface(surface_, emits(), material);
     read_alpha();
     read_transmission();
-    if (material.kind != SurfaceKind::diffuse || vec::largest(material.diffuse) == 0) result_.material.texture = {};
+    if (material.kind != SurfaceKind::diffuse || vec::largest(material.diffuse) == 0) drop_texture();
     tell_the_rest();
     return std::move(result_);
   }
@@ -164,11 +164,17 @@ class Reader {
     }
   }
 
+  /// Nothing shows its colours; what it cuts out is cut out all the same.
+  void drop_texture() {
+    if (result_.material.texture.cutoff > 0) result_.material.opacity = result_.material.texture;
+    result_.material.opacity.channel = 'm';
+    result_.material.texture = {};
+  }
+
   /// What covers little of what lies behind it: windows are often written so.
   void read_film() {
     notices_.note("a surface with alpha below one half (alphaMode BLEND) is a thin pane of glass", place());
     const Vec3d colour = colour_of_base();
-    for (double& one : surface_.colour) one = 0;
     SceneMaterial& material = result_.material.material;
     make_glass(vec::add(vec::scale(colour, alpha_), Vec3d{1 - alpha_, 1 - alpha_, 1 - alpha_}), true, material);
   }

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "host_tools/scene/imported_mesh.hpp"
+
 namespace torolux {
 namespace {
 
@@ -103,6 +105,7 @@ std::vector<Affine> instances(const GltfObject& node, const Affine& place, GltfD
   for (const GltfNumbers* one : {&translations, &rotations, &scales})
     if (one->count != 0 && one->count != count)
       refuse(node.place(), "the attributes of its instances have different counts");
+  if (count > kMostTriangles) refuse(node.place(), "has more than " + std::to_string(kMostTriangles) + " instances");
   std::vector<Affine> result;
   result.reserve(count);
   const auto vector = [](const GltfNumbers& from, std::size_t i, double otherwise) {

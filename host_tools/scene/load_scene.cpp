@@ -70,6 +70,21 @@ std::string scene_name(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal().parent_path().filename().string();
 }
 
+/// Returns the cameras that they bring along.
+std::vector<ImportedCamera> add_meshes(const SceneFile& file, const std::filesystem::path& scene, SceneFiles& files,
+                                       const SceneOptions& options, SceneBuilder& builder, Notices& notices) {
+  std::vector<ImportedCamera> cameras;
+  for (const MeshEntry& entry : file.meshes) {
+    const std::filesystem::path mesh = scene.parent_path() / entry.file;
+    const Place asked_at = entry.place.file.empty() ? Place{scene.string(), 0} : entry.place;
+    if (!is_mesh(mesh)) refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf or .glb; no other mesh is read");
+    const ImportedMesh imported = import_mesh(mesh, files, asked_at, options, notices);
+    builder.add_mesh(imported, entry, file.materials);
+    add_cameras(imported, entry, cameras);
+  }
+  return cameras;
+}
+
 void add_lights(const SceneFile& file, SceneBuilder& builder) {
   for (std::size_t i = 0; i < file.lights.size(); ++i) {
     SceneMaterial material;
@@ -111,16 +126,8 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   const SceneFile file = is_mesh(path) ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
   if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
 
-  std::vector<ImportedCamera> cameras;
   SceneBuilder builder(files, options.missing_materials, notices);
-  for (const MeshEntry& entry : file.meshes) {
-    const std::filesystem::path mesh = path.parent_path() / entry.file;
-    const Place asked_at = entry.place.file.empty() ? whole : entry.place;
-    if (!is_mesh(mesh)) refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf or .glb; no other mesh is read");
-    const ImportedMesh imported = import_mesh(mesh, files, asked_at, options, notices);
-    builder.add_mesh(imported, entry, file.materials);
-    add_cameras(imported, entry, cameras);
-  }
+  const std::vector<ImportedCamera> cameras = add_meshes(file, path, files, options, builder, notices);
   add_lights(file, builder);
 
   Scene scene;

@@ -118,6 +118,7 @@ std::optional<CutOutMask> TextureLibrary::load_mask(const TextureUse& use) {
   notices_.note("map_d cuts faces out: less than one half is not there", use.place, in_quotes(*file));
   opacity_of(use.channel, image);
   for (std::uint8_t& value : image.alpha) value = with_base_and_gain(value, use);
+  move_cutoff(use.cutoff, image.alpha);
   return cut_out_mask(image.alpha, image.colours.width, image.colours.height);
 }
 

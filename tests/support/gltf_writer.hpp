@@ -20,11 +20,11 @@ class GltfWriter {
   template <class Component>
   std::size_t accessor(const std::vector<Component>& values, std::string_view type, int component_type) {
     const std::size_t components = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
-    json["accessors"].push_back({{"bufferView", view({reinterpret_cast<const char*>(values.data()),
-                                                      values.size() * sizeof(Component)})},
-                                 {"componentType", component_type},
-                                 {"count", values.size() / components},
-                                 {"type", type}});
+    json["accessors"].push_back(
+        {{"bufferView", view({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Component)})},
+         {"componentType", component_type},
+         {"count", values.size() / components},
+         {"type", type}});
     return json["accessors"].size() - 1;
   }
   std::size_t floats(const std::vector<float>& values, std::string_view type) { return accessor(values, type, 5126); }

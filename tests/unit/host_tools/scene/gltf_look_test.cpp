@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "host_tools/scene/rough_surface.hpp"
+#include "host_tools/scene/vec.hpp"
 #include "tests/support/gltf_writer.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
@@ -48,13 +49,11 @@ TEST(GltfMaterials, MetalsAreMirrorsLobesOrDiffuseByTheirRoughness) {
 
 TEST(GltfMaterials, OthersReflectByTheirIndexWhereTheyAreSmooth) {
   const Json red{0.5, 0.1, 0.1, 1.0};
-  const SceneMaterial smooth =
-      material({{"baseColorFactor", red}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}});
+  const SceneMaterial smooth = material({{"baseColorFactor", red}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}});
   expect_near(smooth.specular, {0.04, 0.04, 0.04});
   expect_near(smooth.diffuse, {0.48, 0.096, 0.096});
-  const SceneMaterial dense =
-      material({{"baseColorFactor", red}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}},
-               {{"extensions", {{"KHR_materials_ior", {{"ior", 3}}}}}});
+  const SceneMaterial dense = material({{"baseColorFactor", red}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}},
+                                       {{"extensions", {{"KHR_materials_ior", {{"ior", 3}}}}}});
   expect_near(dense.specular, {0.25, 0.25, 0.25});
   const SceneMaterial rough = material({{"baseColorFactor", red}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}});
   expect_near(rough.diffuse, {0.5, 0.1, 0.1});
@@ -143,6 +142,17 @@ TEST(GltfMaterials, TexturesLieUpwardsAndAreCutOutByTheMode) {
   EXPECT_NEAR(whole_area(load(masked)), 1, 1e-7);
 }
 
+TEST(GltfMaterials, AMetalIsCutOutByATextureWhoseColoursItDoesNotShow) {
+  GltfWriter file = textured(bitmap(100, 255));
+  file.json["materials"][0]["alphaMode"] = "MASK";
+  file.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 1;
+  file.json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0;
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.materials[0].kind, SurfaceKind::mirror);
+  EXPECT_NEAR(whole_area(scene), 0.5, 1e-7);
+  expect_near(scene.materials[0].specular, {0.5, 0.5, 0}, 1e-9);  // of red and green
+}
+
 TEST(GltfMaterials, TextureTransformsTurnCounterClockwiseInTheImage) {
   const Json transform{{"offset", {0.5, 0}}, {"rotation", std::numbers::pi / 2}, {"scale", {2, 1}}};
   GltfWriter file = textured(bitmap(255, 255), {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}});
@@ -182,7 +192,10 @@ GltfWriter with_cameras() {
   file.json["cameras"] = {{{"type", "perspective"}, {"name", "wide"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}},
                           {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 1}}}}};
   file.node({{"camera", 0}, {"translation", {0, 0, 7}}});
-  file.node({{"camera", 1}, {"name", "Door"}, {"translation", {3, 0, 0}}, {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}});
+  file.node({{"camera", 1},
+             {"name", "Door"},
+             {"translation", {3, 0, 0}},
+             {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}});
   return file;
 }
 

@@ -3,6 +3,7 @@
 // neighbouring files), and what cannot be read is refused with the part's name.
 #include <set>
 
+#include "host_tools/scene/vec.hpp"
 #include "tests/support/gltf_writer.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
