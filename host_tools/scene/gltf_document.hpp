@@ -10,6 +10,7 @@
 
 namespace torolux {
 
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON throws nothing, its assertions could
 struct GltfDocument {
   std::string file;
   nlohmann::json json;  ///< an object
