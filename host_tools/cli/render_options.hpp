@@ -66,7 +66,7 @@ struct RenderOptions {
 void add_scene_options(
     CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
     const std::string& help =
-        "A folder with scene.toml, a .toml file, an .obj file, or the name of a scene that came with "
+        "A folder with scene.toml, a .toml file, an .obj or .mgf file, or the name of a scene that came with "
         "the program");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, GivenSettings& given, const std::string& group);

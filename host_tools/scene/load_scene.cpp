@@ -8,6 +8,7 @@
 #include "emulator/nearest_name.hpp"
 #include "host_tools/scene/build_scene.hpp"
 #include "host_tools/scene/camera.hpp"
+#include "host_tools/scene/mgf.hpp"
 #include "host_tools/scene/obj.hpp"
 #include "host_tools/scene/part_overlaps.hpp"
 #include "host_tools/scene/plain_text.hpp"
@@ -25,9 +26,14 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-constexpr const char* kAllowed = "a scene is a folder with scene.toml, a .toml or an .obj";
+constexpr const char* kAllowed = "a scene is a folder with scene.toml, a .toml, an .obj or an .mgf";
 
-/// The .toml or .obj that is meant.
+/// A kind of file with a mesh.
+bool is_mesh(const std::string& extension) {
+  return extension == ".obj" || extension == ".mgf";
+}
+
+/// The .toml or mesh that is meant.
 std::filesystem::path scene_path(const std::filesystem::path& path, SceneFiles& files) {
   std::error_code error;
   if (path.empty()) refuse({}, std::string("no scene is named; ") + kAllowed);
@@ -36,12 +42,20 @@ std::filesystem::path scene_path(const std::filesystem::path& path, SceneFiles& 
   if (files.exists(inside)) return inside;
   std::vector<std::string> meshes;
   for (const auto& entry : std::filesystem::directory_iterator(path, error))
-    if (lower_extension(entry.path()) == ".obj") meshes.push_back(entry.path().filename().string());
+    if (is_mesh(lower_extension(entry.path()))) meshes.push_back(entry.path().filename().string());
   std::sort(meshes.begin(), meshes.end());
   std::string hint = std::string("; ") + kAllowed;
   if (!meshes.empty()) hint = "; name one of its meshes:";
   for (const std::string& mesh : meshes) hint += " " + (path / mesh).string();
   refuse({path.string()}, "there is no scene.toml in this folder" + hint);
+}
+
+ImportedMesh import_mesh(const std::filesystem::path& mesh, SceneFiles& files, const Place& asked_at,
+                         Notices& notices) {
+  const std::string extension = lower_extension(mesh);
+  if (extension == ".mgf") return import_mgf(mesh, files, asked_at, notices);
+  if (extension == ".obj") return import_obj(mesh, files, asked_at, notices);
+  refuse(asked_at, "'" + mesh.filename().string() + "' is not an .obj or an .mgf; no other mesh is read");
 }
 
 SceneFile scene_file_for_mesh(const std::filesystem::path& path) {
@@ -89,21 +103,20 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
                    "; " + kAllowed);
   }
   const std::string extension = lower_extension(path);
-  if (extension != ".toml" && extension != ".obj")
+  if (extension != ".toml" && !is_mesh(extension))
     refuse({path.string()}, "'" + extension + "' is not a kind of scene that is read; " + kAllowed);
   const Place whole{path.string(), 0};
   Notices notices;
   const std::string text =
-      extension == ".obj" ? "" : plain_text(files.read(path, whole, kMostTextBytes), path.string(), notices);
-  const SceneFile file = extension == ".obj" ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
+      is_mesh(extension) ? "" : plain_text(files.read(path, whole, kMostTextBytes), path.string(), notices);
+  const SceneFile file = is_mesh(extension) ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
   if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
 
   SceneBuilder builder(files, options.missing_materials, notices);
   for (const MeshEntry& entry : file.meshes) {
     const std::filesystem::path mesh = path.parent_path() / entry.file;
     const Place asked_at = entry.place.file.empty() ? whole : entry.place;
-    if (lower_extension(mesh) != ".obj") refuse(asked_at, "'" + entry.file + "' is not an .obj; no other mesh is read");
-    builder.add_mesh(import_obj(mesh, files, asked_at, notices), entry, file.materials);
+    builder.add_mesh(import_mesh(mesh, files, asked_at, notices), entry, file.materials);
   }
   add_lights(file, builder);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what the user names (a folder with scene.toml, a .toml or an .obj) to a checked scene.
+// From what the user names (a folder with scene.toml, a .toml or a mesh) to a checked scene.
 #pragma once
 
 #include <filesystem>

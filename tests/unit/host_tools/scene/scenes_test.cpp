@@ -150,7 +150,7 @@ TEST_F(ForeignScenes, GltfIsRefusedWithWhatIsAllowed) {
     load_scene(kForeign / "cornell_gltf/cornellBox.gltf", {});
     FAIL() << "was accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("a .toml or an .obj"));
+    EXPECT_THAT(error.what(), HasSubstr("a folder with scene.toml, a .toml"));
   }
 }
 
