@@ -157,7 +157,8 @@ TEST(Obj, WithoutLightItIsRefusedByCheckRenderable) {
 }
 
 TEST(Obj, UnknownKindsOfFileAreRefusedWithWhatIsAllowed) {
-  EXPECT_THAT(refusal({{"a.gltf", "{}"}}, "a.gltf"), HasSubstr("a folder with scene.toml, a .toml, an .obj or an .mgf"));
+  EXPECT_THAT(refusal({{"a.gltf", "{}"}}, "a.gltf"),
+              HasSubstr("a folder with scene.toml, a .toml, an .obj or an .mgf"));
   EXPECT_THAT(refusal({}, "b.obj"), HasSubstr("there is no scene 'b.obj'"));
 }
 
