@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <unordered_map>
 
 #include "host_tools/scene/find_file.hpp"
 #include "host_tools/scene/mgf_colours.hpp"
@@ -31,7 +32,7 @@ class MgfReader {
 
  private:
   /// Arrays of arrays, and files that include others twice, can ask for more work than a life has time for.
-  static constexpr std::size_t kMostStatements = 10'000'000;
+  static constexpr std::size_t kMostRepeated = 5'000'000;
   static constexpr std::size_t kMostDepth = 100;
 
   void run_file(const std::filesystem::path& path, const Place& asked_at) {
@@ -56,8 +57,14 @@ class MgfReader {
       const bool ends = i == text.size();
       if (ends) notices_.note("a transform (xf) that is not closed ends with its file", {text.file(), 0});
       const MgfStatement statement = ends ? MgfStatement(text.file(), 0, kEnd) : text.statement(i);
-      if (++statements_ > kMostStatements)
-        statement.refuse_with("more than 10,000,000 statements, with all copies of arrays (xf -a); make them smaller");
+      std::size_t& done = done_[&text];
+      if (i >= done) {
+        done = i + 1;
+      } else if (++repeated_ > kMostRepeated) {
+        statement.refuse_with(
+            "arrays (xf -a) and files that are included again repeat more than 5,000,000 statements; "
+            "make them smaller");
+      }
       if (running_.size() == 1 && !ends) line_ = statement.line();
       ++i;
       if (statement.keyword() != "xf") {
@@ -129,8 +136,9 @@ class MgfReader {
   MgfSurfaces surfaces_;
   MgfTransforms transforms_;
   std::map<std::string, MgfText> texts_;
-  std::vector<std::string> running_;  ///< the files that include each other, the innermost last
-  std::size_t statements_ = 0, line_ = 0;
+  std::vector<std::string> running_;                      ///< the files that include each other, the innermost last
+  std::unordered_map<const MgfText*, std::size_t> done_;  ///< statements that have been carried out at least once
+  std::size_t repeated_ = 0, line_ = 0;
 };
 
 }  // namespace
