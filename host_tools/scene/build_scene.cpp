@@ -3,63 +3,34 @@
 #include "host_tools/scene/build_scene.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
 #include "host_tools/scene/resolve_material.hpp"
+#include "host_tools/scene/rotation.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/texture_edges.hpp"
 
 namespace torolux {
 namespace {
 
-using Matrix = std::array<Vec3d, 3>;  // rows
-
-Vec3d times(const Matrix& m, const Vec3d& v) {
-  return {vec::dot(m[0], v), vec::dot(m[1], v), vec::dot(m[2], v)};
-}
-
-/// Rotation about one axis; multiples of 90 degrees are exact.
-Matrix rotation(std::size_t axis, double degrees) {
-  const double turns = degrees / 90.0;
-  double sine = std::sin(degrees * std::numbers::pi / 180.0);
-  double cosine = std::cos(degrees * std::numbers::pi / 180.0);
-  if (turns == std::round(turns)) {
-    sine = std::round(sine);
-    cosine = std::round(cosine);
-  }
-  const std::size_t u = (axis + 1) % 3;
-  const std::size_t v = (axis + 2) % 3;
-  Matrix m{};
-  m[axis][axis] = 1;
-  m[u][u] = cosine;
-  m[u][v] = -sine;
-  m[v][u] = sine;
-  m[v][v] = cosine;
-  return m;
-}
-
 struct Transform {
-  Matrix rotate;
+  RotationRows rotate;
   Vec3d scale, translate;
 
   explicit Transform(const MeshEntry& entry) : rotate{}, scale(entry.scale), translate(entry.translate) {
-    const Matrix x = rotation(0, entry.rotate[0]);
-    const Matrix y = rotation(1, entry.rotate[1]);
-    const Matrix z = rotation(2, entry.rotate[2]);
     for (std::size_t i = 0; i < 3; ++i) {
       Vec3d unit{0, 0, 0};
       unit[i] = 1;
-      const Vec3d column = times(z, times(y, times(x, unit)));
+      const Vec3d column = rotated(entry.rotate, unit);
       for (std::size_t row = 0; row < 3; ++row) rotate[row][i] = column[row];
     }
   }
   Vec3d position(const Vec3d& p) const {
-    return vec::add(times(rotate, {p[0] * scale[0], p[1] * scale[1], p[2] * scale[2]}), translate);
+    return vec::add(rotated(rotate, {p[0] * scale[0], p[1] * scale[1], p[2] * scale[2]}), translate);
   }
   /// By the inverse transpose; any length.
-  Vec3d normal(const Vec3d& n) const { return times(rotate, {n[0] / scale[0], n[1] / scale[1], n[2] / scale[2]}); }
+  Vec3d normal(const Vec3d& n) const { return rotated(rotate, {n[0] / scale[0], n[1] / scale[1], n[2] / scale[2]}); }
   bool mirrors() const { return scale[0] * scale[1] * scale[2] < 0; }
 };
 
@@ -300,6 +271,17 @@ void SceneBuilder::add_rectangle(const std::array<Vec3d, 4>& corners, const Scen
   const std::array<std::uint32_t, 3> flat{kNoNormal, kNoNormal, kNoNormal};
   add_triangle({{first, first + 1, first + 2}, flat, number}, place);
   add_triangle({{first, first + 2, first + 3}, flat, number}, place);
+}
+
+void SceneBuilder::add_shape(const ShapeMesh& shape, const SceneMaterial& material, const Place& place) {
+  const std::uint32_t number = add_material(material, {}, place);
+  const auto first = static_cast<std::uint32_t>(positions_.size());
+  positions_.insert(positions_.end(), shape.positions.begin(), shape.positions.end());
+  const std::array<std::uint32_t, 3> flat{kNoNormal, kNoNormal, kNoNormal};
+  for (const ShapeMesh::Triangle& triangle : shape.triangles) {
+    const auto& p = triangle.position;
+    add_triangle({{first + p[0], first + p[1], first + p[2]}, flat, number}, place);
+  }
 }
 
 vec::Box SceneBuilder::bounds() const {

@@ -13,6 +13,7 @@
 #include "host_tools/scene/part_overlaps.hpp"
 #include "host_tools/scene/plain_text.hpp"
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/scene_shapes.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/studio.hpp"
 
@@ -110,7 +111,8 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   const std::string text =
       is_mesh(extension) ? "" : plain_text(files.read(path, whole, kMostTextBytes), path.string(), notices);
   const SceneFile file = is_mesh(extension) ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
-  if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
+  if (file.meshes.empty() && file.lights.empty() && file.shapes.empty() && file.lamps.empty() && !file.room)
+    refuse(whole, "no [[mesh]], [room] or shape is named: there is nothing to render");
 
   SceneBuilder builder(files, options.missing_materials, notices);
   for (const MeshEntry& entry : file.meshes) {
@@ -118,7 +120,9 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
     const Place asked_at = entry.place.file.empty() ? whole : entry.place;
     builder.add_mesh(import_mesh(mesh, files, asked_at, notices), entry, file.materials);
   }
+  add_shapes(file, whole, builder);
   add_lights(file, builder);
+  add_lamps(file, builder);
 
   Scene scene;
   scene.name = file.name.value_or(scene_name(path));
@@ -137,6 +141,10 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   note_unused_overrides(file, used, notices);
   scene.warnings = notices.lines();
   if (!scene.camera && options.camera) scene.camera = options.camera;
+  if (!scene.camera && file.room && !file.room->open[static_cast<std::size_t>(Wall::front)]) {
+    scene.camera = room_camera(*file.room);
+    scene.warnings.push_back(path.string() + ": names no camera: one stands at the room's front wall");
+  }
   if (!scene.camera) {
     scene.camera = front_camera(bounds);
     scene.warnings.push_back(path.string() + ": names no camera: one looks from the front, along -z");

@@ -19,11 +19,7 @@ namespace {
 class MgfReader {
  public:
   MgfReader(ImportedMesh& mesh, SceneFiles& files, Notices& notices)
-      : mesh_(mesh),
-        files_(files),
-        notices_(notices),
-        materials_(mesh, notices),
-        surfaces_(mesh, materials_, vertices_, notices) {}
+      : files_(files), notices_(notices), materials_(mesh, notices), surfaces_(mesh, materials_, vertices_, notices) {}
 
   void run(const std::filesystem::path& path, const Place& asked_at) {
     run_file(path, asked_at);
@@ -127,7 +123,6 @@ class MgfReader {
 
   static constexpr std::array<std::string_view, 1> kEnd{"xf"};
 
-  ImportedMesh& mesh_;
   SceneFiles& files_;
   Notices& notices_;
   MgfColours colours_;

@@ -4,9 +4,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "host_tools/scene/imported_mesh.hpp"
+#include "host_tools/scene/rotation.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -128,22 +128,9 @@ MgfPlacement MgfTransforms::placement_of(const Step& step) {
       p.rows[step.axis][step.axis] = -1;
       p.mirrored = true;
       break;
-    case Kind::turn: {
-      const double degrees = step.values[0];
-      double sine = std::sin(degrees * std::numbers::pi / 180);
-      double cosine = std::cos(degrees * std::numbers::pi / 180);
-      if (degrees / 90 == std::round(degrees / 90)) {
-        sine = std::round(sine);
-        cosine = std::round(cosine);
-      }
-      const std::size_t u = (step.axis + 1) % 3;
-      const std::size_t v = (step.axis + 2) % 3;
-      p.rows[u][u] = cosine;
-      p.rows[u][v] = -sine;
-      p.rows[v][u] = sine;
-      p.rows[v][v] = cosine;
+    case Kind::turn:
+      p.rows = rotation(step.axis, step.values[0]);
       break;
-    }
   }
   return p;
 }

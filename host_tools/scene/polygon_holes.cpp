@@ -47,7 +47,7 @@ class Joiner {
 
   void join(Contour hole) {
     if (area(hole) > 0) std::ranges::reverse(hole);
-    std::ranges::rotate(hole, hole.begin() + static_cast<std::ptrdiff_t>(rightmost(hole)));
+    std::rotate(hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(rightmost(hole)), hole.end());
     const std::size_t at = bridge(points_[hole[0]]);
     Contour joined(outline_.begin(), outline_.begin() + static_cast<std::ptrdiff_t>(at) + 1);
     joined.insert(joined.end(), hole.begin(), hole.end());

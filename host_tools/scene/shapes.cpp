@@ -33,11 +33,6 @@ std::array<Vec3d, kCorners> icosahedron() {
   return corners;
 }
 
-/// Parts of each edge of the icosahedron: it spans a little more than a sixth of a circle.
-std::uint32_t edge_parts(std::uint32_t edges) {
-  return std::max(1U, (edges + 4) / 5);
-}
-
 /// Of a circle, in the order of rising angle; symmetric, so that one turned about has the very same corners.
 std::vector<std::array<double, 2>> circle(std::uint32_t edges) {
   std::vector<std::array<double, 2>> points(edges);
@@ -67,7 +62,7 @@ class Tessellation {
   ShapeMesh operator()(const Sphere& sphere) {
     const double radius = std::abs(sphere.radius);
     inwards_ = sphere.radius < 0;
-    parts_ = edge_parts(roundness_.edges(radius));
+    parts_ = parts_of_edge(roundness_.edges(radius));
     for (const Vec3d& corner : icosahedron()) add_on_sphere(sphere.centre, radius, corner);
     for (const auto& face : kIcosahedron) divide(face, sphere.centre, radius);
     return std::move(mesh_);
@@ -123,6 +118,17 @@ class Tessellation {
     return std::move(mesh_);
   }
 
+  ShapeMesh operator()(const Quad& quad) {
+    add_quad(quad);
+    return std::move(mesh_);
+  }
+
+  ShapeMesh operator()(const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const bool upper : {false, true}) add_quad(face(box, axis, upper));
+    return std::move(mesh_);
+  }
+
   ShapeMesh operator()(const Torus& torus) {
     inwards_ = torus.outer < 0;
     const double outer = std::abs(torus.outer);
@@ -164,6 +170,14 @@ class Tessellation {
   }
 
   Vec3d facing(const Vec3d& outwards) const { return inwards_ ? vec::scale(outwards, -1) : outwards; }
+
+  void add_quad(const Quad& quad) {
+    const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+    mesh_.positions.insert(mesh_.positions.end(), quad.corners.begin(), quad.corners.end());
+    const std::array<std::uint32_t, 3> flat{kNoNormal, kNoNormal, kNoNormal};
+    add({first, first + 1, first + 2}, flat);
+    add({first, first + 2, first + 3}, flat);
+  }
 
   void add_circle(const Vec3d& centre, const std::array<Vec3d, 2>& side, double radius,
                   const std::vector<std::array<double, 2>>& points) {
@@ -238,80 +252,6 @@ class Tessellation {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> edges_;
 };
 
-struct CountTriangles {
-  Roundness roundness;
-
-  std::size_t operator()(const Sphere& sphere) const {
-    const std::size_t parts = edge_parts(roundness.edges(std::abs(sphere.radius)));
-    return kIcosahedron.size() * parts * parts;
-  }
-  std::size_t operator()(const Cone& cone) const {
-    const double larger = std::max(std::abs(cone.radius_from), std::abs(cone.radius_to));
-    return std::size_t{cone.radius_from != 0 && cone.radius_to != 0 ? 2U : 1U} * roundness.edges(larger);
-  }
-  std::size_t operator()(const Ring& ring) const {
-    return std::size_t{ring.inner > 0 ? 2U : 1U} * roundness.edges(ring.outer);
-  }
-  std::size_t operator()(const Torus& torus) const {
-    const double outer = std::abs(torus.outer);
-    return std::size_t{2} * roundness.edges(outer) * roundness.edges(0.5 * (outer - std::abs(torus.inner)));
-  }
-};
-
-struct TrueArea {
-  double operator()(const Sphere& sphere) const { return 4 * std::numbers::pi * sphere.radius * sphere.radius; }
-  double operator()(const Cone& cone) const {
-    const double slant = std::hypot(vec::length(vec::subtract(cone.to, cone.from)), cone.radius_from - cone.radius_to);
-    return std::numbers::pi * std::abs(cone.radius_from + cone.radius_to) * slant;
-  }
-  double operator()(const Ring& ring) const {
-    return std::numbers::pi * (ring.outer * ring.outer - ring.inner * ring.inner);
-  }
-  double operator()(const Torus& torus) const {
-    return std::numbers::pi * std::numbers::pi * (torus.outer * torus.outer - torus.inner * torus.inner);
-  }
-};
-
-/// Of a circle about an axis of any length: each coordinate goes as far as the axis leans away from it.
-void include_circle(vec::Box& box, const Vec3d& centre, const Vec3d& axis, double radius) {
-  const Vec3d unit = vec::unit(axis);
-  Vec3d reach{};
-  for (std::size_t i = 0; i < 3; ++i) reach[i] = std::abs(radius) * std::sqrt(std::max(0.0, 1 - unit[i] * unit[i]));
-  box.include(vec::subtract(centre, reach));
-  box.include(vec::add(centre, reach));
-}
-
-struct BoundsOf {
-  vec::Box operator()(const Sphere& sphere) const {
-    vec::Box box;
-    const double r = std::abs(sphere.radius);
-    box.include(vec::subtract(sphere.centre, {r, r, r}));
-    box.include(vec::add(sphere.centre, {r, r, r}));
-    return box;
-  }
-  vec::Box operator()(const Cone& cone) const {
-    vec::Box box;
-    const Vec3d along = vec::subtract(cone.to, cone.from);
-    include_circle(box, cone.from, along, cone.radius_from);
-    include_circle(box, cone.to, along, cone.radius_to);
-    return box;
-  }
-  vec::Box operator()(const Ring& ring) const {
-    vec::Box box;
-    include_circle(box, ring.centre, ring.normal, ring.outer);
-    return box;
-  }
-  vec::Box operator()(const Torus& torus) const {
-    const double tube = 0.5 * (std::abs(torus.outer) - std::abs(torus.inner));
-    vec::Box middle;
-    include_circle(middle, torus.centre, torus.normal, std::abs(torus.outer) - tube);
-    vec::Box box;
-    box.include(vec::subtract(middle.low, {tube, tube, tube}));
-    box.include(vec::add(middle.high, {tube, tube, tube}));
-    return box;
-  }
-};
-
 }  // namespace
 
 std::uint32_t Roundness::edges(double radius) const {
@@ -321,6 +261,29 @@ std::uint32_t Roundness::edges(double radius) const {
   std::uint32_t count = least;
   while (count < most && count < wanted) count = count % 3 == 0 ? count / 3 * 4 : count / 2 * 3;
   return count;
+}
+
+std::uint32_t parts_of_edge(std::uint32_t edges) {
+  return std::max(1U, (edges + 4) / 5);
+}
+
+Quad face(const Box& box, std::size_t axis, bool upper) {
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  // Each corner is the same sum in all its three faces, so that they meet to the last bit.
+  const auto corner = [&](bool at_u, bool at_v) {
+    std::array<bool, 3> at{};
+    at[axis] = upper;
+    at[u] = at_u;
+    at[v] = at_v;
+    Vec3d sum = box.corner;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (at[i]) sum = vec::add(sum, box.edges[i]);
+    return sum;
+  };
+  Quad quad{{corner(false, false), corner(true, false), corner(true, true), corner(false, true)}};
+  if (!upper) std::swap(quad.corners[1], quad.corners[3]);
+  return quad;
 }
 
 double ShapeMesh::area() const {
@@ -333,20 +296,16 @@ double ShapeMesh::area() const {
   return sum;
 }
 
+void ShapeMesh::flip() {
+  for (Triangle& triangle : triangles) {
+    std::swap(triangle.position[1], triangle.position[2]);
+    std::swap(triangle.normal[1], triangle.normal[2]);
+  }
+  for (Vec3d& normal : normals) normal = vec::scale(normal, -1);
+}
+
 ShapeMesh tessellated(const Shape& shape, const Roundness& roundness) {
   return std::visit(Tessellation(roundness), shape);
-}
-
-std::size_t triangles_of(const Shape& shape, const Roundness& roundness) {
-  return std::visit(CountTriangles{roundness}, shape);
-}
-
-double area(const Shape& shape) {
-  return std::visit(TrueArea{}, shape);
-}
-
-vec::Box bounds(const Shape& shape) {
-  return std::visit(BoundsOf{}, shape);
 }
 
 std::array<Vec3d, 2> across(const Vec3d& axis) {

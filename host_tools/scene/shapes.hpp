@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spheres, cones, rings and the like enter; triangles with normals leave.
+// Spheres, boxes, cones, rings and the like enter; triangles with normals leave.
 #pragma once
 
 #include <array>
@@ -36,7 +36,19 @@ struct Torus {
   Vec3d centre, normal;
   double inner, outer;
 };
-using Shape = std::variant<Sphere, Cone, Ring, Torus>;
+/// Four corners, counter-clockwise seen from the front.
+struct Quad {
+  std::array<Vec3d, 4> corners;
+};
+/// A corner and the three edges that leave it, right-handed: then fronts look outwards.
+struct Box {
+  Vec3d corner;
+  std::array<Vec3d, 3> edges;
+};
+using Shape = std::variant<Sphere, Cone, Ring, Torus, Quad, Box>;
+
+/// Of the two faces across an edge the one at the corner, or at the edge's other end (upper). Its front looks outwards.
+Quad face(const Box& box, std::size_t axis, bool upper);
 
 /// How many edges a circle gets: one of few numbers (12, 16, 24, 32, 48, ...), so that neighbours of nearly equal
 /// radius meet.
@@ -55,11 +67,14 @@ struct ShapeMesh {
   std::vector<Triangle> triangles;
 
   double area() const;
+  void flip();  ///< fronts become backs
 };
 
 /// A sphere is an icosahedron whose triangles are divided evenly; all corners lie on the true surface. Equal circles
 /// (ends of a cone, border of a ring) get equal corners, so that joined shapes are closed.
 ShapeMesh tessellated(const Shape& shape, const Roundness& roundness);
+/// Parts of each edge of the icosahedron, which spans a little more than a sixth of a circle.
+std::uint32_t parts_of_edge(std::uint32_t edges);
 /// How many triangles that makes, without making them.
 std::size_t triangles_of(const Shape& shape, const Roundness& roundness);
 /// Of the true surface.
