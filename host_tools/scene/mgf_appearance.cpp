@@ -76,7 +76,7 @@ class Appearance {
       notices_.note("roughness of glass (ts) is not rendered: it is clear", from_.place);
     const bool given = from_.index != 1 && from_.index_imaginary == 0;
     material.thin = !(given && from_.one_sided);
-    material.refractive_index = std::clamp(given ? from_.index : index_for(from_.specular.amount), 0.2, 5.0);
+    material.refractive_index = std::clamp(given ? from_.index : index_for_shares(), 0.2, 5.0);
     if (material.refractive_index != from_.index && given)
       notices_.note("an index of refraction (ir) beyond 0.2 to 5 is set to the nearest", from_.place);
     set_transmittance(material);
@@ -88,19 +88,34 @@ class Appearance {
   /// Of one face at right angles: Fresnel.
   static double one_face(double index) { return (index - 1) * (index - 1) / ((index + 1) * (index + 1)); }
 
-  /// A pane reflects 2 r / (1 + r), with all that goes to and fro between faces that reflect r each.
-  static double index_for(double reflectance) {
-    const double root = std::sqrt(reflectance / (2 - reflectance));
+  /// What is left on one way between two faces that reflect `face` each, where `through` passes both:
+  /// docs/materials.md, Panes, solved for t.
+  static double one_way(double face, double through) {
+    const double twice = (1 - face) * (1 - face);
+    return std::min(1.0, 2 * through / (twice + std::sqrt(twice * twice + 4 * through * through * face * face)));
+  }
+
+  /// Of both faces, with all that goes to and fro between them.
+  static double reflected(double face, double through) { return face * (1 + one_way(face, through) * through); }
+
+  /// The index of a pane that reflects rs and lets ts pass.
+  double index_for_shares() const {
+    double low = 0;
+    double high = from_.specular.amount;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (reflected(middle, from_.specular_through.amount) < from_.specular.amount ? low : high) = middle;
+    }
+    const double root = std::sqrt(high);
     return root < 1 ? (1 + root) / (1 - root) : 5;
   }
 
   void set_transmittance(SceneMaterial& material) {
     const double face = one_face(material.refractive_index);
-    const double reflected = 2 * face / (1 + face);
-    if (std::abs(reflected - from_.specular.amount) > 0.02)
+    if (std::abs(reflected(face, from_.specular_through.amount) - from_.specular.amount) > 0.02)
       notices_.note("glass reflects as its index of refraction (ir) has it, not as rs", from_.place);
-    material.transmittance = vec::scale(colour_of(from_.specular_through), 1 / (1 - reflected));
-    for (double& channel : material.transmittance) channel = std::min(channel, 1.0);
+    const Vec3d through = colour_of(from_.specular_through);
+    for (std::size_t c = 0; c < 3; ++c) material.transmittance[c] = one_way(face, through[c]);
   }
 
   const MgfMaterial& from_;
