@@ -11,8 +11,6 @@
 namespace torolux {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
