@@ -104,8 +104,8 @@ void add_lockstep_command(CLI::App& app, CommandAction& action) {
   CLI::App* command =
       app.add_subcommand(kLockstep, "Run both engines side by side and compare them at every HINT; writes no picture");
   add_scene_options(*command, *options, "IMAGE|SCENE",
-                    "A firmware image as for run, or a scene as for render: a folder with scene.toml, a .toml file, or "
-                    "an .obj file");
+                    "A firmware image as for run, or a scene as for render: a folder with scene.toml, a .toml file, an "
+                    ".obj or an .mgf file");
   command->add_flag("--quiet", options->quiet, "No progress, and not what the PEs say")->group("Results");
   add_view_options(*command, *options);
   add_light_options(*command, *options);

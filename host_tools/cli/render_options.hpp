@@ -69,7 +69,7 @@ struct RenderOptions {
 void add_scene_options(
     CLI::App& command, RenderOptions& options, const std::string& name = "SCENE",
     const std::string& help =
-        "A folder with scene.toml, a .toml, .obj, .gltf or .glb file, or the name of a scene that came with "
+        "A folder with scene.toml, a .toml, .obj, .gltf, .glb or .mgf file, or the name of a scene that came with "
         "the program");
 /// --exposure, --tone-curve.
 void add_tone_options(CLI::App& command, GivenSettings& given, const std::string& group);

@@ -8,6 +8,7 @@
 
 #include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/resolve_material.hpp"
+#include "host_tools/scene/rotation.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/texture_edges.hpp"
 
@@ -247,6 +248,17 @@ void SceneBuilder::add_rectangle(const std::array<Vec3d, 4>& corners, const Scen
   const std::array<std::uint32_t, 3> flat{kNoNormal, kNoNormal, kNoNormal};
   add_triangle({{first, first + 1, first + 2}, flat, number}, place);
   add_triangle({{first, first + 2, first + 3}, flat, number}, place);
+}
+
+void SceneBuilder::add_shape(const ShapeMesh& shape, const SceneMaterial& material, const Place& place) {
+  const std::uint32_t number = add_material(material, {}, place);
+  const auto first = static_cast<std::uint32_t>(positions_.size());
+  positions_.insert(positions_.end(), shape.positions.begin(), shape.positions.end());
+  const std::array<std::uint32_t, 3> flat{kNoNormal, kNoNormal, kNoNormal};
+  for (const ShapeMesh::Triangle& triangle : shape.triangles) {
+    const auto& p = triangle.position;
+    add_triangle({{first + p[0], first + p[1], first + p[2]}, flat, number}, place);
+  }
 }
 
 vec::Box SceneBuilder::bounds() const {

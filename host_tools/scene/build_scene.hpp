@@ -7,6 +7,7 @@
 
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/shapes.hpp"
 #include "host_tools/scene/textures.hpp"
 
 namespace torolux {
@@ -22,6 +23,8 @@ class SceneBuilder {
   void add_mesh(const ImportedMesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides);
   /// Four corners, counter-clockwise seen from the front.
   void add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material, const Place& place);
+
+  void add_shape(const ShapeMesh& shape, const SceneMaterial& material, const Place& place);
 
   /// Of all that was added so far.
   vec::Box bounds() const;

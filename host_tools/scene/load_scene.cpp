@@ -10,10 +10,12 @@
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/choose_camera.hpp"
 #include "host_tools/scene/gltf.hpp"
+#include "host_tools/scene/mgf.hpp"
 #include "host_tools/scene/obj.hpp"
 #include "host_tools/scene/part_overlaps.hpp"
 #include "host_tools/scene/plain_text.hpp"
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/scene_shapes.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/studio.hpp"
 
@@ -27,16 +29,18 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-constexpr const char* kAllowed = "a scene is a folder with scene.toml, a .toml, an .obj, a .gltf or a .glb";
+constexpr const char* kAllowed = "a scene is a folder with scene.toml, a .toml, an .obj, a .gltf, a .glb or an .mgf";
 
 bool is_mesh(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+  return extension == ".obj" || extension == ".gltf" || extension == ".glb" || extension == ".mgf";
 }
 
 ImportedMesh import_mesh(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at,
                          const SceneOptions& options, Notices& notices) {
-  if (lower_extension(path) == ".obj") return import_obj(path, files, asked_at, notices);
+  const std::string extension = lower_extension(path);
+  if (extension == ".obj") return import_obj(path, files, asked_at, notices);
+  if (extension == ".mgf") return import_mgf(path, files, asked_at, notices);
   return import_gltf(path, files, asked_at, options.gltf_units, notices);
 }
 
@@ -77,7 +81,7 @@ std::vector<ImportedCamera> add_meshes(const SceneFile& file, const std::filesys
   for (const MeshEntry& entry : file.meshes) {
     const std::filesystem::path mesh = scene.parent_path() / entry.file;
     const Place asked_at = entry.place.file.empty() ? Place{scene.string(), 0} : entry.place;
-    if (!is_mesh(mesh)) refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf or .glb; no other mesh is read");
+    if (!is_mesh(mesh)) refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf, .glb or .mgf; no other mesh is read");
     const ImportedMesh imported = import_mesh(mesh, files, asked_at, options, notices);
     builder.add_mesh(imported, entry, file.materials);
     add_cameras(imported, entry, cameras);
@@ -124,11 +128,14 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   const std::string text =
       is_mesh(path) ? "" : plain_text(files.read(path, whole, kMostTextBytes), path.string(), notices);
   const SceneFile file = is_mesh(path) ? scene_file_for_mesh(path) : read_scene_file(text, path.string());
-  if (file.meshes.empty() && file.lights.empty()) refuse(whole, "no [[mesh]] is named: there is nothing to render");
+  if (file.meshes.empty() && file.lights.empty() && file.shapes.empty() && file.lamps.empty() && !file.room)
+    refuse(whole, "no [[mesh]], [room] or shape is named: there is nothing to render");
 
   SceneBuilder builder(files, options.missing_materials, notices);
   const std::vector<ImportedCamera> cameras = add_meshes(file, path, files, options, builder, notices);
+  add_shapes(file, whole, builder);
   add_lights(file, builder);
+  add_lamps(file, builder);
 
   Scene scene;
   scene.name = file.name.value_or(scene_name(path));
@@ -147,6 +154,10 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   note_unused_overrides(file, used, notices);
   scene.warnings = notices.lines();
   if (!scene.camera && options.camera) scene.camera = options.camera;
+  if (!scene.camera && file.room && !file.room->open[static_cast<std::size_t>(Wall::front)]) {
+    scene.camera = room_camera(*file.room);
+    scene.warnings.push_back(path.string() + ": names no camera: one stands at the room's front wall");
+  }
   if (!scene.camera) {
     scene.camera = front_camera(bounds);
     scene.warnings.push_back(path.string() + ": names no camera: one looks from the front, along -z");

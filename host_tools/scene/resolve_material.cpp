@@ -29,6 +29,7 @@ void apply(const MaterialOverride& o, SceneMaterial& material) {
   if (o.glass) {
     material.kind = SurfaceKind::glass;
     material.refractive_index = *o.glass;
+    material.thin = o.thin.value_or(false);
   }
   if (o.glossy) {
     if (material.kind != SurfaceKind::diffuse) material.diffuse = {0, 0, 0};

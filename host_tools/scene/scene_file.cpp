@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads scene.toml: meshes, material overrides, lights, camera, defaults.
+// Reads scene.toml: meshes, material overrides, lights, shapes, camera, defaults.
 #include "host_tools/scene/scene_file.hpp"
 
 #include <algorithm>
@@ -51,6 +51,10 @@ MaterialOverride read_material(const std::string& name, TomlTable table) {
   material.glossy = table.triple("glossy", 0, kMost, true);
   material.exponent = table.number("exponent", 0, kMost);
   material.transmittance = table.triple("transmittance", 0, 1, true);
+  material.thin = table.flag("thin");
+  if (material.thin && !material.glass)
+    refuse(material.place,
+           "material '" + name + "' is thin, which only glass can be: give its 'glass', a refractive index");
   if ((material.diffuse ? 1 : 0) + (material.mirror ? 1 : 0) + (material.glass ? 1 : 0) > 1)
     refuse(material.place, "material '" + name + "' can have one of diffuse, mirror and glass");
   if (material.glossy && (material.mirror || material.glass))
@@ -61,42 +65,15 @@ MaterialOverride read_material(const std::string& name, TomlTable table) {
   return material;
 }
 
-std::array<Vec3d, 4> rectangle(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
-  return {corner, vec::add(corner, u), vec::add(vec::add(corner, u), v), vec::add(corner, v)};
-}
-
-/// The width lies level; for a light that faces up or down along x.
-std::array<Vec3d, 4> facing_rectangle(const Vec3d& centre, const std::array<double, 2>& size, const Vec3d& facing) {
-  const Vec3d normal = vec::unit(facing);
-  const Vec3d aside = std::abs(normal[1]) > 0.999 ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
-  const Vec3d u = vec::scale(vec::unit(vec::cross(aside, normal)), size[0]);
-  const Vec3d v = vec::scale(vec::cross(normal, vec::unit(u)), size[1]);
-  return rectangle(vec::subtract(centre, vec::scale(vec::add(u, v), 0.5)), u, v);
-}
-
 LightEntry read_light(TomlTable table) {
   LightEntry light;
   light.place = table.place();
   light.radiance = table.required(table.triple("radiance", 0, kMost, true), "radiance");
   if (!(vec::largest(light.radiance) > 0)) refuse(light.place, "[[light]] 'radiance' is zero");
   if (const auto diffuse = table.triple("diffuse", 0, 1, true)) light.diffuse = *diffuse;
-  const auto corner = table.triple("corner", -kMost, kMost, false);
-  const auto edges = table.two_vectors("edges", kMost);
-  const auto centre = table.triple("centre", -kMost, kMost, false);
-  const auto size = table.pair("size", 0, kMost);
-  const auto facing = table.triple("facing", -kMost, kMost, false);
+  const RectangleKeys rectangle(table);
   table.finish();
-  if (corner && edges && !centre && !size && !facing) {
-    light.corners = rectangle(*corner, (*edges)[0], (*edges)[1]);
-  } else if (centre && size && facing && !corner && !edges) {
-    if (!(vec::length(*facing) > 0)) refuse(table.place("facing"), "[[light]] 'facing' is zero: no direction");
-    light.corners = facing_rectangle(*centre, *size, *facing);
-  } else {
-    refuse(light.place, "[[light]] needs either 'corner' and 'edges', or 'centre', 'size' and 'facing'");
-  }
-  const Vec3d area =
-      vec::cross(vec::subtract(light.corners[1], light.corners[0]), vec::subtract(light.corners[3], light.corners[0]));
-  if (!(vec::length(area) > 0)) refuse(light.place, "[[light]] has no area");
+  light.corners = rectangle.corners(table);
   return light;
 }
 
@@ -166,6 +143,21 @@ SceneDefaults read_defaults(TomlTable table) {
   return defaults;
 }
 
+void read_shapes(TomlTable& table, const std::string& file, SceneFile& scene) {
+  if (const toml::table* room = table.table("room")) scene.room = read_room({*room, file, "[room]"}, *room);
+  using Read = ShapeEntry (*)(TomlTable);
+  constexpr std::array<std::pair<const char*, Read>, 6> kinds{{{"sphere", read_sphere},
+                                                               {"box", read_box},
+                                                               {"quad", read_quad},
+                                                               {"disc", read_disc},
+                                                               {"cylinder", read_cylinder},
+                                                               {"torus", read_torus}}};
+  for (const auto& [kind, read] : kinds)
+    for (const toml::table* shape : table.tables(kind))
+      scene.shapes.push_back(read({*shape, file, "[[" + std::string(kind) + "]]"}));
+  for (const toml::table* lamp : table.tables("lamp")) scene.lamps.push_back(read_lamp({*lamp, file, "[[lamp]]"}));
+}
+
 }  // namespace
 
 SceneFile read_scene_file(std::string_view text, const std::string& file) {
@@ -184,6 +176,7 @@ SceneFile read_scene_file(std::string_view text, const std::string& file) {
   }
   for (const toml::table* light : table.tables("light"))
     scene.lights.push_back(read_light({*light, file, "[[light]]"}));
+  read_shapes(table, file, scene);
   if (const toml::table* camera = table.table("camera")) {
     TomlTable entry(*camera, file, "[camera]");
     scene.camera = read_camera(entry, "[camera]");

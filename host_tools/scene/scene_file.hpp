@@ -11,6 +11,7 @@
 
 #include "host_tools/scene/files.hpp"
 #include "host_tools/scene/scene.hpp"
+#include "host_tools/scene/shape_entries.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -31,6 +32,7 @@ struct MaterialOverride {
   std::optional<Vec3d> diffuse, emission, mirror, glossy, transmittance;
   std::optional<double> glass;     ///< refractive index
   std::optional<double> exponent;  ///< of glossy
+  std::optional<bool> thin;        ///< of glass
   Place place;
 };
 
@@ -46,6 +48,9 @@ struct SceneFile {
   std::vector<MeshEntry> meshes;
   std::vector<MaterialOverride> materials;
   std::vector<LightEntry> lights;
+  std::optional<RoomEntry> room;
+  std::vector<ShapeEntry> shapes;
+  std::vector<LampEntry> lamps;
   std::optional<Camera> camera;
   SceneDefaults defaults;
 };

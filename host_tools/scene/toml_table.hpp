@@ -26,6 +26,7 @@ class TomlTable {
   TomlTable(const toml::table& table, std::string file, std::string title)
       : table_(table), file_(std::move(file)), title_(std::move(title)) {}
 
+  const std::string& title() const { return title_; }
   Place place() const { return place_of(table_, file_); }
   Place place(std::string_view key) const;
 

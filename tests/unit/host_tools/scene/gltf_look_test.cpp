@@ -41,7 +41,7 @@ TEST(GltfMaterials, MetalsAreMirrorsLobesOrDiffuseByTheirRoughness) {
   EXPECT_EQ(rough.kind, SurfaceKind::diffuse);
   expect_near(rough.specular, {0.9, 0.7, 0.3});
   expect_near(rough.diffuse, {0, 0, 0});
-  EXPECT_NEAR(rough.exponent, 30, 1e-9);  // alpha 1/4: 2 * 16 - 2
+  EXPECT_NEAR(rough.exponent, 7.5, 1e-9);  // alpha 1/4: (16 - 1) / 2
   const SceneMaterial wide = material({{"baseColorFactor", gold}});
   expect_near(wide.diffuse, {0.9, 0.7, 0.3});
   expect_near(wide.specular, {0, 0, 0});
@@ -218,7 +218,7 @@ TEST(GltfCameras, TheFirstIsTakenOrTheOneThatIsNamed) {
 
 TEST(RoughSurface, ExponentsFallWithRoughness) {
   EXPECT_NEAR(lobe_exponent(1), 0, 1e-12);
-  EXPECT_NEAR(lobe_exponent(0.1), 19998, 1e-6);
+  EXPECT_NEAR(lobe_exponent(0.1), 4999.5, 1e-6);
   EXPECT_EQ(lobe_exponent(0), lobe_exponent(0.1));
 }
 
