@@ -148,10 +148,11 @@ Features features_of(const Plane& luminance, double pixels_per_degree) {
   const int reach = static_cast<int>(std::ceil(kReach * sigma));
   const std::vector<double> blur = gaussian_weights(sigma, reach);
   std::vector<double> edge, point;
-  for (int i = -reach; i <= reach; ++i) {
-    const double weight = blur[static_cast<std::size_t>(i + reach)];
-    edge.push_back(-i * weight);
-    point.push_back((i * i / (sigma * sigma) - 1) * weight);
+  int offset = -reach;
+  for (const double weight : blur) {
+    edge.push_back(-offset * weight);
+    point.push_back((offset * offset / (sigma * sigma) - 1) * weight);
+    ++offset;
   }
   balance(edge);
   balance(point);

@@ -35,8 +35,9 @@ Picture edge(std::uint32_t at) {
 Picture ramps(float amplitude) {
   Picture picture = even(40, 30, {});
   for (std::uint32_t i = 0; i < 40 * 30; ++i) {
+    const std::uint32_t row = i / 40;
     const auto x = static_cast<float>(i % 40);
-    const auto y = static_cast<float>(i / 40);
+    const auto y = static_cast<float>(row);
     picture.pixels[i] = {x / 40, y / 30, (x + y) / 70};
     for (std::uint32_t c = 0; c < 3; ++c) {
       const float noise = amplitude * (protocol::uniform_float(protocol::hash_combine(i, c)) - 0.5F);

@@ -38,9 +38,9 @@ Plane stripes(double width, double degrees, std::uint32_t seed) {
   Plane plane(kEdge, kEdge);
   const double angle = degrees * std::numbers::pi / 180;
   for (std::uint32_t i = 0; i < kEdge * kEdge; ++i) {
-    const double across =
-        (static_cast<double>(i % kEdge) * std::cos(angle) + static_cast<double>(i / kEdge) * std::sin(angle)) / width +
-        1000;
+    const std::uint32_t column = i % kEdge;
+    const std::uint32_t row = i / kEdge;
+    const double across = (column * std::cos(angle) + row * std::sin(angle)) / width + 1000;
     const double part = across - std::floor(across);
     const auto stripe = static_cast<std::uint32_t>(across);
     const double blend = part * part * (3 - 2 * part);
@@ -84,7 +84,8 @@ TEST(Streaks, EqualNoiseHasNextToNothingLeft) {
 TEST(Streaks, ASinglePatchIsNot) {
   Plane plane(kEdge, kEdge);
   for (std::uint32_t i = 0; i < kEdge * kEdge; ++i) {
-    const double distance = std::hypot(static_cast<double>(i % kEdge) - 90, static_cast<double>(i / kEdge) - 100);
+    const std::uint32_t row = i / kEdge;
+    const double distance = std::hypot(i % kEdge - 90.0, row - 100.0);
     plane.values[i] = static_cast<float>(std::exp(-distance * distance / 50));
   }
   EXPECT_LT(streaks(plane).share, 0.25);
