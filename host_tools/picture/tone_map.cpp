@@ -73,6 +73,17 @@ std::uint8_t to_srgb(float linear) {
   return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
+Picture shown(const Picture& picture, double factor, ToneCurve curve) {
+  Picture result{picture.width, picture.height, {}};
+  result.pixels.reserve(picture.pixels.size());
+  for (const auto& pixel : picture.pixels) {
+    std::array<float, 3> exposed{};
+    for (std::size_t c = 0; c < 3; ++c) exposed[c] = static_cast<float>(double{pixel[c]} * factor);
+    result.pixels.push_back(compress(exposed, curve));
+  }
+  return result;
+}
+
 std::vector<std::uint8_t> tone_map(const Picture& picture, const ToneMapping& mapping) {
   const double factor = exposure_factor(picture, mapping.exposure_ev);
   std::vector<std::uint8_t> bytes;

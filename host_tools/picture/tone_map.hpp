@@ -32,6 +32,9 @@ std::array<float, 3> compress(const std::array<float, 3>& colour, ToneCurve curv
 /// Linear 0..1 -> sRGB 0..255 (IEC 61966-2-1), rounded to nearest.
 std::uint8_t to_srgb(float linear);
 
+/// Exposed by `factor`, through the curve: what a display shows, linear 0..1.
+Picture shown(const Picture& picture, double factor, ToneCurve curve);
+
 /// The whole way: width * height * 3 bytes, R G B, row 0 on top.
 std::vector<std::uint8_t> tone_map(const Picture& picture, const ToneMapping& mapping);
 

@@ -286,6 +286,24 @@ TEST(Main, CompareTellsTheDifferenceAndWritesIt) {
   EXPECT_EQ(difference.pixels[1], (std::array<float, 3>{0, 0, 2}));
 }
 
+TEST(Main, CompareTellsWhatIsSeen) {
+  const TemporaryFolder folder;
+  write_picture({2, 2, {{1, 1, 1}, {2, 2, 2}, {1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm");
+  write_picture({2, 2, {{1, 1, 1}, {2, 2, 2}, {1, 1, 1}, {2, 2, 4}}}, folder.path() / "b.pfm");
+  const auto compared = [&](const std::filesystem::path& other, const std::string& distance) {
+    return torolux({"compare", folder.path() / "a.pfm", other, "--flip-map", folder.path() / "map.exr",
+                    "--pixels-per-degree", distance});
+  };
+  const Outcome different = compared(folder.path() / "b.pfm", "67");
+  EXPECT_EQ(different.code, 0) << different.err;
+  EXPECT_THAT(different.out, HasSubstr("HDR-FLIP"));
+  EXPECT_THAT(different.out, HasSubstr("streaks [L*]"));
+  EXPECT_GT(read_picture(folder.path() / "map.exr").pixels[3][0], 0.05);
+  EXPECT_EQ(compared(folder.path() / "a.pfm", "67").code, 0);
+  EXPECT_EQ(read_picture(folder.path() / "map.exr").pixels[3][0], 0);
+  EXPECT_EQ(compared(folder.path() / "b.pfm", "0").code, 1);
+}
+
 TEST(Main, CompareRefusesOtherSizes) {
   const TemporaryFolder folder;
   write_picture({2, 1, {{1, 1, 1}, {2, 2, 2}}}, folder.path() / "a.pfm");
