@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Points one by one (Lawson 1977), then the border's edges by flips (S. Sloan, A fast algorithm for generating
-// constrained Delaunay triangulations, Computers & Structures 47, 1993), then what lies inside. delaunay_refine.cpp
-// adds points.
+// constrained Delaunay triangulations, Computers & Structures 47, 1993), then what lies inside.
 #include "host_tools/mesh/delaunay.hpp"
 
 #include <algorithm>

@@ -301,16 +301,8 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
   }
 }
 
-Mesh mesh_of(const Scene& scene, const MeshChoice& choice) {
-  Mesh mesh;
-  mesh.space = scene_space(scene);
-  take_triangles(scene, mesh);
-  choose_sides(scene, choice, mesh);
-  return mesh;
-}
-
-/// The scene but for its images, its flat regions cut anew: with few triangles first, as lengths depend on these.
-Scene retriangulated(const Scene& scene, const MeshChoice& choice) {
+/// The scene but for its images, its flat regions cut anew.
+Scene retriangulated(const Scene& scene) {
   Scene cut{scene.name,
             scene.positions,
             scene.normals,
@@ -321,19 +313,18 @@ Scene retriangulated(const Scene& scene, const MeshChoice& choice) {
             std::nullopt,
             {},
             {}};
-  retriangulate(cut, kAnyLength);
-  Mesh mesh = mesh_of(cut, choice);
-  set_lengths(cut, choice, mesh);
-  // Smaller triangles share their elements with others.
-  if (mesh.lengths.element > 0) retriangulate(cut, mesh.lengths.element / 2);
+  retriangulate(cut);
   return cut;
 }
 
 }  // namespace
 
 Mesh make_mesh(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes) {
-  const Scene cut = retriangulated(scene, choice);
-  Mesh mesh = mesh_of(cut, choice);
+  const Scene cut = retriangulated(scene);
+  Mesh mesh;
+  mesh.space = scene_space(cut);
+  take_triangles(cut, mesh);
+  choose_sides(cut, choice, mesh);
   make_patches(choose_cutting(cut, choice, machine_bytes, mesh), choice.splits, mesh);
   for (MeshFacet& facet : mesh.facets) facet.sends_from = sending_part(mesh, facet);
   for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, choice.texels));

@@ -30,10 +30,4 @@ constexpr Wide in_circle(const std::array<PlanePoint, 3>& corner, PlanePoint p) 
   return sum;
 }
 
-/// Whether p lies inside the circle of which a and b are opposite ends.
-constexpr bool in_half_circle(PlanePoint a, PlanePoint b, PlanePoint p) {
-  return (std::int64_t{a.x} - p.x) * (std::int64_t{b.x} - p.x) + (std::int64_t{a.y} - p.y) * (std::int64_t{b.y} - p.y) <
-         0;
-}
-
 }  // namespace torolux::plane

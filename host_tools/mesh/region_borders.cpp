@@ -4,6 +4,7 @@
 #include "host_tools/mesh/region_borders.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "host_tools/scene/vec.hpp"
 
@@ -25,12 +26,10 @@ std::pair<double, double> place_on(const Vec3d& a, const Vec3d& b, const Vec3d& 
 
 }  // namespace
 
-RegionBorders::RegionBorders(const Scene& scene, const FlatRegions& regions, const std::vector<bool>& frozen,
-                             double short_edge)
+RegionBorders::RegionBorders(const Scene& scene, const FlatRegions& regions, const std::vector<bool>& frozen)
     : scene_(scene),
       regions_(regions),
       frozen_(frozen),
-      short_edge_(short_edge),
       borders_(regions.all.size()),
       neighbours_(scene.positions.size()),
       stays_(scene.positions.size(), false),
@@ -151,51 +150,7 @@ void RegionBorders::join_edges() {
       joined.emplace_back(a, b);
     }
     borders_[region] = std::move(joined);
-    for (const auto& [a, b] : borders_[region]) {
-      if (!(length_of(a, b) > short_edge_)) continue;
-      auto& at = regions_at_[edge(a, b)];
-      if (at.empty() || at.back() != region) at.push_back(region);
-    }
   }
-}
-
-std::vector<std::pair<std::uint32_t, std::uint32_t>> RegionBorders::around(std::uint32_t region) const {
-  std::vector<Edge> edges;
-  for (const auto& [a, b] : borders_[region]) add_halves(a, b, edges);
-  return edges;
-}
-
-void RegionBorders::add_halves(std::uint32_t a, std::uint32_t b, std::vector<Edge>& edges) const {
-  const auto found = middle_.find(edge(a, b));
-  if (found == middle_.end()) {
-    edges.emplace_back(a, b);
-    return;
-  }
-  add_halves(a, found->second, edges);
-  add_halves(found->second, b, edges);
-}
-
-bool RegionBorders::has_needless_points(std::uint32_t region) const {
-  return needless_[region];
-}
-
-bool RegionBorders::may_halve(std::uint32_t a, std::uint32_t b) const {
-  return length_of(a, b) > short_edge_ &&
-         std::ranges::none_of(regions_at(a, b), [&](std::uint32_t region) { return frozen_[region]; });
-}
-
-void RegionBorders::halve(std::uint32_t a, std::uint32_t b, std::uint32_t middle) {
-  const auto whole = half_of_.find(edge(a, b));
-  const Edge of = whole == half_of_.end() ? edge(a, b) : whole->second;
-  middle_[edge(a, b)] = middle;
-  half_of_[edge(a, middle)] = of;
-  half_of_[edge(middle, b)] = of;
-}
-
-std::vector<std::uint32_t> RegionBorders::regions_at(std::uint32_t a, std::uint32_t b) const {
-  const auto whole = half_of_.find(edge(a, b));
-  const auto found = regions_at_.find(whole == half_of_.end() ? edge(a, b) : whole->second);
-  return found == regions_at_.end() ? std::vector<std::uint32_t>{} : found->second;
 }
 
 }  // namespace torolux

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Proves: triangulations fill exactly the region that the border bounds, with Delaunay's property, for any order of its
-// edges; refined, no large triangle is thin; borders that bound nothing are refused.
+// edges; borders that bound nothing are refused.
 #include "host_tools/mesh/delaunay.hpp"
 
 #include <gtest/gtest.h>
@@ -37,17 +37,6 @@ std::int64_t area_of(const Triangulation& t) {
     sum += area;
   }
   return sum;
-}
-
-double smallest_angle(const std::array<PlanePoint, 3>& c) {
-  double least = 180;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& a = c[i];
-    const auto angle = [&](const PlanePoint& to) { return std::atan2(double(to.y) - a.y, double(to.x) - a.x); };
-    const double d = std::abs(std::remainder(angle(c[(i + 1) % 3]) - angle(c[(i + 2) % 3]), 2 * std::numbers::pi));
-    least = std::min(least, d * 180 / std::numbers::pi);
-  }
-  return least;
 }
 
 /// A wall of 1000 x 400 with a window of 300 x 200.
@@ -112,36 +101,6 @@ TEST(Delaunay, FillsAnyOutlineWithEmptyCircles) {
     }
   });
   EXPECT_TRUE(holds);
-}
-
-TEST(Delaunay, RefinedNoLargeTriangleIsThin) {
-  const Points strip{{0, 0}, {400'000, 0}, {400'000, 9000}, {0, 9000}};
-  for (const auto& [points, border] : {std::pair(strip, loop(0, 4)), std::pair(kWall, wall_border())}) {
-    auto t = Triangulation::make(points, border);
-    ASSERT_TRUE(t);
-    const std::int64_t area = area_of(*t);
-    std::size_t halved = 0;
-    const double least = 10;
-    ASSERT_TRUE(t->refine(least, [&](std::uint32_t a, std::uint32_t b) -> std::optional<PlanePoint> {
-      ++halved;
-      const PlanePoint p = t->points()[a];
-      const PlanePoint q = t->points()[b];
-      return PlanePoint{(p.x + q.x) / 2, (p.y + q.y) / 2};
-    }));
-    EXPECT_EQ(area_of(*t), area);
-    for (const auto& triangle : t->triangles())
-      EXPECT_GT(smallest_angle(corners_of(*t, triangle)), 20.0);  // 20.7, but that coordinates are whole
-    EXPECT_LT(t->triangles().size(), 700U) << halved;             // a strip of 44 squares: some eight for each
-  }
-}
-
-/// What may not be halved stays; thin triangles at it do, too, and the work ends.
-TEST(Delaunay, EdgesThatStayWholeAreKept) {
-  auto t = Triangulation::make(Points{{0, 0}, {400'000, 0}, {400'000, 9000}, {0, 9000}}, loop(0, 4));
-  ASSERT_TRUE(t);
-  ASSERT_TRUE(t->refine(10, [](std::uint32_t, std::uint32_t) { return std::nullopt; }));
-  EXPECT_EQ(area_of(*t), 2LL * 400'000 * 9000);
-  for (const std::uint32_t i : {0U, 1U, 2U, 3U}) EXPECT_EQ(t->points()[i].x, i == 0 || i == 3 ? 0 : 400'000);
 }
 
 }  // namespace
