@@ -168,7 +168,8 @@ TEST(SceneToml, RefusalsNameFileAndLine) {
   EXPECT_THAT(refused("\n[[mesh]]\nscale = 1\n"), StartsWith("s.toml:2: [[mesh]] lacks 'file'"));
   EXPECT_THAT(refused("[[mesh]]\nfile = 3\n"), StartsWith("s.toml:2: [[mesh]] 'file' must be a text"));
   EXPECT_THAT(refused("[[mesh]]\nfile = 'b.obj'\n"), StartsWith("s.toml:1: there is no file 'b.obj'"));
-  EXPECT_THAT(refused("[[mesh]]\nfile = 'b.ply'\n"), StartsWith("s.toml:1: 'b.ply' is not an .obj, .gltf, .glb or .mgf"));
+  EXPECT_THAT(refused("[[mesh]]\nfile = 'b.ply'\n"),
+              StartsWith("s.toml:1: 'b.ply' is not an .obj, .gltf, .glb or .mgf"));
   EXPECT_THAT(refused(kMesh + "scale = 0\n"), StartsWith("s.toml:3: [[mesh]] 'scale' is zero"));
   EXPECT_THAT(refused(kMesh + "scale = [1, 0, 1]\n"), HasSubstr("'scale' is zero"));
   EXPECT_THAT(refused(kMesh + "translate = [1, 2]\n"), HasSubstr("array of three numbers"));
