@@ -81,7 +81,8 @@ std::vector<ImportedCamera> add_meshes(const SceneFile& file, const std::filesys
   for (const MeshEntry& entry : file.meshes) {
     const std::filesystem::path mesh = scene.parent_path() / entry.file;
     const Place asked_at = entry.place.file.empty() ? Place{scene.string(), 0} : entry.place;
-    if (!is_mesh(mesh)) refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf, .glb or .mgf; no other mesh is read");
+    if (!is_mesh(mesh))
+      refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf, .glb or .mgf; no other mesh is read");
     const ImportedMesh imported = import_mesh(mesh, files, asked_at, options, notices);
     builder.add_mesh(imported, entry, file.materials);
     add_cameras(imported, entry, cameras);
