@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host_tools/mesh/retriangulate.hpp"
 #include "tests/references/path_tracer.hpp"
 #include "tests/support/render_support.hpp"
 
@@ -21,6 +22,7 @@ struct Dense {
 
 Dense dense(const char* name, double length, const FormFactorChoice& choice) {
   Dense result{load_scene(test::data_dir() / "scenes" / name, {}), {}, {}};
+  retriangulate(result.scene);  // as the mesh has it
   result.elements = dense_elements(result.scene, make_mesh(result.scene, {length, length, false}), false);
   result.form_factors = dense_form_factors(result.elements, World(result.scene, false), choice);
   return result;
