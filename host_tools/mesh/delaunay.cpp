@@ -24,7 +24,7 @@ Triangulation::Triangulation() {
   constexpr std::int32_t far = kMostOfPlane * 8;
   points_ = {{-far, -far}, {far, -far}, {0, far}};
   at_ = {0, 0, 0};
-  triangles_.push_back({{0, 1, 2}, {kNone, kNone, kNone}, {false, false, false}, false});
+  triangles_.push_back({{0, 1, 2}, {kNone, kNone, kNone}});
 }
 
 std::optional<Triangulation> Triangulation::make(std::span<const PlanePoint> points, const Border& border) {
@@ -86,23 +86,22 @@ std::optional<Triangulation::EdgePlace> Triangulation::find_edge(std::uint32_t a
   return std::nullopt;
 }
 
-void Triangulation::flip(std::uint32_t t, std::uint32_t i) {
-  const std::uint32_t u = triangles_[t].beside[i];
+Triangulation::Pair Triangulation::pair_at(std::uint32_t t, std::uint32_t i) const {
+  const Triangle& one = triangles_[t];
+  const std::uint32_t u = one.beside[i];
   const std::uint32_t j = index_towards(u, t);
-  const Triangle one = triangles_[t];
-  const Triangle two = triangles_[u];
-  const std::uint32_t p = one.corner[i];
-  const std::uint32_t a = one.corner[next(i)];
-  const std::uint32_t b = one.corner[previous(i)];
-  const std::uint32_t q = two.corner[j];
+  const Triangle& two = triangles_[u];
+  return {u, i, j, one, two, one.corner[i], one.corner[next(i)], one.corner[previous(i)], two.corner[j]};
+}
+
+void Triangulation::flip(std::uint32_t t, std::uint32_t edge) {
+  const auto [u, i, j, one, two, p, a, b, q] = pair_at(t, edge);
   set(t, {{p, a, q},
           {two.beside[next(j)], u, one.beside[previous(i)]},
-          {two.fixed[next(j)], false, one.fixed[previous(i)]},
-          one.inside});
+          {two.fixed[next(j)], false, one.fixed[previous(i)]}});
   set(u, {{p, q, b},
           {two.beside[previous(j)], one.beside[next(i)], t},
-          {two.fixed[previous(j)], one.fixed[next(i)], false},
-          two.inside});
+          {two.fixed[previous(j)], one.fixed[next(i)], false}});
   replace_neighbour(two.beside[next(j)], u, t);
   replace_neighbour(one.beside[next(i)], t, u);
 }
@@ -157,8 +156,10 @@ bool Triangulation::add(PlanePoint point) {
   at_.push_back(t);
   for (std::uint32_t i = 0; i < 3; ++i) {
     const auto& corner = triangles_[t].corner;
-    if (plane::turn(points_[corner[next(i)]], points_[corner[previous(i)]], point) == 0)
-      return split_edge(t, i, number);
+    if (plane::turn(points_[corner[next(i)]], points_[corner[previous(i)]], point) == 0) {
+      split_edge(t, i, number);
+      return true;
+    }
   }
   split_triangle(t, number);
   return true;
@@ -170,44 +171,27 @@ void Triangulation::split_triangle(std::uint32_t t, std::uint32_t p) {
   triangles_.resize(first + 2);
   const std::array<std::uint32_t, 3> part{t, first, first + 1};
   for (std::uint32_t i = 0; i < 3; ++i) {
-    set(part[i], {{p, old.corner[next(i)], old.corner[previous(i)]},
-                  {old.beside[i], part[next(i)], part[previous(i)]},
-                  {old.fixed[i], false, false},
-                  old.inside});
+    set(part[i],
+        {{p, old.corner[next(i)], old.corner[previous(i)]}, {old.beside[i], part[next(i)], part[previous(i)]}});
     if (i > 0) replace_neighbour(old.beside[i], t, part[i]);
   }
   settle(p);
 }
 
-/// Halves, on both of its sides. False, and nothing is done: a half would be turned over.
-bool Triangulation::split_edge(std::uint32_t t, std::uint32_t i, std::uint32_t m) {
-  const std::uint32_t u = triangles_[t].beside[i];
-  if (u == kNone) return false;
-  const std::uint32_t j = index_towards(u, t);
-  const Triangle one = triangles_[t];
-  const Triangle two = triangles_[u];
-  const std::uint32_t p = one.corner[i];
-  const std::uint32_t a = one.corner[next(i)];
-  const std::uint32_t b = one.corner[previous(i)];
-  const std::uint32_t q = two.corner[j];
-  const auto positive = [&](std::uint32_t x, std::uint32_t y) {
-    return plane::turn(points_[x], points_[y], points_[m]) > 0;
-  };
-  if (!positive(p, a) || !positive(b, p) || !positive(q, b) || !positive(a, q)) return false;
+/// Halves, on both of its sides; m lies on it. It has two: points lie within the triangle around everything.
+void Triangulation::split_edge(std::uint32_t t, std::uint32_t edge, std::uint32_t m) {
+  const auto [u, i, j, one, two, p, a, b, q] = pair_at(t, edge);
   const auto first = static_cast<std::uint32_t>(triangles_.size());
   triangles_.resize(first + 2);
   const std::uint32_t beyond_t = first;      // m, b, p
   const std::uint32_t beyond_u = first + 1;  // m, q, b
-  const bool fixed = one.fixed[i];
-  set(t, {{m, p, a}, {one.beside[previous(i)], u, beyond_t}, {one.fixed[previous(i)], fixed, false}, one.inside});
-  set(beyond_t, {{m, b, p}, {one.beside[next(i)], t, beyond_u}, {one.fixed[next(i)], false, fixed}, one.inside});
-  set(u, {{m, a, q}, {two.beside[next(j)], beyond_u, t}, {two.fixed[next(j)], false, fixed}, two.inside});
-  set(beyond_u,
-      {{m, q, b}, {two.beside[previous(j)], beyond_t, u}, {two.fixed[previous(j)], fixed, false}, two.inside});
+  set(t, {{m, p, a}, {one.beside[previous(i)], u, beyond_t}});
+  set(beyond_t, {{m, b, p}, {one.beside[next(i)], t, beyond_u}});
+  set(u, {{m, a, q}, {two.beside[next(j)], beyond_u, t}});
+  set(beyond_u, {{m, q, b}, {two.beside[previous(j)], beyond_t, u}});
   replace_neighbour(one.beside[next(i)], t, beyond_t);
   replace_neighbour(two.beside[previous(j)], u, beyond_u);
   settle(m);
-  return true;
 }
 
 /// The edges opposite a new point, all around it.

@@ -37,8 +37,14 @@ class Triangulation {
   struct Triangle {
     std::array<std::uint32_t, 3> corner;  // counter-clockwise
     std::array<std::uint32_t, 3> beside;  // the neighbour opposite each corner
-    std::array<bool, 3> fixed;            // the edge opposite each corner is of the border
+    std::array<bool, 3> fixed{};          // the edge opposite each corner is of the border
     bool inside = false;
+  };
+  /// Two triangles and the edge between them, from a to b with `one`'s corner p on its left and `two`'s q on its right.
+  struct Pair {
+    std::uint32_t u, i, j;  // number of `two`; indices of p and q
+    Triangle one, two;
+    std::uint32_t p, a, b, q;
   };
   struct EdgePlace {
     std::uint32_t triangle, opposite;  // index of the corner opposite the edge
@@ -54,6 +60,7 @@ class Triangulation {
   /// The edge from a to b, from the triangle on its left.
   std::optional<EdgePlace> find_edge(std::uint32_t a, std::uint32_t b) const;
 
+  Pair pair_at(std::uint32_t triangle, std::uint32_t i) const;
   void flip(std::uint32_t triangle, std::uint32_t i);
   bool flips_well(std::uint32_t triangle, std::uint32_t i) const;
   bool is_delaunay(std::uint32_t triangle, std::uint32_t i) const;
@@ -61,7 +68,7 @@ class Triangulation {
 
   bool add(PlanePoint point);
   void split_triangle(std::uint32_t triangle, std::uint32_t point);
-  bool split_edge(std::uint32_t triangle, std::uint32_t i, std::uint32_t point);
+  void split_edge(std::uint32_t triangle, std::uint32_t i, std::uint32_t point);
   void settle(std::uint32_t point);
 
   bool fix(std::uint32_t a, std::uint32_t b);

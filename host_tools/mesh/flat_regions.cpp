@@ -7,13 +7,12 @@
 #include <numeric>
 
 #include "host_tools/mesh/edges.hpp"
+#include "host_tools/scene/flat_surfaces.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
 
-/// Of the scene's size, from the seed's plane: as surfaces in one plane (docs/scenes.md).
-constexpr double kSamePlane = 0.5e-6;
 /// Cosine between normals; small triangles lie near every plane through them.
 constexpr double kSameNormal = 0.9999;
 
@@ -98,7 +97,7 @@ class RegionFinder {
     if (t.material != seed.material || !(vec::dot(vec::unit(cross_of(scene_, t)), normal) > kSameNormal)) return false;
     const Vec3d& origin = scene_.positions[seed.position[0]];
     const bool flat = std::ranges::all_of(t.position, [&](std::uint32_t p) {
-      return std::abs(vec::dot(normal, vec::subtract(scene_.positions[p], origin))) <= kSamePlane * size_;
+      return std::abs(vec::dot(normal, vec::subtract(scene_.positions[p], origin))) <= 0.5 * kSamePlane * size_;
     });
     return flat && continues_texture(t, seed);
   }

@@ -113,37 +113,27 @@ static_assert((sizeof(protocol::Element) * 2 + sizeof(protocol::Facet) + sizeof(
                   << 2 * kMostLevelsOfPatch <=
               protocol::kDefaultLocalMemory * 3 / 4);
 
-/// As chosen, or as the surface asks for. Returns the lit triangles' longest edges; of the others 0.
-std::vector<double> set_lengths(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
-  std::vector<double> edges(mesh.triangles.size(), 0);
-  std::vector<CutTriangle> cut;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.triangles[t].sides == 0) continue;
-    edges[t] = longest_edge(scene, mesh.triangles[t].position);
-    cut.push_back({edges[t], mesh.triangles[t].area});
-  }
-  if (cut.empty()) return edges;
-  MeshLengths& lengths = mesh.lengths;
-  if (!choice.patch_length || !choice.element_length) lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
-  lengths.patch = choice.patch_length.value_or(lengths.patch * choice.patch_factor);
-  lengths.element = choice.element_length.value_or(lengths.element * choice.element_factor);
-  lengths.cluster = lengths.element * choice.cluster_factor;
-  return edges;
-}
-
 Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes, Mesh& mesh) {
   Cutting cutting{std::vector<int>(mesh.triangles.size(), -1), std::vector<int>(mesh.triangles.size(), -1), {}};
+  std::vector<CutTriangle> cut;
   std::vector<SizedTriangle> sized;
-  const std::vector<double> edges = set_lengths(scene, choice, mesh);
-  for (std::size_t t = 0; t < edges.size(); ++t)
-    if (mesh.triangles[t].sides != 0) sized.push_back({edges[t], mesh.triangles[t].side_count()});
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (triangle.sides == 0) continue;
+    cut.push_back({longest_edge(scene, triangle.position), triangle.area});
+    sized.push_back({cut.back().longest_edge, triangle.side_count()});
+  }
   std::vector<bool> small(mesh.triangles.size(), false);
-  const MeshLengths& lengths = mesh.lengths;
-  if (!sized.empty()) {
+  MeshLengths& lengths = mesh.lengths;
+  if (!cut.empty()) {
+    if (!choice.patch_length || !choice.element_length) lengths = choose_lengths(cut, count_smooth_surfaces(mesh));
+    lengths.patch = choice.patch_length.value_or(lengths.patch * choice.patch_factor);
+    lengths.element = choice.element_length.value_or(lengths.element * choice.element_factor);
+    lengths.cluster = lengths.element * choice.cluster_factor;
     require_possible(sized, lengths, machine_bytes);
+    std::size_t next = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.triangles[t].sides == 0) continue;
-      const double edge = edges[t];
+      const double edge = cut[next++].longest_edge;
       cutting.patch_level[t] = level_for(edge, lengths.patch);
       cutting.element_level[t] = std::max<int>(cutting.patch_level[t], level_for(edge, lengths.element));
       if (!choice.patch_length)
@@ -303,16 +293,13 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
 
 /// The scene but for its images, its flat regions cut anew.
 Scene retriangulated(const Scene& scene) {
-  Scene cut{scene.name,
-            scene.positions,
-            scene.normals,
-            scene.texture_points,
-            scene.triangles,
-            scene.materials,
-            {},
-            std::nullopt,
-            {},
-            {}};
+  Scene cut;
+  cut.name = scene.name;
+  cut.positions = scene.positions;
+  cut.normals = scene.normals;
+  cut.texture_points = scene.texture_points;
+  cut.triangles = scene.triangles;
+  cut.materials = scene.materials;
   retriangulate(cut);
   return cut;
 }

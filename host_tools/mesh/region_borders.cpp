@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <map>
 
+#include "host_tools/scene/flat_surfaces.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
 
 /// From the line between its neighbours, scene sizes: a fraction of what counts as one plane.
-constexpr double kStraight = 0.25e-6;
+constexpr double kStraight = kSamePlane / 4;
 
 /// How far a point lies from the line, and where along it (0: at a, 1: at b).
 std::pair<double, double> place_on(const Vec3d& a, const Vec3d& b, const Vec3d& point) {
@@ -44,10 +45,6 @@ RegionBorders::RegionBorders(const Scene& scene, const FlatRegions& regions, con
   join_edges();
 }
 
-double RegionBorders::length_of(std::uint32_t a, std::uint32_t b) const {
-  return vec::length(vec::subtract(scene_.positions[a], scene_.positions[b]));
-}
-
 /// Edges whose other side is another region, or none.
 void RegionBorders::collect(std::uint32_t region) {
   std::vector<Edge> all;
@@ -75,15 +72,14 @@ void RegionBorders::straighten() {
   for (std::uint32_t p = 0; p < count; ++p)
     if (neighbours_[p].size() != 2) stays_[p] = true;
   std::vector<bool> seen(count, false);
-  const auto follow = [&](std::uint32_t begin, std::uint32_t next) {
-    const std::vector<std::uint32_t> chain = chain_from(begin, next);
-    for (const std::uint32_t p : chain) seen[p] = true;
-    straighten_chain(chain);
-  };
   for (std::uint32_t p = 0; p < count; ++p) {
     if (!stays_[p]) continue;
-    for (const std::uint32_t next : neighbours_[p])
-      if (!stays_[next] && !seen[next]) follow(p, next);
+    for (const std::uint32_t next : neighbours_[p]) {
+      if (stays_[next] || seen[next]) continue;
+      const std::vector<std::uint32_t> chain = chain_from(p, next);
+      for (const std::uint32_t other : chain) seen[other] = true;
+      straighten_chain(chain);
+    }
   }
   for (std::uint32_t p = 0; p < count; ++p) {  // loops without a point that stays
     if (stays_[p] || seen[p]) continue;
@@ -98,7 +94,9 @@ void RegionBorders::straighten() {
 }
 
 std::uint32_t RegionBorders::farthest_from(std::uint32_t point, std::span<const std::uint32_t> among) const {
-  return *std::ranges::max_element(among, {}, [&](std::uint32_t other) { return length_of(other, point); });
+  return *std::ranges::max_element(among, {}, [&](std::uint32_t other) {
+    return vec::length(vec::subtract(scene_.positions[other], scene_.positions[point]));
+  });
 }
 
 /// Up to the next point that stays, or back to the first one.

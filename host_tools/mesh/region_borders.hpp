@@ -26,7 +26,6 @@ class RegionBorders {
  private:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-  double length_of(std::uint32_t a, std::uint32_t b) const;
   void collect(std::uint32_t region);
   void straighten();
   std::vector<std::uint32_t> chain_from(std::uint32_t begin, std::uint32_t next) const;
