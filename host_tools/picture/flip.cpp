@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host_tools/picture/lightness.hpp"
+#include "host_tools/picture/tone_map.hpp"
 
 namespace torolux {
 namespace {
@@ -141,8 +142,8 @@ Plane length_of_both(const Plane& plane, const std::vector<double>& derivative, 
   return result;
 }
 
-Features features_of(const Plane& luminance, double pixels_per_degree) {
-  Plane normalised = luminance;
+Features features_of(const Plane& achromatic, double pixels_per_degree) {
+  Plane normalised = achromatic;
   for (float& value : normalised.values) value = (value + 16) / 116;
   const double sigma = 0.5 * kFeatureWidth * pixels_per_degree;
   const int reach = static_cast<int>(std::ceil(kReach * sigma));
@@ -191,15 +192,15 @@ struct ExposureRange {
 /// From where the brightest pixel is well exposed to where the median one is.
 ExposureRange exposures_of(const Picture& reference) {
   constexpr double kWellExposed = 0.85;
-  std::vector<double> luminance;
-  luminance.reserve(reference.pixels.size());
+  std::vector<double> luminances;
+  luminances.reserve(reference.pixels.size());
   for (const auto& pixel : reference.pixels) {
-    luminance.push_back(0.2126 * double{pixel[0]} + 0.7152 * double{pixel[1]} + 0.0722 * double{pixel[2]});
+    luminances.push_back(luminance(pixel));
   }
-  const double brightest = *std::ranges::max_element(luminance);
+  const double brightest = *std::ranges::max_element(luminances);
   if (!(brightest > 0)) return {0, 0};
-  const auto middle = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() / 2);
-  std::ranges::nth_element(luminance, middle);
+  const auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);
+  std::ranges::nth_element(luminances, middle);
   const double x = AcesCurve::inverse(kWellExposed);
   const double first = std::log2(x / brightest);
   // More than half of the picture black: as many exposures as there are stops in a display.

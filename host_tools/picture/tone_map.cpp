@@ -24,12 +24,11 @@ double filmic(double x) {
   return power / (b * power + c);
 }
 
-/// Rec. 709 luminance.
+}  // namespace
+
 double luminance(const std::array<float, 3>& colour) {
   return 0.2126 * double{colour[0]} + 0.7152 * double{colour[1]} + 0.0722 * double{colour[2]};
 }
-
-}  // namespace
 
 double middle_luminance(const Picture& picture) {
   std::vector<double> values;

@@ -19,6 +19,9 @@ inline constexpr double kMiddleGrey = 0.18;
 /// Value of the brightest channel, in units of display white before the curve, that becomes display white.
 inline constexpr double kWhite = 16;
 
+/// Rec. 709, of a linear colour.
+double luminance(const std::array<float, 3>& colour);
+
 /// Middle luminance: the geometric mean over the pixels that are not black, the darkest and the brightest tenth of them
 /// left out, so that lamps in view do not make the room dark. [W/(m^2 sr)]; 0 for a black picture.
 double middle_luminance(const Picture& picture);

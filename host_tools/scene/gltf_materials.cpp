@@ -27,10 +27,6 @@ constexpr std::array<std::string_view, 9> kRead{"KHR_materials_emissive_strength
                                                 "KHR_texture_transform",
                                                 "KHR_materials_dispersion"};
 
-Vec3d times(const Vec3d& a, const Vec3d& b) {
-  return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
-}
-
 /// Reads one material.
 class Reader {
  public:
@@ -98,7 +94,7 @@ class Reader {
     if (lobe && base_texture_) {
       notices_.note("the colour of a metal that shines is the mean of its texture", place());
       if (const auto texel = textures_.mean(*base_texture_, place()))
-        surface_.metal_colour = times(surface_.colour, texel->linear);
+        surface_.metal_colour = vec::times(surface_.colour, texel->linear);
     }
     if (object_.extension("KHR_materials_unlit")) {
       notices_.note("a material without light of its own or others' (unlit) is read as diffuse", place());
@@ -137,7 +133,7 @@ class Reader {
     if (const auto given = object_.extension("KHR_materials_emissive_strength"))
       strength = given->number("emissiveStrength", 0, kMost).value_or(1);
     if (!emits()) return;
-    if (const auto texel = mean(object_, "emissiveTexture")) emission = times(emission, texel->linear);
+    if (const auto texel = mean(object_, "emissiveTexture")) emission = vec::times(emission, texel->linear);
     emission = vec::scale(emission, strength * radiance_per_luminance(units_));
     for (const double one : emission)
       if (!(one <= kMost)) refuse(place(), "emits more than 1e15");
@@ -182,7 +178,7 @@ class Reader {
   Vec3d colour_of_base() {
     if (!base_texture_) return surface_.colour;
     const auto texel = textures_.mean(*base_texture_, place());
-    return texel ? times(surface_.colour, texel->linear) : surface_.colour;
+    return texel ? vec::times(surface_.colour, texel->linear) : surface_.colour;
   }
 
   void make_glass(const Vec3d& transmittance, bool thin, SceneMaterial& material) const {
@@ -210,7 +206,7 @@ class Reader {
     const auto volume = object_.extension("KHR_materials_volume");
     const double thickness = volume ? volume->number("thicknessFactor", 0, kMost).value_or(0) : 0;
     Vec3d passes = colour_of_base();
-    if (thickness > 0) passes = times(passes, crossing(*volume, thickness));
+    if (thickness > 0) passes = vec::times(passes, crossing(*volume, thickness));
     make_glass(passes, thickness == 0, result_.material.material);
   }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host_tools/scene/vec.hpp"
+#include "host_tools/scene/polygon_triangles.hpp"
 
 namespace torolux {
 namespace {
@@ -18,29 +18,13 @@ double cross(const Point& o, const Point& a, const Point& b) {
   return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
 
-/// Newell's normal of a contour.
-Vec3d normal_of(std::span<const Vec3d> corners, const Contour& contour) {
-  Vec3d normal{0, 0, 0};
-  const Vec3d& first = corners[contour[0]];
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    const Vec3d a = vec::subtract(corners[contour[i]], first);
-    const Vec3d b = vec::subtract(corners[contour[(i + 1) % contour.size()]], first);
-    normal = vec::add(normal, vec::cross(a, b));
-  }
-  return normal;
-}
-
 class Joiner {
  public:
-  /// In the plane of the two axes that the outline's normal leans away from least, the outline counter-clockwise.
+  /// In the plane of plane_axes(), the outline counter-clockwise.
   Joiner(std::span<const Vec3d> corners, const Contour& outline) : outline_(outline) {
-    const Vec3d normal = normal_of(corners, outline);
-    std::size_t away = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
-      if (std::abs(normal[axis]) > std::abs(normal[away])) away = axis;
-    std::size_t u = (away + 1) % 3;
-    std::size_t v = (away + 2) % 3;
-    if (normal[away] < 0) std::swap(u, v);
+    std::vector<Vec3d> around;
+    for (const std::uint32_t corner : outline) around.push_back(corners[corner]);
+    const auto [u, v] = plane_axes(around).value_or(std::array<std::size_t, 2>{1, 2});
     points_.reserve(corners.size());
     for (const Vec3d& corner : corners) points_.push_back({corner[u], corner[v]});
   }

@@ -23,19 +23,9 @@ double squared_distance(const Point& a, const Point& b) {
 
 /// Corners in the plane, counter-clockwise; empty where the polygon has no area.
 std::vector<Point> flattened(std::span<const Vec3d> corners) {
-  Vec3d normal{0, 0, 0};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec3d a = vec::subtract(corners[i], corners[0]);
-    const Vec3d b = vec::subtract(corners[(i + 1) % corners.size()], corners[0]);
-    normal = vec::add(normal, vec::cross(a, b));
-  }
-  std::size_t away = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis)
-    if (std::abs(normal[axis]) > std::abs(normal[away])) away = axis;
-  if (!(std::abs(normal[away]) > 0)) return {};
-  std::size_t u = (away + 1) % 3;
-  std::size_t v = (away + 2) % 3;
-  if (normal[away] < 0) std::swap(u, v);
+  const auto axes = plane_axes(corners);
+  if (!axes) return {};
+  const auto [u, v] = *axes;
   std::vector<Point> points;
   points.reserve(corners.size());
   for (const Vec3d& corner : corners) points.push_back({corner[u] - corners[0][u], corner[v] - corners[0][v]});
@@ -129,6 +119,22 @@ class EarClipper {
 };
 
 }  // namespace
+
+std::optional<std::array<std::size_t, 2>> plane_axes(std::span<const Vec3d> corners) {
+  Vec3d normal{0, 0, 0};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d a = vec::subtract(corners[i], corners[0]);
+    const Vec3d b = vec::subtract(corners[(i + 1) % corners.size()], corners[0]);
+    normal = vec::add(normal, vec::cross(a, b));
+  }
+  std::size_t away = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis)
+    if (std::abs(normal[axis]) > std::abs(normal[away])) away = axis;
+  if (!(std::abs(normal[away]) > 0)) return std::nullopt;
+  std::array axes{(away + 1) % 3, (away + 2) % 3};
+  if (normal[away] < 0) std::swap(axes[0], axes[1]);
+  return axes;
+}
 
 PolygonTriangles cut_polygon(std::span<const Vec3d> corners) {
   if (corners.size() < 3) return {};

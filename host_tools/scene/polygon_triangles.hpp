@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,11 @@ struct PolygonTriangles {
   bool crosses_itself = false;                          ///< cut up as well as could be
 };
 
-/// Ear clipping in the plane of the two axes that the polygon's normal (Newell's) leans away from least; concave
+/// The two axes that a polygon's normal (Newell's) leans away from least, in the order in which its corners run
+/// counter-clockwise; absent: it has no area.
+std::optional<std::array<std::size_t, 2>> plane_axes(std::span<const Vec3d> corners);
+
+/// Ear clipping in the plane of plane_axes; concave
 /// polygons and corners on straight edges are kept as they are. Of the possible ears the roundest is cut first.
 /// Fewer than three corners, or no area: no triangles.
 PolygonTriangles cut_polygon(std::span<const Vec3d> corners);

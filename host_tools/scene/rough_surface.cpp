@@ -13,10 +13,6 @@ namespace {
 /// Less is not worth a lobe of its own.
 constexpr double kLeastReflection = 0.005;
 
-Vec3d times(const Vec3d& a, const Vec3d& b) {
-  return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
-}
-
 }  // namespace
 
 double lobe_exponent(double roughness) {
@@ -37,7 +33,7 @@ void set_surface(const RoughSurface& surface, bool emits, SceneMaterial& materia
     scattered = vec::scale(vec::subtract({1, 1, 1}, surface.reflection), rest);
   }
   if (vec::largest(reflection) < kLeastReflection) return;
-  material.diffuse = times(surface.colour, scattered);
+  material.diffuse = vec::times(surface.colour, scattered);
   material.specular = reflection;
   if (surface.roughness < kMirrorRoughness && vec::largest(material.diffuse) < kLeastReflection && !emits) {
     material.kind = SurfaceKind::mirror;

@@ -37,10 +37,14 @@ Vec3d point(TomlTable& table, const char* key) {
   return table.required(table.triple(key, -kMost, kMost, false), key);
 }
 
-Vec3d direction(TomlTable& table, const char* key) {
-  const Vec3d value = point(table, key);
+void check_direction(const TomlTable& table, const char* key, const Vec3d& value) {
   if (!(vec::length(value) > 0))
     refuse(table.place(key), table.title() + " '" + std::string(key) + "' is zero: no direction");
+}
+
+Vec3d direction(TomlTable& table, const char* key) {
+  const Vec3d value = point(table, key);
+  check_direction(table, key, value);
   return value;
 }
 
@@ -89,7 +93,7 @@ std::array<Vec3d, 4> RectangleKeys::corners(const TomlTable& table) const {
   if (corner_ && edges_ && !centre_ && !size_ && !facing_) {
     corners = rectangle(*corner_, (*edges_)[0], (*edges_)[1]);
   } else if (centre_ && size_ && facing_ && !corner_ && !edges_) {
-    if (!(vec::length(*facing_) > 0)) refuse(table.place("facing"), table.title() + " 'facing' is zero: no direction");
+    check_direction(table, "facing", *facing_);
     corners = facing_rectangle(*centre_, *size_, *facing_);
   } else {
     refuse(table.place(), table.title() + " needs either 'corner' and 'edges', or 'centre', 'size' and 'facing'");
@@ -226,12 +230,12 @@ LampEntry read_lamp(TomlTable table) {
   } else if (radius) {
     if (!keys.centre()) refuse(lamp.place, "[[lamp]] with a 'radius' needs a 'centre', or 'at'");
     if (keys.size()) refuse(lamp.place, "[[lamp]] has both 'radius' and 'size'");
-    if (keys.facing() && !(vec::length(*keys.facing()) > 0))
-      refuse(table.place("facing"), "[[lamp]] 'facing' is zero: no direction");
-    if (keys.facing())
+    if (keys.facing()) {
+      check_direction(table, "facing", *keys.facing());
       lamp.shape = Ring{*keys.centre(), *keys.facing(), 0, *radius};
-    else
+    } else {
       lamp.shape = Sphere{*keys.centre(), *radius};
+    }
   } else {
     lamp.shape = Quad{keys.corners(table)};
   }

@@ -18,6 +18,10 @@ inline Vec3d subtract(const Vec3d& a, const Vec3d& b) {
 inline Vec3d scale(const Vec3d& a, double s) {
   return {a[0] * s, a[1] * s, a[2] * s};
 }
+/// Channel by channel.
+inline Vec3d times(const Vec3d& a, const Vec3d& b) {
+  return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
+}
 inline double dot(const Vec3d& a, const Vec3d& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
