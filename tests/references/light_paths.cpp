@@ -78,7 +78,7 @@ class LightPath {
   bool pass_pane(const Hit& hit, const Material& material) {
     const Vec& flat = world_.triangles()[hit.triangle].normal;
     const PaneParts parts = pane(direction_, flat, material);
-    const double chance = parts.reflected.maxCoeff() / (parts.reflected.maxCoeff() + parts.passed.maxCoeff());
+    const double chance = parts.chance_to_reflect();
     const bool passes = samples_.uniform() >= chance;
     weight_ *= passes ? Colour(parts.passed / (1 - chance)) : Colour(parts.reflected / chance);
     go(hit, passes ? direction_ : mirror(direction_, flat, flat));

@@ -63,7 +63,8 @@ class Path {
         cross_glass(hit, material);
         return true;
       case Model::pane:
-        return meet_pane(hit, material);
+        meet_pane(hit, material);
+        return true;
       case Model::diffuse:
         return scatter(hit, world_.diffuse_at(hit), Colour::Zero(), 0);
       case Model::glossy:
@@ -74,10 +75,10 @@ class Path {
 
   /// By chance through it, unbent, or back. What passes is found by asking emitters, too: so nothing is changed by
   /// which that is weighed.
-  bool meet_pane(const Hit& hit, const Material& material) {
+  void meet_pane(const Hit& hit, const Material& material) {
     const Vec& flat = world_.triangles()[hit.triangle].normal;
     const PaneParts parts = pane(direction_, flat, material);
-    const double chance = parts.reflected.maxCoeff() / (parts.reflected.maxCoeff() + parts.passed.maxCoeff());
+    const double chance = parts.chance_to_reflect();
     if (samples_.uniform() < chance) {
       weight_ *= parts.reflected / chance;
       go(hit, mirror(direction_, flat, flat));
@@ -87,7 +88,6 @@ class Path {
       origin_ = world_.leave(hit, direction_);
       leaving_ = hit.triangle;
     }
-    return true;
   }
 
   void cross_glass(const Hit& hit, const Material& material) {

@@ -49,6 +49,9 @@ GlassWays glass(const Vec& in, const Vec& geometric, const Vec& shading, double 
 /// Parts of the light that comes, both faces and all reflections between them taken together.
 struct PaneParts {
   Colour reflected, passed;
+
+  /// Of a path that takes one of the two ways by chance.
+  double chance_to_reflect() const { return reflected.maxCoeff() / (reflected.maxCoeff() + passed.maxCoeff()); }
 };
 
 PaneParts pane(const Vec& in, const Vec& geometric, const Material& material);
