@@ -18,11 +18,11 @@ RenderCase room(const char* name) {
   return result;
 }
 
-// 58 elements inside; the bound for so few: 1 % everywhere. Seen: RMSE 0.10 %, the worst element 0.33 % off, by
+// 62 elements inside; the bound for so few: 1 % everywhere. Seen: RMSE 0.10 %, the worst element 0.33 % off, by
 // noise of form factors of 0.01 and less; 2 % with 8 x 8 points.
 TEST(DenseSolution, OfAnEmptyRoomIsTheRadiosityStages) {
   const DenseErrors errors = dense_errors(solve_scene(room("lamp_room")), 0);
-  EXPECT_EQ(errors.elements, 58U);
+  EXPECT_EQ(errors.elements, 62U);
   EXPECT_LT(errors.rmse, 0.003);
   EXPECT_LT(errors.worst, 0.01);
 }
