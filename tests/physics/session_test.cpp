@@ -3,6 +3,9 @@
 // one pass or several, large or small, also after views that were given up; and staying changes nothing of the render.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "host_tools/render/session.hpp"
 #include "tests/physics/same_picture.hpp"
 
@@ -100,7 +103,9 @@ TEST(Session, AViewThatIsGivenUpLeavesNothingBehind) {
   View large = whole;
   large.width = large.height = 400;
   EXPECT_FALSE(stayed.session.view(large, [&asked] { return ++asked < 2; })) << "while it runs";
-  EXPECT_EQ(asked, 2) << "and it ends soon after";
+  // Progress is asked for by the clock on the wall, so how often is not known; but most pixels were never dealt.
+  const auto given_up = stayed.session.picture(samples).pixels;
+  EXPECT_GT(std::ranges::count(given_up, std::array<float, 3>{}), std::ssize(given_up) / 2) << "and it ends soon after";
   EXPECT_TRUE(stayed.session.view(whole, kWanted));
   EXPECT_EQ(bytes_of(stayed.session.picture(samples)), bytes_of(stayed.rendered_from(whole.camera)));
 }
