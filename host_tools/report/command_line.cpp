@@ -44,7 +44,8 @@ void add_camera(Words& words, const Json& camera) {
     if (const auto given = camera.find("given"); given != camera.end()) {
       if (std::find(given->begin(), given->end(), Json(key)) == given->end()) continue;
     }
-    if (std::string_view(key) == "focus" && !camera.contains(key)) continue;
+    const bool of_lens = option == std::string_view("--aperture") || option == std::string_view("--focus");
+    if (of_lens && !camera.contains(key)) continue;
     const Json& value = camera.at(key);
     add(words, option, value.is_array() ? joined(value, ',') : text(value));
   }
