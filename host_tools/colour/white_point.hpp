@@ -14,7 +14,7 @@ using ColourMatrix = std::array<std::array<double, 3>, 3>;
 /// luminance above 0.
 ColourMatrix adaptation_to(const std::array<double, 3>& light);
 
-/// Of a black body: as lamps of that temperature have it in scenes, where equal energy (some 5,455 K) is white. kelvin:
+/// Of a black body: as lamps of that temperature have it in scenes, where equal energy (near 5,500 K) is white. kelvin:
 /// 100 to 1e9.
 std::array<double, 3> light_of(double kelvin);
 

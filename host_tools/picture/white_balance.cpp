@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "host_tools/colour/white_point.hpp"
 #include "host_tools/picture/tone_map.hpp"
@@ -14,26 +15,28 @@ namespace {
 /// Of a channel, of the greatest one: a picture of one pure colour is no light of that colour.
 constexpr double kLeastChannel = 0.05;
 
-std::array<double, 3> sixth_powers(const std::array<float, 3>& pixel, double factor) {
-  std::array<double, 3> colour{};
-  for (std::size_t c = 0; c < 3; ++c)
-    colour[c] = std::isfinite(pixel[c]) ? std::max(double{pixel[c]} * factor, 0.0) : 0.0;
-  const double peak = std::max({colour[0], colour[1], colour[2], 1.0});
-  for (double& channel : colour) {
-    const double cube = std::pow(channel / peak, 3);
-    channel = cube * cube;
+/// Luminances above 0 from the lowest to the highest that count.
+std::array<double, 2> counted(const Picture& picture) {
+  std::vector<double> values;
+  for (const auto& pixel : picture.pixels) {
+    const double value = luminance(pixel);
+    if (std::isfinite(value) && value > 0) values.push_back(value);
   }
-  return colour;
+  if (values.empty()) return {1, 0};
+  std::ranges::sort(values);
+  const std::size_t tenth = values.size() / 10;
+  return {values[tenth], values[values.size() - 1 - tenth]};
 }
 
 }  // namespace
 
 std::array<double, 3> light_colour(const Picture& picture) {
-  const double factor = exposure_factor(picture, 0);
+  const auto [lowest, highest] = counted(picture);
   std::array<double, 3> sum{};
   for (const auto& pixel : picture.pixels) {
-    const auto powers = sixth_powers(pixel, factor);
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += powers[c];
+    const double bright = luminance(pixel);
+    if (!(bright >= lowest && bright <= highest)) continue;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += std::pow(std::max(double{pixel[c]} / highest, 0.0), 6);
   }
   const double most = std::max({sum[0], sum[1], sum[2]});
   if (!(most > 0)) return {1, 1, 1};

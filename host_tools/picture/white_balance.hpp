@@ -10,9 +10,9 @@
 namespace torolux {
 
 /// The colour of the light in a picture, guessed: Shades of Grey (G. Finlayson, E. Trezzi, "Shades of gray and colour
-/// constancy", 2004), the mean of the sixth powers, of what is shown at 0 EV, cut off at display white. So bright
-/// surfaces tell more than dark ones, and a lamp in view no more than a white wall. Its greatest channel is 1, none is
-/// below 0.05; white for a black picture.
+/// constancy", 2004), the mean of the sixth powers, over the pixels by which exposure is measured (tone_map.hpp), so
+/// that bright surfaces tell more than dark ones, and lamps in view nothing. Its greatest channel is 1, none is below
+/// 0.05; white for a black picture.
 std::array<double, 3> light_colour(const Picture& picture);
 
 /// Absent: nothing is to be changed.

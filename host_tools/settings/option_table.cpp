@@ -126,8 +126,9 @@ void add_results(std::vector<Option>& table) {
        {.name = "--white-balance",
         .form = "KELVIN|auto|off",
         .group = results,
-        .help = "Of a .png: the light that looks white, by its temperature (2700: warm lamps; 5455: as it is), or "
-                "guessed from the picture",
+        .help =
+            "Of a .png: the light that looks white, by its temperature (2700: warm lamps; 5500: nearly as it is), or "
+            "guessed from the picture",
         .key = "white_balance",
         .scene_key = "white_balance",
         .bears_on = BearsOn::picture,

@@ -37,22 +37,34 @@ function adaptationTo(light) {
   return kFromCones.map((row) => [0, 1, 2].map((c) => dot(row, kCones.map((cone, i) => scales[i] * cone[c]))));
 }
 
-const step = (pixels, most) => 3 * Math.max(1, Math.ceil(pixels.length / 3 / most));
+/** Of what is not black, ascending; where there are more than `most` pixels, of every n-th. */
+function luminances(pixels, most, weights) {
+  const step = 3 * Math.max(1, Math.ceil(pixels.length / 3 / most));
+  const values = [];
+  for (let i = 0; i + 2 < pixels.length; i += step) {
+    const value = weights[0] * pixels[i] + weights[1] * pixels[i + 1] + weights[2] * pixels[i + 2];
+    if (Number.isFinite(value) && value > 0) values.push(value);
+  }
+  return Float64Array.from(values).sort();
+}
 
 function lightColour(pixels, most) {
-  const factor = exposureFactor(middleLuminance(pixels, most, kUnchanged), 0);
+  const values = luminances(pixels, most, kLuminance);
+  if (values.length === 0) return [1, 1, 1];
+  const tenth = Math.floor(values.length / 10);
+  const lowest = values[tenth];
+  const highest = values[values.length - 1 - tenth];
   const sum = [0, 0, 0];
-  const shown = (value) => (value > 0 && value < Infinity ? value * factor : 0);
-  for (let i = 0; i + 2 < pixels.length; i += step(pixels, most)) {
-    const colour = [shown(pixels[i]), shown(pixels[i + 1]), shown(pixels[i + 2])];
-    const peak = Math.max(...colour, 1);
-    for (let c = 0; c < 3; ++c) sum[c] += (colour[c] / peak) ** 6;
+  for (let i = 0; i + 2 < pixels.length; i += 3) {
+    const pixel = [pixels[i], pixels[i + 1], pixels[i + 2]];
+    const bright = dot(kLuminance, pixel);
+    if (bright >= lowest && bright <= highest) for (let c = 0; c < 3; ++c) sum[c] += Math.max(pixel[c] / highest, 0) ** 6;
   }
   const greatest = Math.max(...sum);
   return greatest > 0 ? sum.map((value) => Math.max((value / greatest) ** (1 / 6), kLeastChannel)) : [1, 1, 1];
 }
 
-/** The change of colours. white: "off", "auto", or the change itself. Of every n-th pixel, as middleLuminance. */
+/** The change of colours. white: "off", "auto", or the change itself. most: as of middleLuminance. */
 export function balance(pixels, most, white) {
   if (white === "auto") return adaptationTo(lightColour(pixels, most));
   return Array.isArray(white) ? white : kUnchanged;
@@ -60,14 +72,8 @@ export function balance(pixels, most, white) {
 
 /** Of what is not black, after the change; where there are more than `most` pixels, of every n-th. 0: all is black. */
 export function middleLuminance(pixels, most, change) {
-  const weights = [0, 1, 2].map((c) => dot(kLuminance, change.map((row) => row[c])));
-  const values = [];
-  for (let i = 0; i + 2 < pixels.length; i += step(pixels, most)) {
-    const value = weights[0] * pixels[i] + weights[1] * pixels[i + 1] + weights[2] * pixels[i + 2];
-    if (Number.isFinite(value) && value > 0) values.push(value);
-  }
-  if (values.length === 0) return 0;
-  const sorted = Float64Array.from(values).sort();
+  const sorted = luminances(pixels, most, [0, 1, 2].map((c) => dot(kLuminance, change.map((row) => row[c]))));
+  if (sorted.length === 0) return 0;
   const tenth = Math.floor(sorted.length / 10);
   let sum = 0;
   for (let i = tenth; i < sorted.length - tenth; ++i) sum += Math.log2(sorted[i]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Proves: the light that is named, or guessed, looks grey and stays as bright; equal energy changes nothing; off leaves
-// every byte; a coloured wall or a lamp does not decide alone.
+// Proves: the light that is named, or guessed, looks grey and stays as bright; near equal energy little changes; off
+// leaves every byte; a dark wall or a lamp does not decide.
 #include "host_tools/picture/white_balance.hpp"
 
 #include <gtest/gtest.h>
@@ -43,12 +43,13 @@ TEST(WhitePoint, IsTheTransformOfBradford) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 2e-4) << "published with 7 digits";
 }
 
-TEST(WhiteBalance, EqualEnergyChangesNothing) {
+TEST(WhiteBalance, NearEqualEnergyLittleChanges) {
   const Picture picture{1, 1, {{0.3F, 0.2F, 0.5F}}};
   const auto same = balanced(picture, {WhiteBalance::Kind::kelvin, 5455});
   ASSERT_TRUE(same);
-  // The black body nearest to equal energy is not on it: a few parts in a thousand.
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(same->pixels[0][c], picture.pixels[0][c], 0.01F);
+  // No black body has equal energy; this one, the nearest, is a little greener: 6 % of blue.
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(same->pixels[0][c], picture.pixels[0][c], 0.07F * picture.pixels[0][c]);
 }
 
 TEST(WhiteBalance, OffLeavesEveryByte) {
@@ -74,7 +75,7 @@ TEST(WhiteBalance, WarmGreysBecomeGreyInEveryPicture) {
   }
 }
 
-TEST(WhiteBalance, BrightSurfacesTellMoreThanDarkOnesAndALampNoMore) {
+TEST(WhiteBalance, BrightSurfacesTellMoreThanDarkOnesAndALampNothing) {
   const auto light = light_of(3000);
   Picture picture{10, 10, {}};
   for (int i = 0; i < 100; ++i) picture.pixels.push_back(times(light, 0.5));
@@ -82,7 +83,7 @@ TEST(WhiteBalance, BrightSurfacesTellMoreThanDarkOnesAndALampNoMore) {
   picture.pixels[99] = {0, 0, 1000};                                                 // one lamp of another colour
   const auto guessed = light_colour(picture);
   const double most = std::max({light[0], light[1], light[2]});
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(guessed[c], light[c] / most, 0.06) << c;
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(guessed[c], light[c] / most, 1e-4) << c;
 }
 
 TEST(WhiteBalance, PicturesThatTellNothingStayFinite) {
