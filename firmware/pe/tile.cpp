@@ -56,14 +56,23 @@ void advance(Pe& pe) {
   if (--tiles.held > 0) begin_tile(pe.scene, tiles);
 }
 
-/// Where a ray begins. False: it misses the object space.
-bool find_start(const Pe& pe, const Vec3f& direction, RayRecord& record) {
+/// Where a ray begins that leaves the eye itself. False: it misses the object space.
+bool find_start(const Pe& pe, RayRecord& record) {
   record.place = pe.tiles.eye_cell;
   record.flags = protocol::kFirst;
   if (pe.tiles.eye_inside) return true;
   const protocol::GridShape grid = grid_of(pe.scene.layout);
-  const Vec3f& eye = pe.scene.layout.view.eye;
-  const auto start = protocol::cell_of_entry(grid, protocol::RayPlanes(grid, eye, direction), eye, direction);
+  const auto start = protocol::cell_of_entry(grid, protocol::RayPlanes(grid, record.origin, record.direction),
+                                             record.origin, record.direction);
+  if (!start) return false;
+  record.place = protocol::cell_code(start->cell);
+  record.flags = start->flags;
+  return true;
+}
+
+/// Of one that leaves the lens, which may lie partly inside the object space.
+bool find_lens_start(const Pe& pe, RayRecord& record) {
+  const auto start = protocol::first_cell(grid_of(pe.scene.layout), record.origin, record.direction);
   if (!start) return false;
   record.place = protocol::cell_code(start->cell);
   record.flags = start->flags;
@@ -74,16 +83,19 @@ bool find_start(const Pe& pe, const Vec3f& direction, RayRecord& record) {
 void make_ray(Pe& pe, Niu& niu) {
   const Tiles& tiles = pe.tiles;
   const CameraView& view = pe.scene.layout.view;
-  const Vec3f direction =
-      protocol::camera_direction(view, tiles.pixel, pe.scene.sample_places[tiles.sample], pe.scene.filter);
+  const protocol::SamplePlace& place = pe.scene.sample_places[tiles.sample];
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<RayRecord>(slot);
-  if (!find_start(pe, direction, record)) {
+  const bool lens = protocol::has_lens(view);
+  const protocol::LensRay ray =
+      lens ? protocol::lens_ray(view, tiles.pixel, tiles.sample, place, pe.scene.filter)
+           : protocol::LensRay{view.eye, protocol::camera_direction(view, tiles.pixel, place, pe.scene.filter)};
+  record.origin = ray.origin;
+  record.direction = ray.direction;
+  if (!(lens ? find_lens_start(pe, record) : find_start(pe, record))) {
     pe.slots.free_own(slot);
     return;
   }
-  record.origin = view.eye;
-  record.direction = direction;
   record.weight = {tiles.weight, tiles.weight, tiles.weight};
   record.polygon = protocol::kNoPolygon;
   record.key = protocol::camera_key(tiles.pixel, tiles.sample);

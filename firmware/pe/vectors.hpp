@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/sine_cosine.hpp"
 
 namespace torolux::pe {
 
@@ -33,16 +34,8 @@ inline std::int32_t ordered(float value) {
   return b ^ static_cast<std::int32_t>(static_cast<std::uint32_t>(b >> 31) >> 1U);
 }
 
-/// Of an angle of at most an eighth of a turn [radian]; by their series, so that every machine computes the same bits;
-/// errors below 3e-8.
-struct SineCosine {
-  float sine, cosine;
-};
-inline SineCosine sine_cosine(float a) {
-  const float q = a * a;
-  return {a * (1.0F - q * (1.0F / 6.0F - q * (1.0F / 120.0F - q * (1.0F / 5040.0F - q * (1.0F / 362880.0F))))),
-          1.0F - q * (0.5F - q * (1.0F / 24.0F - q * (1.0F / 720.0F - q * (1.0F / 40320.0F))))};
-}
+using protocol::sine_cosine;
+using protocol::SineCosine;
 
 /// a, b, c all above zero, or all below.
 inline bool strictly_one_side(std::int32_t a, std::int32_t b, std::int32_t c) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Camera rays: enters a pixel and one of its samples, leaves a direction. By integers and single floats alone, no call
+// Camera rays: enters a pixel and one of its samples, leaves a ray. By integers and single floats alone, no call
 // of a library but sqrt, so that the host and every PE make the same rays to the last bit.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 
 #include "firmware/protocol/random.hpp"
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/sine_cosine.hpp"
 
 namespace torolux::protocol {
 
@@ -21,12 +23,14 @@ struct CameraView {
   Vec3f eye;                    ///< normalised scene space
   Vec3f forward;                ///< unit length
   Vec3f right, down;            ///< a pixel's width and height at distance 1 from the eye
+  Vec3f lens_right, lens_down;  ///< the lens's radius, across the picture and down
+  float inverse_focus;          ///< 1 / distance from the eye, along `forward`, of the plane that is sharp; 0: no lens
   std::uint32_t width, height;  ///< of the picture [pixels], 1..kMostPictureEdge
   std::uint32_t samples;        ///< of a pixel, 1..kMostPixelSamples
   std::uint32_t seed;
   std::uint32_t filter_bits;  ///< 1..kMostFilterBits: the filter's table has 2^filter_bits + 1 entries
 };
-static_assert(sizeof(CameraView) == 68);
+static_assert(sizeof(CameraView) == 96);
 
 /// A sample's place in the pattern that all pixels have, x rightwards, y downwards [2^-32 of the pixel's square].
 struct SamplePlace {
@@ -71,18 +75,77 @@ constexpr float filter_distance(std::span<const float> table, std::uint32_t bits
   return table[step] + (table[step + 1U] - table[step]) * within;
 }
 
-/// Where one sample of a pixel looks, from the eye: unit length. Filter importance sampling (Ernst, Stamminger &
-/// Greiner 2006): the sample is drawn from the filter, so all weigh the same. place: the sample's; table: as above.
-inline Vec3f camera_direction(const CameraView& view, const CameraPixel& pixel, const SamplePlace& place,
-                              std::span<const float> table) {
+/// From the eye to where one sample of a pixel looks, at distance 1 along `forward`. Filter importance sampling (Ernst,
+/// Stamminger & Greiner 2006): the sample is drawn from the filter, so all weigh the same. place: the sample's; table:
+/// as above.
+inline Vec3f camera_way(const CameraView& view, const CameraPixel& pixel, const SamplePlace& place,
+                        std::span<const float> table) {
   const float x = pixel.x + filter_distance(table, view.filter_bits, place.x + pixel.moved_x);
   const float y = pixel.y + filter_distance(table, view.filter_bits, place.y + pixel.moved_y);
   // Written out: as loops over arrays they would cost memory accesses on a PE.
-  const float way_x = view.forward[0] + (view.right[0] * x + view.down[0] * y);
-  const float way_y = view.forward[1] + (view.right[1] * x + view.down[1] * y);
-  const float way_z = view.forward[2] + (view.right[2] * x + view.down[2] * y);
-  const float inverse = 1.0F / std::sqrt(way_x * way_x + way_y * way_y + way_z * way_z);
-  return {way_x * inverse, way_y * inverse, way_z * inverse};
+  return {view.forward[0] + (view.right[0] * x + view.down[0] * y),
+          view.forward[1] + (view.right[1] * x + view.down[1] * y),
+          view.forward[2] + (view.right[2] * x + view.down[2] * y)};
+}
+
+inline Vec3f unit_way(const Vec3f& way) {
+  const float inverse = 1.0F / std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+  return {way[0] * inverse, way[1] * inverse, way[2] * inverse};
+}
+
+/// The direction of a sample's ray from the eye: unit length.
+inline Vec3f camera_direction(const CameraView& view, const CameraPixel& pixel, const SamplePlace& place,
+                              std::span<const float> table) {
+  return unit_way(camera_way(view, pixel, place, table));
+}
+
+/// To a point of the square -1..1 one of the unit disc, as dense everywhere (P. Shirley, K. Chiu, "A low distortion map
+/// between disk and square", 1997).
+constexpr std::array<float, 2> disc_point(float x, float y) {
+  const auto magnitude = [](float value) { return value < 0.0F ? -value : value; };
+  constexpr float eighth = 0.785398163F;  // of a turn
+  if (magnitude(x) > magnitude(y)) {
+    const SineCosine turn = sine_cosine(y / x * eighth);
+    return {x * turn.cosine, x * turn.sine};
+  }
+  if (y == 0.0F) return {0.0F, 0.0F};
+  const SineCosine turn = sine_cosine(x / y * eighth);
+  return {y * turn.sine, y * turn.cosine};
+}
+
+/// From the eye to a sample's point of the lens. The points of one pixel follow an additive recurrence, which shares
+/// them out evenly however many are taken (Roberts 2018, as above), begun at a hash of the pixel.
+inline Vec3f lens_offset(const CameraView& view, const CameraPixel& pixel, std::uint32_t sample) {
+  // Reciprocals of the number that solves x^3 = x + 1 and of its square.
+  constexpr auto x_by_sample = static_cast<std::uint32_t>(0.7548776662466927 * 0x1p32);
+  constexpr auto y_by_sample = static_cast<std::uint32_t>(0.5698402909980532 * 0x1p32);
+  const auto in_square = [&](Dimension dimension, std::uint32_t by_sample) {
+    const std::uint32_t at = hash_combine(pixel.key, static_cast<std::uint32_t>(dimension)) + by_sample * sample;
+    return static_cast<float>(static_cast<std::int32_t>(at >> 8U) - 0x80'0000) * 0x1p-23F;
+  };
+  const auto [x, y] = disc_point(in_square(Dimension::lens_x, x_by_sample), in_square(Dimension::lens_y, y_by_sample));
+  return {view.lens_right[0] * x + view.lens_down[0] * y, view.lens_right[1] * x + view.lens_down[1] * y,
+          view.lens_right[2] * x + view.lens_down[2] * y};
+}
+
+struct LensRay {
+  Vec3f origin;     ///< on the lens
+  Vec3f direction;  ///< unit length
+};
+
+constexpr bool has_lens(const CameraView& view) {
+  return view.inverse_focus > 0.0F;
+}
+
+/// A sample's ray through a thin lens: from a point of the lens to where the ray through its middle meets the plane
+/// that is sharp (R. Cook, T. Porter, L. Carpenter, "Distributed ray tracing", 1984).
+inline LensRay lens_ray(const CameraView& view, const CameraPixel& pixel, std::uint32_t sample,
+                        const SamplePlace& place, std::span<const float> table) {
+  const Vec3f way = camera_way(view, pixel, place, table);
+  const Vec3f offset = lens_offset(view, pixel, sample);
+  return {{view.eye[0] + offset[0], view.eye[1] + offset[1], view.eye[2] + offset[2]},
+          unit_way({way[0] - offset[0] * view.inverse_focus, way[1] - offset[1] * view.inverse_focus,
+                    way[2] - offset[2] * view.inverse_focus})};
 }
 
 /// Of the random numbers on the sample's path.

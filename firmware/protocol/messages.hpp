@@ -123,7 +123,7 @@ struct View {
   std::uint32_t step;   ///< 1, or below camera.samples and without a common divisor with it: spreads few samples over
                         ///< the pixel
 };
-static_assert(sizeof(View) == 80);
+static_assert(sizeof(View) == 108);
 
 struct Grant {
   std::uint32_t credits;

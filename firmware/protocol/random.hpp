@@ -35,6 +35,8 @@ enum class Dimension : std::uint32_t {
   lobe_height,
   lobe_turn,
   emitter_choice,
+  lens_x,
+  lens_y,
 };
 
 constexpr float uniform(std::uint32_t key, Dimension dimension) {

@@ -271,6 +271,6 @@ struct StageLayout {
   float least_weight;  ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 344);
+static_assert(sizeof(StageLayout) == 372);
 
 }  // namespace torolux::protocol

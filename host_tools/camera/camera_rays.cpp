@@ -9,6 +9,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/first_cell.hpp"
+#include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -39,6 +40,12 @@ CameraRays::CameraRays(const Camera& camera, const SceneSpace& space, std::uint3
   view_.forward = to_float(forward);
   view_.right = to_float(vec::scale(right, pixel_edge));
   view_.down = to_float(vec::scale(vec::cross(forward, right), pixel_edge));
+  if (camera.aperture > 0) {
+    const double radius = 0.5 * camera.aperture * space.scale;
+    view_.lens_right = to_float(vec::scale(right, radius));
+    view_.lens_down = to_float(vec::scale(vec::cross(forward, right), radius));
+    view_.inverse_focus = static_cast<float>(1 / (focus_distance(camera) * space.scale));
+  }
   view_.width = width;
   view_.height = height;
   view_.samples = samples_.count();
@@ -48,8 +55,12 @@ CameraRays::CameraRays(const Camera& camera, const SceneSpace& space, std::uint3
 
 CameraRay CameraRays::ray(std::uint32_t pixel, std::uint32_t sample) const {
   const protocol::CameraPixel from = protocol::camera_pixel(view_, pixel % view_.width, pixel / view_.width);
-  return {view_.eye, protocol::camera_direction(view_, from, samples_.places()[sample], samples_.distances()),
-          protocol::camera_key(from, sample)};
+  const protocol::SamplePlace& place = samples_.places()[sample];
+  const std::uint32_t key = protocol::camera_key(from, sample);
+  if (!protocol::has_lens(view_))
+    return {view_.eye, protocol::camera_direction(view_, from, place, samples_.distances()), key};
+  const protocol::LensRay ray = protocol::lens_ray(view_, from, sample, place, samples_.distances());
+  return {ray.origin, ray.direction, key};
 }
 
 std::optional<FirstSubspace> first_subspace(const Grid& grid, const protocol::Vec3f& origin,

@@ -17,14 +17,15 @@
 namespace torolux {
 
 struct CameraRay {
-  protocol::Vec3f origin;     ///< the eye, normalised
+  protocol::Vec3f origin;     ///< the eye, or a point of the lens, normalised
   protocol::Vec3f direction;  ///< unit length
   std::uint32_t key;          ///< random numbers: hash of (seed, pixel, sample)
 };
 
 class CameraRays {
  public:
-  /// Throws InputError where the camera looks nowhere: eye at look_at, up along the view, field of view not 0..180.
+  /// Throws InputError where the camera looks nowhere: eye at look_at, up along the view, field of view not 0..180. Of
+  /// a camera with an aperture the plane that is sharp lies before the eye (camera_fault).
   CameraRays(const Camera& camera, const SceneSpace& space, std::uint32_t width, std::uint32_t height,
              PixelSamples samples, std::uint32_t seed);
 

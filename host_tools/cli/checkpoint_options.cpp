@@ -26,7 +26,8 @@ constexpr std::size_t kMostTold = 4;
 
 Json identity_of(const RunDescription& run) {
   Json settings = settings_json(run, nullptr);
-  for (const char* of_the_picture_file : {"exposure", "tone_curve"}) settings.erase(of_the_picture_file);
+  for (const char* of_the_picture_file : {"exposure", "tone_curve", "white_balance"})
+    settings.erase(of_the_picture_file);
   return {{"settings", std::move(settings)}, {"layout", niu_channel_layout()}};
 }
 

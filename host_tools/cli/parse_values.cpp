@@ -318,4 +318,10 @@ std::optional<double> parse_fraction(const std::string& text) {
   return parse_number(text, 0, 1);
 }
 
+WhiteBalance parse_white_balance(const std::string& text) {
+  if (text == "off") return {};
+  if (text == "auto") return {WhiteBalance::Kind::automatic, 0};
+  return {WhiteBalance::Kind::kelvin, parse_number(text, kLeastWhiteKelvin, kMostWhiteKelvin)};
+}
+
 }  // namespace torolux

@@ -80,6 +80,9 @@ std::size_t parse_name(const std::string& text, std::span<const std::string_view
 /// A fraction 0..1, or "auto" (absent).
 std::optional<double> parse_fraction(const std::string& text);
 
+/// "off", "auto", or a temperature in kelvin.
+WhiteBalance parse_white_balance(const std::string& text);
+
 /// The name of a quality preset.
 Preset parse_preset(const std::string& text);
 /// Names of layers with commas between them, or "all".

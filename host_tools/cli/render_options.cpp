@@ -11,6 +11,7 @@
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/cli/table_options.hpp"
 #include "host_tools/picture/picture.hpp"
+#include "host_tools/scene/imported_mesh.hpp"
 
 namespace torolux {
 namespace {
@@ -47,6 +48,7 @@ void add_scene_options(CLI::App& command, RenderOptions& options, const std::str
 void add_tone_options(CLI::App& command, GivenSettings& given, const std::string& group) {
   add_table_option(command, option_of(&ToneMapping::exposure_ev), given)->group(group);
   add_table_option(command, option_of(&ToneMapping::curve), given)->group(group);
+  add_table_option(command, option_of(&ToneMapping::white), given)->group(group);
 }
 
 void add_output_options(CLI::App& command, RenderOptions& options) {
@@ -118,6 +120,21 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
   vector("--up", "Direction that is up in the picture [the scene's, else 0,1,0]", options.up);
   add_value(command, "--fov", "DEGREES", "Vertical field of view, degrees [the scene's, else 40]",
             [&options](const std::string& text) { options.field_of_view_degrees = parse_number(text, 0.01, 179); })
+      ->group(group);
+  add_value(command, "--aperture", "DIAMETER",
+            "Diameter of the camera's lens, scene units: what is not in focus is blurred; 0: all is sharp [the "
+            "scene's, else 0]",
+            [&options](const std::string& text) { options.aperture = parse_number(text, 0, kMostCoordinate); })
+      ->group(group);
+  add_value(command, "--focus", "DISTANCE|X,Y,Z",
+            "Where the lens is sharp: a distance along the view, or a point, in scene units [the scene's, else the "
+            "point that it looks at]",
+            [&options](const std::string& text) {
+              if (text.find(',') == std::string::npos)
+                options.focus = parse_number(text, 0, kMostCoordinate);
+              else
+                options.focus = parse_vector(text);
+            })
       ->group(group);
   command
       .add_option(

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "emulator/engines/engine/debugging.hpp"
@@ -50,7 +51,8 @@ struct RenderOptions {
 
   // The view.
   std::optional<std::array<double, 3>> eye, look_at, up;
-  std::optional<double> field_of_view_degrees;
+  std::optional<double> field_of_view_degrees, aperture;
+  std::optional<std::variant<double, std::array<double, 3>>> focus;
   std::string camera_name;                    ///< of a camera that a mesh brings along
   std::optional<std::filesystem::path> path;  ///< cameras of an animation
 
@@ -71,7 +73,7 @@ void add_scene_options(
     const std::string& help =
         "A folder with scene.toml, a .toml, .obj, .gltf, .glb or .mgf file, or the name of a scene that came with "
         "the program");
-/// --exposure, --tone-curve.
+/// --exposure, --tone-curve, --white-balance.
 void add_tone_options(CLI::App& command, GivenSettings& given, const std::string& group);
 /// Those of the table's groups, and what is by their side: files, the camera, --quality, the machine's parameters.
 void add_output_options(CLI::App& command, RenderOptions& options);

@@ -32,8 +32,10 @@ void from_scene(const PlacedText& text, const char* key, Take take) {
 /// A path's cameras; none where there is no path.
 std::vector<Camera> resolve_path(const RenderOptions& options, const Scene& scene) {
   if (!options.path) return {};
-  if (options.eye || options.look_at || options.up || options.field_of_view_degrees) {
-    throw UsageError("--path says where the camera is: leave out --eye, --look-at, --up and --fov");
+  if (options.eye || options.look_at || options.up || options.field_of_view_degrees || options.aperture ||
+      options.focus) {
+    throw UsageError(
+        "--path says where the camera is: leave out --eye, --look-at, --up, --fov, --aperture and --focus");
   }
   return load_camera_path(*options.path, scene.camera.value_or(Camera{}));
 }
@@ -44,6 +46,8 @@ Camera resolve_camera(const RenderOptions& options, const Scene& scene) {
   if (options.look_at) camera.look_at = *options.look_at;
   if (options.up) camera.up = *options.up;
   if (options.field_of_view_degrees) camera.field_of_view_degrees = *options.field_of_view_degrees;
+  if (options.aperture) camera.aperture = *options.aperture;
+  if (options.focus) camera.focus = options.focus;
   check_camera(camera);
   return camera;
 }
@@ -185,6 +189,8 @@ RunDescription describe(const RenderOptions& options, const Resolved& resolved, 
   given(options.look_at, "look_at");
   given(options.up, "up");
   given(options.field_of_view_degrees, "field_of_view");
+  given(options.aperture, "aperture");
+  given(options.focus, "focus");
   return run;
 }
 

@@ -33,6 +33,7 @@ class TextReader {
   void operator()(const option::Length& kind) const { kind.member.in(to_) = parse_length(text_); }
   void operator()(const option::Fraction& kind) const { kind.member.in(to_) = parse_fraction(text_); }
   void operator()(const option::Choice& kind) const { kind.member.put(to_, parse_name(text_, kind.names, kind.kind)); }
+  void operator()(const option::White& kind) const { kind.member.in(to_) = parse_white_balance(text_); }
   void operator()(const option::Flag& kind) const { kind.member.in(to_) = kind.given; }
   void operator()(const option::Layers& kind) const { kind.member.in(to_) = parse_layers(text_); }
   void operator()(const option::Name& kind) const {

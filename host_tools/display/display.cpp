@@ -8,6 +8,7 @@
 #include "emulator/errors.hpp"
 #include "emulator/printable.hpp"
 #include "firmware/protocol/hints.hpp"
+#include "host_tools/colour/white_point.hpp"
 #include "host_tools/render/running_render.hpp"
 #include "host_tools/report/progress_line.hpp"
 
@@ -35,6 +36,12 @@ nlohmann::json phases_json(const PhaseNames& names) {
   return json;
 }
 
+/// "off", "auto", or the change of colours, row by row.
+nlohmann::json white_json(const WhiteBalance& white) {
+  if (white.kind == WhiteBalance::Kind::kelvin) return adaptation_to(light_of(white.kelvin));
+  return white.kind == WhiteBalance::Kind::automatic ? "auto" : "off";
+}
+
 nlohmann::json json_of(const DisplayedRun& run) {
   return {{"protocol", 1},
           {"what", run.what},
@@ -44,7 +51,8 @@ nlohmann::json json_of(const DisplayedRun& run) {
           {"clock_hertz", run.clock_hertz},
           {"phases", phases_json(run.phases)},
           {"exposure_ev", run.tone.exposure_ev},
-          {"tone_curve", run.tone.curve == ToneCurve::filmic ? "filmic" : "linear"}};
+          {"tone_curve", run.tone.curve == ToneCurve::filmic ? "filmic" : "linear"},
+          {"white_balance", white_json(run.tone.white)}};
 }
 
 }  // namespace

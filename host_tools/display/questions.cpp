@@ -47,10 +47,6 @@ Json runs_of(const ElementView& view, Good good) {
   return runs;
 }
 
-bool same(const Camera& a, const Camera& b) {
-  return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.field_of_view_degrees == b.field_of_view_degrees;
-}
-
 }  // namespace
 
 Questions::Questions(const Scene& scene, const Quality& quality, const MachineChoice& machine, RenderSession& session)
@@ -66,7 +62,7 @@ bool Questions::asks_machine(const nlohmann::json& question) {
 }
 
 const Inspector& Questions::inspector(const Camera& camera) {
-  if (!inspector_ || !same(camera, camera_)) {
+  if (!inspector_ || camera != camera_) {
     inspector_.reset();
     camera_ = camera;
     inspector_.emplace(Inspected{scene_, camera_, quality_, machine_, session_.setup(), session_.solution(), figures_});

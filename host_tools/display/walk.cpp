@@ -64,6 +64,8 @@ Camera camera_of(const nlohmann::json& values, const Camera& like) {
   camera.look_at = vector_of(values, "look_at", like.look_at);
   camera.up = vector_of(values, "up", like.up);
   camera.field_of_view_degrees = like.field_of_view_degrees;
+  camera.aperture = like.aperture;
+  camera.focus = like.focus;
   if (const auto fov = values.find("fov"); fov != values.end()) {
     if (!fov->is_number()) throw InputError("fov is no number");
     camera.field_of_view_degrees = fov->get<double>();
@@ -73,7 +75,13 @@ Camera camera_of(const nlohmann::json& values, const Camera& like) {
 }
 
 nlohmann::json json_of(const Camera& camera) {
-  return {{"eye", camera.eye}, {"look_at", camera.look_at}, {"up", camera.up}, {"fov", camera.field_of_view_degrees}};
+  nlohmann::json json = {
+      {"eye", camera.eye}, {"look_at", camera.look_at}, {"up", camera.up}, {"fov", camera.field_of_view_degrees}};
+  if (camera.aperture > 0) {
+    json["aperture"] = camera.aperture;
+    json["focus"] = focus_distance(camera);
+  }
+  return json;
 }
 
 Walk::Walk(RenderSession& session, Display& display, const Camera& camera, const Quality& quality, Questions& questions)

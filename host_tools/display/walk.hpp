@@ -18,7 +18,8 @@ namespace torolux {
 /// Of a pixel's `samples`, in the order in which a walk takes them: one, one more, two more, four more, ...
 std::vector<SamplePass> refining_passes(std::uint32_t samples);
 
-/// {"eye": [x, y, z], "look_at": ..., "up": ..., "fov": degrees}; what is not there is as in `like`. Throws InputError.
+/// {"eye": [x, y, z], "look_at": ..., "up": ..., "fov": degrees}; what is not there, and the lens, is as in
+/// `like`. Throws InputError.
 Camera camera_of(const nlohmann::json& values, const Camera& like);
 nlohmann::json json_of(const Camera& camera);
 

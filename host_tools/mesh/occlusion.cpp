@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "firmware/protocol/random.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
@@ -23,6 +24,16 @@ constexpr double kOpening = 1e-4;
 constexpr std::size_t kMostTriangles = 20'000;
 /// A facet is looked at in 4^kParts parts.
 constexpr std::uint32_t kParts = 2;
+
+/// More than kHeight and rounding.
+constexpr double kNear = 2 * kHeight;
+
+bool overlap(const vec::Box& a, const vec::Box& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a.low[axis] > b.high[axis] + kNear || b.low[axis] > a.high[axis] + kNear) return false;
+  }
+  return true;
+}
 
 bool contains(const vec::Box& box, const Vec3d& point) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -118,6 +129,31 @@ Occlusion::Occlusion(const Mesh& mesh, const Scene& scene) {
     occluder = number[occluder];
     if (occluder < kept.size()) occluder = kept[occluder];
   }
+  find_near(mesh);
+}
+
+/// Triangles and occluders go along x in one order, so that only what may overlap there is looked at.
+void Occlusion::find_near(const Mesh& mesh) {
+  near_.assign(mesh.triangles.size(), {});
+  if (occluders_.empty()) return;
+  std::vector<std::uint32_t> order(occluders_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(occluders_[i].box.low[0], i); });
+  // The greatest end of all up to here: where it lies before a triangle, so do all of them.
+  std::vector<double> end;
+  for (const std::uint32_t i : order)
+    end.push_back(std::max(end.empty() ? -HUGE_VAL : end.back(), occluders_[i].box.high[0]));
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangles[t].sides == 0) continue;
+    vec::Box box;
+    for (const Vec3d& corner : corners_of(mesh.triangles[t])) box.include(corner);
+    const auto first = std::ranges::lower_bound(end, box.low[0] - kNear) - end.begin();
+    for (std::size_t i = static_cast<std::size_t>(first); i < order.size(); ++i) {
+      const vec::Box& other = occluders_[order[i]].box;
+      if (other.low[0] > box.high[0] + kNear) break;
+      if (occluder_of_[t] != order[i] && overlap(box, other)) near_[t].push_back(order[i]);
+    }
+  }
 }
 
 std::vector<bool> Occlusion::lit_inside(const Mesh& mesh, const Scene& scene) const {
@@ -136,15 +172,15 @@ std::vector<bool> Occlusion::lit_inside(const Mesh& mesh, const Scene& scene) co
 }
 
 bool Occlusion::occludes(const Mesh& mesh, std::uint32_t triangle, std::uint32_t side, const PlanePoint& point) const {
-  if (occluders_.empty()) return false;
+  if (occluders_.empty() || near_[triangle].empty()) return false;
   const auto corner = corners_of(mesh.triangles[triangle]);
   const Vec3d across = vec::subtract(corner[1], corner[0]);
   const Vec3d up = vec::subtract(corner[2], corner[0]);
   const Vec3d normal = vec::unit(vec::cross(across, up));
   Vec3d at = vec::add(corner[0], vec::add(vec::scale(across, point.b1), vec::scale(up, point.b2)));
   at = vec::add(at, vec::scale(normal, side == 0 ? kHeight : -kHeight));
-  for (std::size_t i = 0; i < occluders_.size(); ++i) {
-    if (occluder_of_[triangle] == i || !contains(occluders_[i].box, at)) continue;
+  for (const std::uint32_t i : near_[triangle]) {
+    if (!contains(occluders_[i].box, at)) continue;
     // What stands on the triangle fills half a sphere, whether it has a bottom of its own or not.
     if (std::abs(occluders_[i].angle.seen_from(at)) > 2 * std::numbers::pi - kOpening) return true;
   }

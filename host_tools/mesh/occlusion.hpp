@@ -37,8 +37,11 @@ class Occlusion {
   /// By occluder: whether an emitter is inside.
   std::vector<bool> lit_inside(const Mesh& mesh, const Scene& scene) const;
 
-  std::vector<Occluder> occluders_;         ///< that may hide
-  std::vector<std::uint32_t> occluder_of_;  ///< by triangle; >= occluders_.size(): none of them
+  void find_near(const Mesh& mesh);
+
+  std::vector<Occluder> occluders_;               ///< that may hide
+  std::vector<std::uint32_t> occluder_of_;        ///< by triangle; >= occluders_.size(): none of them
+  std::vector<std::vector<std::uint32_t>> near_;  ///< by triangle: those that it may lie under
 };
 
 /// Of a triangle of a grid.

@@ -20,10 +20,25 @@ enum class ToneCurve : std::uint8_t {
   linear,  ///< no curve: what is brighter than display white is cut off. For values that are to be compared
 };
 
+/// The light whose colour is to look white (white_balance.hpp).
+struct WhiteBalance {
+  enum class Kind : std::uint8_t {
+    off,        ///< colours stay as they are
+    automatic,  ///< guessed from the picture
+    kelvin,     ///< a black body of this temperature
+  };
+  Kind kind = Kind::off;
+  double kelvin = 0;
+
+  bool operator==(const WhiteBalance&) const = default;
+};
+inline constexpr double kLeastWhiteKelvin = 1000, kMostWhiteKelvin = 40000;
+
 /// From radiance to what a display shows (tone_map.hpp).
 struct ToneMapping {
   double exposure_ev = 0;
   ToneCurve curve = ToneCurve::filmic;
+  WhiteBalance white{};
 };
 
 /// Pictures beyond these are refused, read or written.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "host_tools/picture/tone_map.hpp"
+#include "host_tools/picture/white_balance.hpp"
 
 namespace torolux {
 namespace {
@@ -31,6 +32,8 @@ std::array<float, 3> block_mean(const Picture& picture, std::uint32_t x, std::ui
 }  // namespace
 
 ReducedPicture reduce(const Picture& picture, const ToneMapping& mapping, std::uint32_t most_edge) {
+  if (const auto changed = balanced(picture, mapping.white))
+    return reduce(*changed, without_balance(mapping), most_edge);
   const std::uint32_t edge = std::max(picture.width, picture.height);
   const std::uint32_t k = std::max(1U, (edge + most_edge - 1) / most_edge);
   if (k == 1) return {picture.width, picture.height, tone_map(picture, mapping)};

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/picture/white_balance.hpp"
+
 namespace torolux {
 namespace {
 
@@ -84,6 +86,7 @@ Picture shown(const Picture& picture, double factor, ToneCurve curve) {
 }
 
 std::vector<std::uint8_t> tone_map(const Picture& picture, const ToneMapping& mapping) {
+  if (const auto changed = balanced(picture, mapping.white)) return tone_map(*changed, without_balance(mapping));
   const double factor = exposure_factor(picture, mapping.exposure_ev);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(picture.pixels.size() * 3);

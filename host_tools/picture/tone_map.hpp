@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From linear radiance to what a display shows: exposure, tone curve, sRGB.
+// From linear radiance to what a display shows: white balance, exposure, tone curve, sRGB.
 //
 // Exposure 0 EV is automatic: the picture's middle luminance becomes kMiddleGrey. Then 1 EV is a factor of 2. The
 // filmic curve has a toe (dark tones a little darker: contrast) and a shoulder (lamps and highlights are compressed,
@@ -37,6 +37,11 @@ std::uint8_t to_srgb(float linear);
 
 /// Exposed by `factor`, through the curve: what a display shows, linear 0..1.
 Picture shown(const Picture& picture, double factor, ToneCurve curve);
+
+/// What is left to do once a picture is balanced.
+inline ToneMapping without_balance(const ToneMapping& mapping) {
+  return {mapping.exposure_ev, mapping.curve, {}};
+}
 
 /// The whole way: width * height * 3 bytes, R G B, row 0 on top.
 std::vector<std::uint8_t> tone_map(const Picture& picture, const ToneMapping& mapping);

@@ -34,12 +34,18 @@ void add(Words& words, const std::string& option, const std::string& value) {
 
 /// A camera of the user's own decides how a studio is built around it: what the user did not give is left out there.
 void add_camera(Words& words, const Json& camera) {
-  constexpr std::array<std::array<const char*, 2>, 4> kOptions{
-      {{"eye", "--eye"}, {"look_at", "--look-at"}, {"up", "--up"}, {"field_of_view", "--fov"}}};
+  constexpr std::array<std::array<const char*, 2>, 6> kOptions{{{"eye", "--eye"},
+                                                                {"look_at", "--look-at"},
+                                                                {"up", "--up"},
+                                                                {"field_of_view", "--fov"},
+                                                                {"aperture", "--aperture"},
+                                                                {"focus", "--focus"}}};
   for (const auto& [key, option] : kOptions) {
     if (const auto given = camera.find("given"); given != camera.end()) {
       if (std::find(given->begin(), given->end(), Json(key)) == given->end()) continue;
     }
+    const bool of_lens = option == std::string_view("--aperture") || option == std::string_view("--focus");
+    if (of_lens && !camera.contains(key)) continue;
     const Json& value = camera.at(key);
     add(words, option, value.is_array() ? joined(value, ',') : text(value));
   }
@@ -77,7 +83,7 @@ int place_of(const Option& option) {
   const auto one_of = [&option](std::initializer_list<std::string_view> names) {
     return std::find(names.begin(), names.end(), option.name) != names.end();
   };
-  if (one_of({"--exposure", "--tone-curve"})) return 0;
+  if (one_of({"--exposure", "--tone-curve", "--white-balance"})) return 0;
   if (one_of({"--layers", "--patches", "--elements"})) return 1;
   if (one_of({"--texels", "--seed"})) return 3;
   if (one_of({"--unshot", "--two-sided-lights"})) return kLastPlace;

@@ -18,7 +18,7 @@ struct RunInputs {
   bool missing_are_white = false;  ///< --missing-materials white
   bool gltf_in_lumens = false;     ///< --gltf-units lumen
   std::string camera_name;         ///< --camera; "": not given
-  /// Of eye, look_at, up and field_of_view: those that the user gave, which matters to a studio.
+  /// Of eye, look_at, up, field_of_view, aperture and focus: those that the user gave, which matters to a studio.
   std::vector<std::string> camera_given;
   std::vector<InputFile> files;  ///< scene files in the order in which they are read, saved radiosity, firmware
 };

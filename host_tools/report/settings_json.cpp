@@ -6,6 +6,7 @@
 
 #include "host_tools/report/text.hpp"
 #include "host_tools/report/version.hpp"
+#include "host_tools/scene/camera.hpp"
 #include "host_tools/settings/options.hpp"
 #include "host_tools/settings/overloaded.hpp"
 
@@ -52,6 +53,11 @@ Json value_or_auto(const std::optional<Value>& value) {
 Json option_json(const Option& option, const AllSettings& settings) {
   return std::visit(Overloaded{
                         [&](const option::Choice& kind) { return Json(kind.names.at(kind.member.of(settings))); },
+                        [&](const option::White& kind) {
+                          const WhiteBalance& white = kind.member.of(settings);
+                          return white.kind == WhiteBalance::Kind::kelvin ? Json(white.kelvin)
+                                                                          : Json(value_text(option, settings));
+                        },
                         [&](const option::Length& kind) { return value_or_auto(kind.member.of(settings)); },
                         [&](const option::Fraction& kind) { return value_or_auto(kind.member.of(settings)); },
                         [&](const option::Memory& kind) { return value_or_auto(kind.member.of(settings)); },
@@ -79,7 +85,9 @@ void add_camera(Json& json, const RunDescription& run) {
   json["camera"] = {{"eye", run.camera.eye},
                     {"look_at", run.camera.look_at},
                     {"up", run.camera.up},
-                    {"field_of_view", run.camera.field_of_view_degrees}};
+                    {"field_of_view", run.camera.field_of_view_degrees},
+                    {"aperture", run.camera.aperture}};
+  if (run.camera.aperture > 0) json["camera"]["focus"] = focus_distance(run.camera);
   if (run.inputs.studio) json["camera"]["given"] = run.inputs.camera_given;
 }
 

@@ -7,6 +7,13 @@
 
 namespace torolux {
 
+double focus_distance(const Camera& camera) {
+  const Vec3d view = vec::subtract(camera.look_at, camera.eye);
+  if (!camera.focus) return vec::length(view);
+  if (const auto* distance = std::get_if<double>(&*camera.focus)) return *distance;
+  return vec::dot(vec::subtract(std::get<Vec3d>(*camera.focus), camera.eye), vec::unit(view));
+}
+
 std::optional<std::string> camera_fault(const Camera& camera) {
   for (const Vec3d* v : {&camera.eye, &camera.look_at, &camera.up})
     for (const double x : *v)
@@ -19,6 +26,10 @@ std::optional<std::string> camera_fault(const Camera& camera) {
   if (!(vec::length(camera.up) > 0)) return "has no up: its length is zero";
   if (vec::length(vec::cross(vec::unit(view), vec::unit(camera.up))) < 1e-6)
     return "looks along its own up direction; choose another up, such as 0,0,1";
+  if (!(camera.aperture >= 0 && std::isfinite(camera.aperture)))
+    return "has an aperture of " + std::to_string(camera.aperture) + "; it must not be negative, 0 is no lens";
+  if (camera.aperture > 0 && !(focus_distance(camera) > 1e-6 * camera.aperture))
+    return "is focused on what does not lie before it; focus is a distance above 0, or a point that it sees";
   return std::nullopt;
 }
 

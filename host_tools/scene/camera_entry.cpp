@@ -14,6 +14,8 @@ Camera read_camera(TomlTable& table, const std::string& title, const Camera& lik
   camera.look_at = table.required(table.triple("look_at", -most, most, false), "look_at");
   if (const auto up = table.triple("up", -most, most, false)) camera.up = *up;
   camera.field_of_view_degrees = table.number("fov", 0.01, 179).value_or(camera.field_of_view_degrees);
+  camera.aperture = table.number("aperture", 0, most).value_or(camera.aperture);
+  if (const auto focus = table.number_or_triple("focus", -most, most)) camera.focus = focus;
   if (const auto wrong = camera_fault(camera)) refuse(table.place(), title + " " + *wrong);
   return camera;
 }

@@ -8,9 +8,9 @@
 
 namespace torolux {
 
-/// Keys eye, look_at, up, fov; the caller may read others of its own, and finishes the table. title: as in "[camera]".
-/// like: has the up and field of view of a camera that says none. Throws InputError with file and line, also for a
-/// camera that looks nowhere.
+/// Keys eye, look_at, up, fov, aperture, focus; the caller may read others of its own, and finishes the table. title:
+/// as in "[camera]". like: has up, field of view and lens of a camera that says none. Throws InputError with file and
+/// line, also for a camera that looks nowhere.
 Camera read_camera(TomlTable& table, const std::string& title, const Camera& like = {});
 
 }  // namespace torolux

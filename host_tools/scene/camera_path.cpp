@@ -60,6 +60,14 @@ Camera between(const std::array<const Camera*, 4>& at, double t) {
   camera.up = of(&Camera::up);
   const auto angle = [&](std::size_t i) { return at[i]->field_of_view_degrees; };
   camera.field_of_view_degrees = std::clamp(spline({angle(0), angle(1), angle(2), angle(3)}, t), 0.01, 179.0);
+  const auto aperture = [&](std::size_t i) { return at[i]->aperture; };
+  camera.aperture = std::max(spline({aperture(0), aperture(1), aperture(2), aperture(3)}, t), 0.0);
+  const auto focus = [&](std::size_t i) { return focus_distance(*at[i]); };
+  const bool same = std::ranges::all_of(at, [&](const Camera* one) { return one->focus == at[0]->focus; });
+  if (same)
+    camera.focus = at[0]->focus;
+  else
+    camera.focus = spline({focus(0), focus(1), focus(2), focus(3)}, t);
   return camera;
 }
 

@@ -9,6 +9,7 @@
 #include "host_tools/scene/build_scene.hpp"
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/choose_camera.hpp"
+#include "host_tools/scene/decide_panes.hpp"
 #include "host_tools/scene/gltf.hpp"
 #include "host_tools/scene/mgf.hpp"
 #include "host_tools/scene/obj.hpp"
@@ -149,6 +150,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
     add_studio(builder, scene.camera);
   }
   builder.finish(scene, whole);
+  decide_panes(scene, notices, whole);
   part_overlaps(scene, notices, whole);
   std::vector<std::string> used;
   for (const SceneMaterial& material : scene.materials) used.push_back(material.name);

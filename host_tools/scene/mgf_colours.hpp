@@ -2,7 +2,7 @@
 // MGF's c, cxy, cspec, cct and cmix enter; the current colour leaves.
 #pragma once
 
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/mgf_contexts.hpp"
 
 namespace torolux {

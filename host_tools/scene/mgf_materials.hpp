@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/mgf_contexts.hpp"
 

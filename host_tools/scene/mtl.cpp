@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <unordered_map>
 
@@ -42,6 +43,60 @@ void set_mirror(const Vec3d& specular, const Vec3d& diffuse, const CheckedMateri
   }
 }
 
+bool models_transparency(int illum) {
+  return illum == 4 || illum == 6 || illum == 9;
+}
+
+/// How much of what lies behind a surface it covers, 0..1. Of both statements d counts: Tr is written in two ways, and
+/// where it is 1 it may be meant either way.
+double covering(const tinyobj::material_t& read, const CheckedMaterial& checked, Notices& notices) {
+  if (checked.dissolve) return *checked.dissolve;
+  if (!checked.transparency) return 1;
+  if (*checked.transparency == 1 && !models_transparency(read.illum)) {
+    notices.note("Tr 1 without d is written for clear and for opaque: it is opaque; give d", checked.place);
+    return 1;
+  }
+  return 1 - *checked.transparency;
+}
+
+/// Transparent as files have it that do not say illum 7. Absent: it is opaque, which is told where something says
+/// otherwise.
+std::optional<SceneMaterial> clear_material(const tinyobj::material_t& read, const CheckedMaterial& checked,
+                                            Notices& notices) {
+  const double covers = covering(read, checked, notices);
+  const Vec3d filter = triple(read.transmittance);
+  const bool filters = !is_zero(filter) && std::ranges::any_of(filter, [](double one) { return one < 1; });
+  const bool meant = models_transparency(read.illum);
+  if (meant && covers == 1 && !filters) {
+    notices.note("illum 4, 6 and 9 without d below 1 and without a Tf are read as diffuse; glass is illum 7",
+                 checked.place);
+    return std::nullopt;
+  }
+  if (!meant && covers == 1) return std::nullopt;
+  if (!is_zero(triple(read.emission)) || checked.opacity.present()) {
+    notices.note("transparency by d or Tr of what emits, or is cut out by map_d, is not used", checked.place);
+    return std::nullopt;
+  }
+  if (!meant && !(covers < 0.5)) {
+    notices.note("half transparency is not rendered: what has d of one half and more is there", checked.place);
+    return std::nullopt;
+  }
+  SceneMaterial material;
+  material.name = checked.name;
+  material.kind = SurfaceKind::glass;
+  material.thin_where_open = true;
+  const Vec3d colour = triple(read.diffuse);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double passes = 1 - covers + covers * std::min(colour[c], 1.0);
+    material.transmittance[c] = passes * (is_zero(filter) ? 1 : std::min(filter[c], 1.0));
+  }
+  const bool known = checked.has_ni && read.ior >= 0.2 && read.ior <= 5;
+  if (known) material.refractive_index = read.ior;
+  if (!known) notices.note("a transparent material without an Ni of 0.2 to 5: 1.5 is taken", checked.place);
+  if (checked.texture.present()) notices.note("glass and panes show no texture (map_Kd)", checked.place);
+  return material;
+}
+
 SceneMaterial mapped(const tinyobj::material_t& read, const CheckedMaterial& checked, Notices& notices) {
   SceneMaterial material;
   material.name = checked.name;
@@ -62,6 +117,7 @@ SceneMaterial mapped(const tinyobj::material_t& read, const CheckedMaterial& che
     set_mirror(specular, triple(read.diffuse), checked, material, notices);
     return material;
   }
+  if (const auto clear = clear_material(read, checked, notices)) return *clear;
   material.diffuse = triple(read.diffuse);
   if (checked.texture.present() && is_zero(material.diffuse)) {
     if (checked.has_kd) notices.note("a texture (map_Kd) times Kd 0 would be black: Kd 1 is taken", checked.place);
@@ -77,8 +133,6 @@ SceneMaterial mapped(const tinyobj::material_t& read, const CheckedMaterial& che
     notices.note("Ks is used for glossy surfaces (illum 2) and mirrors (3, 5) alone; this one is diffuse by Kd",
                  checked.place);
   }
-  if (read.illum == 4 || read.illum == 6 || read.illum == 9)
-    notices.note("illum 4, 6 and 9 are read as diffuse; glass is illum 7", checked.place);
   return material;
 }
 

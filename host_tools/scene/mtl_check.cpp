@@ -142,8 +142,14 @@ class MtlChecker {
     if (words.empty()) return;
     const std::string_view word = words[0] == "-halo" && words.size() > 1 ? words[1] : words[0];
     const ReadNumber read = parse_number(word);
-    if (!read.fault.empty() || (keyword == "d" ? read.value < 1 : read.value > 0))
-      notices_.note("transparency by d or Tr is not used; glass is illum 7", place_);
+    CheckedMaterial& material = library_.materials.back();
+    auto& value = keyword == "d" ? material.dissolve : material.transparency;
+    value.reset();
+    if (read.fault.empty() && read.value >= 0 && read.value <= 1)
+      value = read.value;
+    else
+      notices_.note("transparency by d or Tr that is not a number from 0 to 1 is not used", place_,
+                    std::string(keyword) + " " + std::string(word.substr(0, 60)));
   }
 
   void check_texture(const Statement& statement, bool opacity) {

@@ -2,6 +2,7 @@
 // The check before tinyobjloader: MTL text in; known statements with good values, and what is wrong with others, out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ struct CheckedMaterial {
   std::string name;  ///< may be empty
   Place place;
   bool has_kd = false, has_ni = false, has_ns = false;
+  std::optional<double> dissolve{}, transparency{};  ///< d and Tr, as written, 0..1
   TextureUse texture{}, opacity{};
   std::vector<MaterialFault> faults{};  ///< at most one for each value: the last statement counts
 };

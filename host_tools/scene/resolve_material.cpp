@@ -30,6 +30,7 @@ void apply(const MaterialOverride& o, SceneMaterial& material) {
     material.kind = SurfaceKind::glass;
     material.refractive_index = *o.glass;
     material.thin = o.thin.value_or(false);
+    material.thin_where_open = false;
   }
   if (o.glossy) {
     if (material.kind != SurfaceKind::diffuse) material.diffuse = {0, 0, 0};

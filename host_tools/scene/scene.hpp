@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "host_tools/settings/given_settings.hpp"
@@ -35,6 +36,7 @@ struct SceneMaterial {
   Vec3d transmittance{1, 1, 1};      ///< Tf of glass, at each crossing, 0..1
   double refractive_index = 1.5;     ///< Ni of glass
   bool thin = false;                 ///< glass that is a pane of one sheet: light passes unbent, by both its faces
+  bool thin_where_open = false;      ///< glass of which decide_panes is still to say where it is thin
   Vec3d emission{0, 0, 0};           ///< Ke, radiance [W/(m^2 sr)] from the front
 
   bool operator==(const SceneMaterial&) const = default;
@@ -71,6 +73,11 @@ struct Camera {
   Vec3d look_at{0, 0, -1};
   Vec3d up{0, 1, 0};
   double field_of_view_degrees = 40;  ///< vertical
+  double aperture = 0;                ///< diameter of the lens [scene units]; 0: none, all is sharp
+  /// Where it is sharp: distance from the eye along the view [scene units], or a point; absent: at look_at.
+  std::optional<std::variant<double, Vec3d>> focus{};
+
+  bool operator==(const Camera&) const = default;
 };
 
 /// A value that is read only where nothing outweighs it.

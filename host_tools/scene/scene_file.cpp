@@ -10,6 +10,7 @@
 #include "emulator/nearest_name.hpp"
 #include "host_tools/scene/camera_entry.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
+#include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/toml_table.hpp"
 
 namespace torolux {
@@ -108,6 +109,18 @@ class DefaultReader {
       refuse(table_.place(key()), "[defaults] '" + option_.scene_key +
                                       "': " + no_such_name(*name, kind.kind, {kind.names.begin(), kind.names.end()}));
     kind.member.put(given_.give(option_), static_cast<std::size_t>(found - kind.names.begin()));
+  }
+  void operator()(const option::White& kind) const {
+    const auto value = table_.number_or_text(key(), kLeastWhiteKelvin, kMostWhiteKelvin);
+    if (!value) return;
+    WhiteBalance& white = kind.member.in(given_.give(option_));
+    if (const auto* kelvin = std::get_if<double>(&*value))
+      white = {WhiteBalance::Kind::kelvin, *kelvin};
+    else if (const auto& name = std::get<std::string>(*value); name == "auto" || name == "off")
+      white = {name == "auto" ? WhiteBalance::Kind::automatic : WhiteBalance::Kind::off, 0};
+    else
+      refuse(table_.place(key()),
+             "[defaults] '" + option_.scene_key + "' is " + in_quotes(name) + "; expected kelvin, \"auto\" or \"off\"");
   }
   template <class Kind>
   void operator()(const Kind& kind) const {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "emulator/nearest_name.hpp"
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {

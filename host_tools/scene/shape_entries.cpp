@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "emulator/nearest_name.hpp"
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/rotation.hpp"
 

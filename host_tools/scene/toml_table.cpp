@@ -126,6 +126,24 @@ std::optional<Vec3d> TomlTable::triple(std::string_view key, double least, doubl
   return vector(*node, key, least, most);
 }
 
+std::optional<std::variant<double, Vec3d>> TomlTable::number_or_triple(std::string_view key, double least,
+                                                                       double most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (node->is_number()) return checked(*node, key, least, most);
+  if (!node->is_array()) refuse_kind(key, "a number or an array of three numbers");
+  return vector(*node, key, least, most);
+}
+
+std::optional<std::variant<double, std::string>> TomlTable::number_or_text(std::string_view key, double least,
+                                                                           double most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (node->is_number()) return checked(*node, key, least, most);
+  if (!node->is_string()) refuse_kind(key, "a number or a text");
+  return text(key);
+}
+
 std::optional<std::array<double, 2>> TomlTable::pair(std::string_view key, double least, double most) {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "emulator/toml.hpp"
@@ -36,6 +37,8 @@ class TomlTable {
   std::optional<bool> flag(std::string_view key);
   /// An array of three numbers; where `one_for_all`, a single number stands for three.
   std::optional<Vec3d> triple(std::string_view key, double least, double most, bool one_for_all);
+  std::optional<std::variant<double, Vec3d>> number_or_triple(std::string_view key, double least, double most);
+  std::optional<std::variant<double, std::string>> number_or_text(std::string_view key, double least, double most);
   std::optional<std::array<double, 2>> pair(std::string_view key, double least, double most);
   std::optional<std::array<Vec3d, 2>> two_vectors(std::string_view key, double most);
   const toml::table* table(std::string_view key);

@@ -122,7 +122,17 @@ void add_results(std::vector<Option>& table) {
         .help = "Of a .png: filmic (toe and shoulder, keeps hue), or linear (what is too bright is cut off)",
         .key = "tone_curve",
         .bears_on = BearsOn::picture,
-        .kind = option::Choice{numbered<&ToneMapping::curve>(), {"filmic", "linear"}, "no tone curve"}}});
+        .kind = option::Choice{numbered<&ToneMapping::curve>(), {"filmic", "linear"}, "no tone curve"}},
+       {.name = "--white-balance",
+        .form = "KELVIN|auto|off",
+        .group = results,
+        .help =
+            "Of a .png: the light that looks white, by its temperature (2700: warm lamps; 5500: nearly as it is), or "
+            "guessed from the picture",
+        .key = "white_balance",
+        .scene_key = "white_balance",
+        .bears_on = BearsOn::picture,
+        .kind = option::White{at<&ToneMapping::white>()}}});
 }
 
 void add_mesh(std::vector<Option>& table) {

@@ -35,6 +35,11 @@ std::string text(const std::optional<double>& value) {
   return value ? shortest(*value) : "auto";
 }
 
+std::string text(const WhiteBalance& white) {
+  if (white.kind == WhiteBalance::Kind::kelvin) return shortest(white.kelvin);
+  return white.kind == WhiteBalance::Kind::automatic ? "auto" : "off";
+}
+
 std::string text(LayerSet set) {
   std::string names;
   for (const LayerName& layer : layers_in(set)) names += (names.empty() ? "" : ",") + std::string(layer.name);
@@ -105,6 +110,13 @@ std::optional<std::string> range_fault(const Option& option, const AllSettings& 
                           if (value >= kind.least && value <= kind.most) return std::nullopt;
                           const std::string form = option.form == "FRACTION" ? "a fraction from " : "";
                           return form + shortest(kind.least) + " to " + shortest(kind.most);
+                        },
+                        [&](const option::White& kind) -> Fault {
+                          const WhiteBalance& white = kind.member.of(settings);
+                          if (white.kind != WhiteBalance::Kind::kelvin ||
+                              (white.kelvin >= kLeastWhiteKelvin && white.kelvin <= kMostWhiteKelvin))
+                            return std::nullopt;
+                          return shortest(kLeastWhiteKelvin) + " to " + shortest(kMostWhiteKelvin) + ", auto or off";
                         },
                         [&](const option::Length& kind) -> Fault {
                           const std::optional<double>& length = kind.member.of(settings);

@@ -59,6 +59,10 @@ struct Choice {
   std::string_view kind;                ///< of another name, as in "no filter"
   bool flag_in_scene = false;           ///< two names; there it is true or false
 };
+/// "off", "auto", or kelvin from kLeastWhiteKelvin to kMostWhiteKelvin.
+struct White {
+  Member<WhiteBalance> member;
+};
 struct Flag {
   Member<bool> member;
   bool given = true;  ///< the value where the flag is given
@@ -81,8 +85,8 @@ struct Cells {
   Member<std::optional<std::array<std::uint32_t, 3>>> member;
 };
 
-using Kind = std::variant<Count<std::uint32_t>, Count<std::uint64_t>, Number, Length, Fraction, Choice, Flag, Layers,
-                          Name, Memory, Cells>;
+using Kind = std::variant<Count<std::uint32_t>, Count<std::uint64_t>, Number, Length, Fraction, Choice, White, Flag,
+                          Layers, Name, Memory, Cells>;
 
 }  // namespace option
 

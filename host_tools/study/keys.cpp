@@ -20,12 +20,10 @@ using Json = nlohmann::ordered_json;
 
 /// Options of render and run whose effect stands in the settings beside those of the table. Any other one comes into
 /// the key as it is written, so that an option that is forgotten here makes keys differ, never agree.
-constexpr std::array<std::string_view, 22> kResolved = {"scene",      "image",   "studio",    "missing-materials",
-                                                        "gltf-units", "camera",  "radiosity", "size",
-                                                        "eye",        "look-at", "up",        "fov",
-                                                        "quality",    "pes",     "pe-memory", "subspaces",
-                                                        "machine",    "engine",  "ideal",     "qemu-pes",
-                                                        "jitter",     "fault"};
+constexpr std::array<std::string_view, 24> kResolved = {
+    "scene",   "image",  "studio", "missing-materials", "gltf-units", "camera",  "radiosity", "size",      "eye",
+    "look-at", "up",     "fov",    "aperture",          "focus",      "quality", "pes",       "pe-memory", "subspaces",
+    "machine", "engine", "ideal",  "qemu-pes",          "jitter",     "fault"};
 
 bool resolved(const std::string& name) {
   const auto in_settings = [&name](const Option& option) { return option.name == "--" + name && !option.key.empty(); };

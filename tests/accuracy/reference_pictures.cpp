@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdio>
 
+#include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/references/picture_error.hpp"
 
@@ -48,6 +49,10 @@ std::uint64_t hash_of(const Scene& scene, const View& view, const std::array<std
   hash.add(view.camera.look_at);
   hash.add(view.camera.up);
   hash.add(view.camera.field_of_view_degrees);
+  if (view.camera.aperture > 0) {
+    hash.add(view.camera.aperture);
+    hash.add(focus_distance(view.camera));
+  }
   hash.add(std::uint64_t{view.two_sided_lights});
   hash.add(std::uint64_t{size[0]} << 32U | size[1]);
   hash.add(std::uint64_t{effort.first_samples} << 32U | effort.most_samples);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "host_tools/scene/camera.hpp"
 #include "tests/references/path_tracer.hpp"
 
 namespace torolux::references {
@@ -19,6 +20,9 @@ class Eye {
     forward_ = (vec(camera.look_at) - eye_).normalized();
     right_ = forward_.cross(vec(camera.up)).normalized();
     half_ = std::tan(camera.field_of_view_degrees / 2 * std::numbers::pi / 180);
+    lens_right_ = right_ * camera.aperture / 2;
+    lens_down_ = forward_.cross(right_) * camera.aperture / 2;
+    focus_ = focus_distance(camera);
     down_ = forward_.cross(right_) * half_;
     right_ *= half_ * width_ / height_;
   }
@@ -26,6 +30,19 @@ class Eye {
   /// x rightwards, y downwards, in pixels.
   Vec direction(double x, double y) const {
     return (forward_ + (2 * x / width_ - 1) * right_ + (2 * y / height_ - 1) * down_).normalized();
+  }
+
+  /// Whether what is not in focus is blurred. see() knows of no lens.
+  bool has_lens() const { return lens_right_.squaredNorm() > 0; }
+  struct Ray {
+    Vec origin, direction;
+  };
+  /// Through the lens's point of this turn (0..1 of a whole one) and at this share of its area from the middle (0..1).
+  Ray ray(double x, double y, double turn, double share) const {
+    const double angle = 2 * std::numbers::pi * turn;
+    const Vec at = eye_ + std::sqrt(share) * (std::cos(angle) * lens_right_ + std::sin(angle) * lens_down_);
+    const Vec way = direction(x, y);
+    return {at, (eye_ + way * (focus_ / way.dot(forward_)) - at).normalized()};
   }
 
   struct Seen {
@@ -50,8 +67,8 @@ class Eye {
   }
 
  private:
-  double width_, height_, half_;
-  Vec eye_, forward_, right_, down_;
+  double width_, height_, half_, focus_ = 1;
+  Vec eye_, forward_, right_, down_, lens_right_, lens_down_;
 };
 
 }  // namespace torolux::references

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <thread>
 
 #include "tests/references/eye.hpp"
@@ -178,6 +179,7 @@ Picture picture_of(const Sums& sums, const TraceChoice& choice, double paths) {
 
 TracedPicture trace_caustics(const World& world, const Camera& camera, const TraceChoice& choice) {
   const Eye eye(camera, choice);
+  if (eye.has_lens()) throw std::invalid_argument("caustics from the light are for cameras without a lens");
   const std::size_t pixels = std::size_t{choice.width} * choice.height;
   const auto paths =
       static_cast<std::uint32_t>(std::ceil(static_cast<double>(pixels) * choice.samples / (2.0 * kStreamsOfHalf)));

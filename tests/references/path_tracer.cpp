@@ -235,8 +235,14 @@ TracedPicture trace(const World& world, const Camera& camera, const TraceChoice&
       for (std::uint32_t sample = 0; sample < half; ++sample) {
         samples.begin(sample);
         const auto [x, y] = samples.pair(0);
-        light += Path(world, choice.finding, choice.caustics, samples)
-                     .along(eye.place(), eye.direction(column + x, row + y));
+        Path path(world, choice.finding, choice.caustics, samples);
+        if (!eye.has_lens()) {
+          light += path.along(eye.place(), eye.direction(column + x, row + y));
+          continue;
+        }
+        const double turn = samples.uniform();
+        const Eye::Ray ray = eye.ray(column + x, row + y, turn, samples.uniform());
+        light += path.along(ray.origin, ray.direction);
       }
       return light;
     };

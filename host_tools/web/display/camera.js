@@ -45,5 +45,5 @@ export function move(camera, { ahead = 0, right = 0, up: rise = 0 }) {
 export function toml(camera, heading) {
   const vector = (v) => `[${v.map((x) => Number(x.toPrecision(7))).join(", ")}]`;
   return [heading, ...["eye", "look_at", "up"].map((key) => `${key} = ${vector(camera[key])}`),
-    `fov = ${Number(camera.fov.toPrecision(7))}`, ""].join("\n");
+    ...["fov", "aperture", "focus"].filter((key) => key in camera).map((key) => `${key} = ${Number(camera[key].toPrecision(7))}`), ""].join("\n");
 }

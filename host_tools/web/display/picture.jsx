@@ -2,7 +2,7 @@
 // The picture as it comes enters; a canvas with exposure and tone curve leaves. Neither of these asks anything of the run.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { significant } from "../shared/format.js";
-import { exposureFactor, middleLuminance, paint } from "./tone.js";
+import { balance, exposureFactor, middleLuminance, paint } from "./tone.js";
 import { useFeed } from "./use_feed.js";
 import { WalkControls, useWalk } from "./walk.jsx";
 
@@ -32,19 +32,22 @@ class Painter {
     this.painted = null;
     this.exposed = 0;
     this.middle = 0;
+    this.change = balance([], 1, "off");
   }
 
   /** Repaints what has changed; all of it where the way of painting has. final: no more pixels will come. */
-  paint(canvas, picture, ev, curve, final) {
+  paint(canvas, picture, ev, curve, white, final) {
     if (this.picture !== picture) this.begin(canvas, picture);
     const now = performance.now();
     const state = `${picture.version} ${final}`;
     if (state !== this.measured && (final || now - this.exposed > kExposureInterval)) {
-      this.middle = middleLuminance(picture.pixels, final ? kFinalSamples : kSamples);
+      const most = final ? kFinalSamples : kSamples;
+      this.change = balance(picture.pixels, most, white);
+      this.middle = middleLuminance(picture.pixels, most, this.change);
       this.exposed = now;
       this.measured = state;
     }
-    const way = `${this.middle} ${ev} ${curve}`;
+    const way = `${this.middle} ${this.change} ${ev} ${curve}`;
     const changes = way === this.painted ? picture.changes : [[0, picture.width * picture.height]];
     picture.changes = [];
     if (changes.length === 0) return;
@@ -52,7 +55,7 @@ class Painter {
     let top = picture.height;
     let bottom = 0;
     for (const [first, end] of changes) {
-      paint(picture.pixels, this.image.data, first, end, exposureFactor(this.middle, ev), curve);
+      paint(picture.pixels, this.image.data, first, end, exposureFactor(this.middle, ev), curve, this.change);
       top = Math.min(top, Math.floor(first / picture.width));
       bottom = Math.max(bottom, Math.ceil(end / picture.width));
     }
@@ -74,7 +77,7 @@ export function Picture({ feed, onPick, over, children }) {
   const exposure = ev ?? machine.exposure_ev;
   const chosen = curve ?? machine.tone_curve;
   useEffect(() => {
-    if (picture && canvas.current) painter.current.paint(canvas.current, picture, exposure, chosen, progress?.state === "done");
+    if (picture && canvas.current) painter.current.paint(canvas.current, picture, exposure, chosen, machine.white_balance, progress?.state === "done");
   });
   const pickAt = useRef(undefined);
   const walk = useWalk(feed, onPick && ((event) => pickAt.current(event)));

@@ -67,6 +67,15 @@ void begin(FakeMachine& machine, const TestScene& scene, const protocol::CameraV
   ASSERT_EQ(machine.take(MessageKind::ready).size(), machine.pes.size());
 }
 
+/// With a lens, which may stand across the object space's border.
+protocol::CameraView lens_from(const protocol::Vec3f& eye, float radius) {
+  protocol::CameraView view = view_from(eye, 1);
+  view.lens_right = {radius, 0, 0};
+  view.lens_down = {0, -0.7071F * radius, 0.7071F * radius};
+  view.inverse_focus = 1.5F;
+  return view;
+}
+
 /// As the host of the paper's scheme makes them; how many there are.
 std::uint32_t trace_from_host(FakeMachine& machine, const TestScene& scene, const protocol::CameraView& view) {
   const protocol::GridShape grid{machine.stores[0].layout.cells, machine.stores[0].layout.cell_size};
@@ -77,6 +86,11 @@ std::uint32_t trace_from_host(FakeMachine& machine, const TestScene& scene, cons
       RayRecord r{};
       r.origin = view.eye;
       r.direction = protocol::camera_direction(view, from, kPlaces[sample], kBox);
+      if (protocol::has_lens(view)) {
+        const protocol::LensRay ray = protocol::lens_ray(view, from, sample, kPlaces[sample], kBox);
+        r.origin = ray.origin;
+        r.direction = ray.direction;
+      }
       const auto start = protocol::first_cell(grid, r.origin, r.direction);
       if (!start) continue;
       r.weight.fill(1.0F / 3.0F);
@@ -149,7 +163,8 @@ Made trace_tiles(FakeMachine& machine, std::uint32_t credits) {
 }
 
 TEST(Tiles, GiveThePictureThatRaysOfTheHostGive) {
-  for (const auto& view : {view_from({0.45F, 0.5F, -0.7F}, 1), view_from({0.45F, 0.5F, 0.05F}, 1)}) {
+  for (const auto& view : {view_from({0.45F, 0.5F, -0.7F}, 1), view_from({0.45F, 0.5F, 0.05F}, 1),
+                           lens_from({0.45F, 0.5F, -0.7F}, 0.2F), lens_from({0.45F, 0.5F, 0.05F}, 0.2F)}) {
     const TestScene scene = open_scene(1);
     FakeMachine wanted(1);
     begin(wanted, scene, view);

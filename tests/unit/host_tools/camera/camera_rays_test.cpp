@@ -94,6 +94,55 @@ TEST(CameraRays, LookWhereADoubleCameraDoes) {
   }
 }
 
+// R. Cook et al. 1984: whatever point of the lens a ray leaves, it goes to one point of the plane in focus, that to
+// which it would go without a lens; at another distance z the rays fill a disc of radius |1 - z / focus| of the lens's.
+TEST(Lens, RaysMeetInFocusAndFillADiscElsewhere) {
+  Camera camera{{0.3, 0.4, 2}, {0.3, 0.4, 0}, {0, 1, 0}, 40};
+  const SceneSpace space{{0, 0, 0}, 0.5, {1, 1, 1}};
+  constexpr std::uint32_t samples = 1024;
+  const PixelSamples one_place(PixelFilter::box, samples, 1);
+  const CameraRays pinhole(camera, space, 8, 8, one_place, 1);
+  camera.aperture = 0.4;
+  camera.focus = 1.25;
+  const CameraRays lens(camera, space, 8, 8, one_place, 1);
+  for (const double z : {0.5, 1.25, 3.0}) {
+    const double wanted = 0.2 * std::abs(1 - z / 1.25);
+    double farthest = 0;
+    double squares = 0;
+    Vec3d mean{};
+    for (std::uint32_t sample = 0; sample < samples; ++sample) {
+      const auto at = [&](const CameraRay& ray) {  // in the plane at z, in the scene's units
+        const Vec3d origin = space.to_user(to_double(ray.origin));
+        const Vec3d direction = to_double(ray.direction);
+        return vec::add(origin, vec::scale(direction, (2 - z - origin[2]) / direction[2]));
+      };
+      const Vec3d off = vec::subtract(at(lens.ray(21, sample)), at(pinhole.ray(21, sample)));
+      farthest = std::max(farthest, vec::length(off));
+      squares += vec::dot(off, off) / samples;
+      mean = vec::add(mean, vec::scale(off, 1.0 / samples));
+    }
+    EXPECT_LT(farthest, wanted + 1e-6) << z;
+    EXPECT_GE(farthest, 0.98 * wanted) << z;
+    // Uniform over the disc: half the radius's square. 1,024 well spread points: seen 0.1 %.
+    EXPECT_NEAR(squares, wanted * wanted / 2, 0.01 * wanted * wanted + 1e-12) << z;
+    EXPECT_LT(vec::length(mean), 0.01 * wanted + 1e-6) << z;
+  }
+}
+
+TEST(Lens, WithoutApertureEveryRayIsThePinholes) {
+  Camera camera{{0.3, 0.4, 2}, {0, 0, 0}, {0, 1, 0}, 40};
+  const CameraRays pinhole(camera, SceneSpace{}, 8, 8, PixelSamples(PixelFilter::tent, 5, 1), 1);
+  camera.focus = 3.0;
+  const CameraRays same(camera, SceneSpace{}, 8, 8, PixelSamples(PixelFilter::tent, 5, 1), 1);
+  EXPECT_FALSE(protocol::has_lens(same.view()));
+  for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
+    for (std::uint32_t sample = 0; sample < 5; ++sample) {
+      EXPECT_EQ(same.ray(pixel, sample).origin, pinhole.ray(pixel, sample).origin);
+      EXPECT_EQ(same.ray(pixel, sample).direction, pinhole.ray(pixel, sample).direction);
+    }
+  }
+}
+
 Grid grid_of(std::array<std::uint32_t, 3> cells) {
   return make_grid(SceneSpace{}, cells, 12, 1);
 }

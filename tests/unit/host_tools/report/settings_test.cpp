@@ -102,8 +102,14 @@ void any_view(RenderOptions& o) {
   perhaps([&] { o.look_at = place(); });
   perhaps([&] { o.up = place(); });
   perhaps([&] { o.field_of_view_degrees = real(0.01, 179); });
+  perhaps([&] { o.aperture = real(0, 2); });
+  perhaps([&] { o.focus = real(0.1, 10); });
   perhaps([&] { o.given.set(&ToneMapping::exposure_ev, real(-50, 50)); });
   perhaps([&] { o.given.set(&ToneMapping::curve, ToneCurve::linear); });
+  perhaps([&] {
+    o.given.set(&ToneMapping::white, *rc::gen::element(WhiteBalance{WhiteBalance::Kind::automatic, 0},
+                                                       WhiteBalance{WhiteBalance::Kind::kelvin, real(1000, 40000)}));
+  });
   LayerSet layers = 0;
   for (const LayerName& layer : kLayerNames) perhaps([&] { layers |= protocol::plane_bit(layer.plane); });
   o.given.set(&Quality::layers, layers);

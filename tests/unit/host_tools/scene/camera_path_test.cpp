@@ -7,6 +7,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/cli/path_frames.hpp"
+#include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/camera_path.hpp"
 
 namespace torolux::test {
@@ -45,6 +46,19 @@ TEST(CameraPath, WhatIsNotSaidIsThatOfTheCameraBefore) {
   EXPECT_EQ(cameras.at(0).field_of_view_degrees, 33);
   EXPECT_EQ(cameras.at(1).field_of_view_degrees, 50);
   EXPECT_EQ(cameras.at(2).field_of_view_degrees, 50);
+}
+
+TEST(CameraPath, TheLensGoesAlongAsWell) {
+  const auto cameras = read_camera_path(key(0, "aperture = 0.1\nfocus = 1") + key(4, "focus = 2\nframes = 2") +
+                                            key(8, "focus = 3") + key(12, "focus = 4"),
+                                        "walk.toml", {});
+  ASSERT_EQ(cameras.size(), 5U);
+  for (const Camera& camera : cameras) EXPECT_NEAR(camera.aperture, 0.1, 1e-12);
+  EXPECT_NEAR(focus_distance(cameras[2]), 2.5, 1e-12);
+  const auto followed =
+      read_camera_path(key(0, "frames = 2\naperture = 1\nfocus = [9, 0, -7]") + key(4), "walk.toml", {});
+  ASSERT_EQ(followed.size(), 3U);
+  EXPECT_EQ(followed[1].focus, followed[0].focus) << "the point stays in focus";
 }
 
 std::string refusal(const std::string& text) {

@@ -4,55 +4,17 @@
 #include <cmath>
 
 #include "host_tools/scene/vec.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/written_scenes.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
 namespace torolux {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-Json gltf_material(const SceneMaterial& material) {
-  const double strength = std::max(vec::largest(material.emission), 1.0);
-  return {{"name", material.name},
-          {"pbrMetallicRoughness",
-           {{"baseColorFactor", {material.diffuse[0], material.diffuse[1], material.diffuse[2], 1}},
-            {"metallicFactor", 0}}},
-          {"emissiveFactor", vec::scale(material.emission, 1 / strength)},
-          {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}};
-}
-
-/// One primitive for each run of triangles of a material.
-GltfWriter converted(const Scene& scene) {
-  GltfWriter file;
-  for (const SceneMaterial& material : scene.materials) file.json["materials"].push_back(gltf_material(material));
-  std::vector<float> positions;
-  Json primitives;
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    const SceneTriangle& triangle = scene.triangles[t];
-    for (const std::uint32_t p : triangle.position)
-      for (const double x : scene.positions[p]) positions.push_back(static_cast<float>(x));
-    if (t + 1 < scene.triangles.size() && scene.triangles[t + 1].material == triangle.material) continue;
-    primitives.push_back(
-        {{"attributes", {{"POSITION", file.floats(positions, "VEC3")}}}, {"material", triangle.material}});
-    positions.clear();
-  }
-  file.json["meshes"] = {{{"primitives", primitives}}};
-  const Camera& camera = *scene.camera;
-  file.json["cameras"] = {
-      {{"type", "perspective"},
-       {"perspective", {{"yfov", camera.field_of_view_degrees * 0.017453292519943295}, {"znear", 1}}}}};
-  file.node({{"mesh", 0}});
-  // It looks along +z, a half turn about y from how cameras of glTF look.
-  file.node({{"camera", 0}, {"rotation", {0, 1, 0, 0}}, {"translation", camera.eye}});
-  return file;
-}
 
 TEST(GltfScenes, TheCornellBoxIsTheSameAsFromObj) {
   const Scene obj = load_scene(fs::path(TOROLUX_SOURCE_DIR) / "scenes/cornell_box", {});
-  GltfWriter file = converted(obj);
-  const Scene gltf = load_texts({{"box.glb", file.glb()}}, "box.glb");
+  const Scene gltf = load_texts({{"box.glb", as_glb(obj)}}, "box.glb");
   ASSERT_EQ(gltf.triangles.size(), obj.triangles.size());
   ASSERT_EQ(gltf.materials.size(), obj.materials.size());
   for (std::size_t t = 0; t < obj.triangles.size(); ++t) {

@@ -4,9 +4,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_scenes.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
 namespace torolux {
@@ -136,52 +137,6 @@ TEST(MgfMaterial, MixturesOfColours) {
   const Vec3d mixed = material("c day =\ncspec 380 780 1 1\nc lamp =\ncct 2856\nc\ncmix 1 day 1 lamp\nrd .5\n").diffuse;
   const LinearColour lamp = linear_colour({0.4476, 0.4074}, 0.25);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(mixed[i], 0.25 + lamp.rgb[i], 1e-3);
-}
-
-/// The chromaticity and luminance that linear_colour makes this colour of: found by steps, so that it owes nothing to
-/// the matrices.
-std::string mgf_colour(const Vec3d& rgb, const char* entity, double units) {
-  Chromaticity at;
-  for (double step = 0.05; step > 1e-14; step *= 0.7) {
-    const auto distance = [&](const Chromaticity& xy) {
-      const LinearColour is = linear_colour(xy, luminance(rgb));
-      return vec::length(vec::subtract(is.rgb, rgb)) + (is.clipped ? 1 : 0);
-    };
-    bool better = true;
-    while (better) {
-      better = false;
-      for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}) {
-        const Chromaticity next{at.x + dx * step, at.y + dy * step};
-        if (distance(next) < distance(at)) {
-          at = next;
-          better = true;
-        }
-      }
-    }
-  }
-  std::ostringstream text;
-  text << std::setprecision(17) << "c\ncxy " << at.x << " " << at.y << "\n"
-       << entity << " " << luminance(rgb) * units << "\n";
-  return text.str();
-}
-
-/// The scene as MGF, a vertex and a face for each corner and triangle.
-std::string as_mgf(const Scene& scene) {
-  std::ostringstream text;
-  text << std::setprecision(17);
-  for (std::size_t i = 0; i < scene.positions.size(); ++i) {
-    const Vec3d& p = scene.positions[i];
-    text << "v v" << i << " =\np " << p[0] << " " << p[1] << " " << p[2] << "\n";
-  }
-  for (const SceneMaterial& m : scene.materials) {
-    text << "m " << m.name << " =\nsides 1\n";
-    if (vec::largest(m.diffuse) > 0) text << mgf_colour(m.diffuse, "rd", 1);
-    if (vec::largest(m.emission) > 0) text << mgf_colour(m.emission, "ed", 179 * 3.14159265358979323846);
-  }
-  for (const SceneTriangle& t : scene.triangles)
-    text << "m " << scene.materials[t.material].name << "\nf v" << t.position[0] << " v" << t.position[1] << " v"
-         << t.position[2] << "\n";
-  return text.str();
 }
 
 TEST(MgfMaterial, CornellBoxIsTheSameSceneAsFromObj) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves how each entity of MGF is read: contexts, surfaces, transforms, includes; and that mistakes say where they
 // are.
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 

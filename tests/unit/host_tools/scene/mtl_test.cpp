@@ -126,7 +126,7 @@ TEST(Mtl, FilterAboveOneIsCut) {
 
 TEST(Mtl, UnusedThingsAreTold) {
   const Scene scene = with_material("Kd 0.5 0.5 0.5\nd 0.5\nmap_Ks wood.png\nbanana 3\n");
-  EXPECT_THAT(scene.warnings, Contains(HasSubstr("transparency by d or Tr")));
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("half transparency is not rendered")));
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("textures other than map_Kd and map_d are not used: map_Ks")));
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("'banana' is not known")));
   EXPECT_THAT(with_material("d 1.0\nTr 0.0\nKd 0.5\n").warnings, testing::Not(Contains(HasSubstr("transparency"))));

@@ -2,7 +2,7 @@
 // Proves that a scene.toml without any mesh makes a room: shapes, walls, lamps; and that mistakes are refused.
 #include <numbers>
 
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/components.hpp"
 #include "host_tools/scene/inspect.hpp"
 #include "host_tools/scene/vec.hpp"

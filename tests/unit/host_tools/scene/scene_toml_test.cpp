@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Proves what scene.toml does to meshes, materials, lights and camera, and that every mistake is refused with its line.
+#include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
@@ -108,6 +109,35 @@ TEST(SceneToml, LightByCentreFacesAsSaid) {
     EXPECT_NEAR(vec::dot(front(scene, 1), vec::unit(facing)), 1, 1e-12);
     EXPECT_NEAR(area(scene, 1) + area(scene, 2), 1.5, 1e-12);
   }
+}
+
+TEST(SceneToml, ALensIsFocusedOnAPointADistanceOrWhatItLooksAt) {
+  const auto camera = [](const std::string& more) {
+    return with(kMesh + "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 1]\n" + more).camera.value();
+  };
+  EXPECT_EQ(camera("").aperture, 0);
+  EXPECT_EQ(camera("aperture = 0.1\n").aperture, 0.1);
+  EXPECT_EQ(focus_distance(camera("aperture = 0.1\n")), 4);
+  EXPECT_EQ(focus_distance(camera("aperture = 0.1\nfocus = 2.5\n")), 2.5);
+  EXPECT_EQ(focus_distance(camera("aperture = 0.1\nfocus = [3, 1, 2]\n")), 3);
+  const auto refused_camera = [](const std::string& more) {
+    return refused(kMesh + "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 1]\n" + more);
+  };
+  EXPECT_THAT(refused_camera("aperture = -1\n"), HasSubstr("aperture"));
+  EXPECT_THAT(refused_camera("aperture = 1\nfocus = 0\n"), HasSubstr("focused on what does not lie before it"));
+  EXPECT_THAT(refused_camera("aperture = 1\nfocus = [0, 0, 6]\n"), HasSubstr("focused on what does not lie before it"));
+  EXPECT_THAT(refused_camera("focus = 'far'\n"), HasSubstr("a number or an array of three numbers"));
+}
+
+TEST(SceneToml, WhiteBalanceIsKelvinOrAWord) {
+  const auto white = [](const std::string& value) {
+    return with(kMesh + "[defaults]\nwhite_balance = " + value + "\n").defaults.given.get(&ToneMapping::white);
+  };
+  EXPECT_EQ(white("3000"), (WhiteBalance{WhiteBalance::Kind::kelvin, 3000}));
+  EXPECT_EQ(white("'auto'"), (WhiteBalance{WhiteBalance::Kind::automatic, 0}));
+  EXPECT_EQ(white("'off'"), WhiteBalance{});
+  EXPECT_THAT(refused(kMesh + "[defaults]\nwhite_balance = 'warm'\n"), HasSubstr("expected kelvin, \"auto\""));
+  EXPECT_THAT(refused(kMesh + "[defaults]\nwhite_balance = 10\n"), HasSubstr("white_balance"));
 }
 
 TEST(SceneToml, CameraAndDefaults) {

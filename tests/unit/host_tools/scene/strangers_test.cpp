@@ -271,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(
         Stranger{"dissolve_unreadable",
                  kObj,
                  replaced(kLibrary, "0.75", "0.75\nd x\nTr"),
-                 {"room.mtl:3: transparency by d or Tr is not used"}}),
+                 {"room.mtl:3: transparency by d or Tr that is not a number from 0 to 1"}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Strangers, ManyNotesOfOneKindAreOne) {

@@ -31,6 +31,7 @@ std::string other_text(const Option& option) {
           [](const option::Length&) { return std::string("0.375"); },
           [](const option::Fraction&) { return std::string("0.375"); },
           [&](const option::Choice& kind) { return std::string(kind.names[kind.names[0] == built_in ? 1 : 0]); },
+          [](const option::White&) { return std::string("3000"); },
           [](const option::Flag& kind) { return std::string(kind.given ? "true" : "false"); },
           [](const option::Layers&) { return std::string("depth,cost"); },
           [](const option::Name& kind) {

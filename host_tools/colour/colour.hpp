@@ -2,12 +2,13 @@
 // Spectra, temperatures and CIE chromaticities enter; linear red, green and blue (primaries of sRGB) leave.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 
-#include "host_tools/scene/scene.hpp"
-
 namespace torolux {
+
+using Triple = std::array<double, 3>;
 
 /// CIE 1931 x and y. What is told apart by them has no brightness.
 struct Chromaticity {
@@ -17,22 +18,22 @@ struct Chromaticity {
 };
 
 /// CIE 1931 XYZ, standard observer of 2 degrees; a spectrum that is 1 everywhere has X = Y = Z = 1.
-Vec3d tristimulus(const std::function<double(double nanometers)>& spectrum);
+Triple tristimulus(const std::function<double(double nanometers)>& spectrum);
 /// Values at even steps from `first` to `last` nanometers, straight between them, 0 elsewhere. At least two values.
-Vec3d tristimulus(double first, double last, std::span<const double> values);
+Triple tristimulus(double first, double last, std::span<const double> values);
 /// Of a black body (Planck's law, c2 = 14388 um K), up to a factor. kelvin: 100 to 1e9.
-Vec3d black_body(double kelvin);
+Triple black_body(double kelvin);
 
 /// Y above 0.
-Chromaticity chromaticity(const Vec3d& tristimulus);
+Chromaticity chromaticity(const Triple& tristimulus);
 /// X, Y and Z of a colour whose Y is `luminance`.
-Vec3d tristimulus(const Chromaticity& colour, double luminance);
+Triple tristimulus(const Chromaticity& colour, double luminance);
 
 /// Of linear red, green and blue (ITU-R BT.709).
-double luminance(const Vec3d& rgb);
+double luminance(const Triple& rgb);
 
 struct LinearColour {
-  Vec3d rgb;             ///< each 0 and up
+  Triple rgb;            ///< each 0 and up
   bool clipped = false;  ///< it lies outside of what the primaries can mix, and is replaced by the nearest in hue
 };
 /// Equal energy becomes grey: white is adapted from equal energy to D65 (Bradford). The colour's luminance is kept

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "host_tools/scene/cie_observer.hpp"
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/cie_observer.hpp"
+#include "host_tools/colour/colour.hpp"
 
 namespace torolux {
 namespace {

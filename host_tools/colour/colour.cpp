@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: MIT
 // Colorimetry: spectrum to XYZ to linear RGB.
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/scene/cie_observer.hpp"
-#include "host_tools/scene/vec.hpp"
+#include "host_tools/colour/cie_observer.hpp"
 
 namespace torolux {
 namespace {
 
 /// XYZ relative to D65 into linear sRGB (IEC 61966-2-1).
-constexpr std::array<Vec3d, 3> kFromXyz{
+constexpr std::array<Triple, 3> kFromXyz{
     {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}}};
 /// White of equal energy to D65 (Bradford; B. Lindbloom's figures).
-constexpr std::array<Vec3d, 3> kAdapted{
+constexpr std::array<Triple, 3> kAdapted{
     {{0.9531874, -0.0265906, 0.0238731}, {-0.0382467, 1.0288406, 0.0094060}, {0.0026068, -0.0030332, 1.0892565}}};
-constexpr Vec3d kLuminance{0.2126, 0.7152, 0.0722};
+constexpr Triple kLuminance{0.2126, 0.7152, 0.0722};
 
-Vec3d times(const std::array<Vec3d, 3>& m, const Vec3d& v) {
-  return {vec::dot(m[0], v), vec::dot(m[1], v), vec::dot(m[2], v)};
+double dot(const Triple& a, const Triple& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Triple times(const std::array<Triple, 3>& m, const Triple& v) {
+  return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
 }
 
 /// In steps of 1 nm, the observer straight between its values.
-Vec3d integral(const std::function<double(double)>& spectrum) {
-  Vec3d sum{0, 0, 0};
+Triple integral(const std::function<double(double)>& spectrum) {
+  Triple sum{0, 0, 0};
   constexpr std::size_t last = kObserver.size() - 1;
   for (std::size_t i = 0; i < last; ++i)
     for (int k = 0; k < static_cast<int>(kObserverStep) + (i + 1 == last ? 1 : 0); ++k) {
@@ -39,13 +42,13 @@ Vec3d integral(const std::function<double(double)>& spectrum) {
 
 }  // namespace
 
-Vec3d tristimulus(const std::function<double(double)>& spectrum) {
-  static const Vec3d white = integral([](double) { return 1.0; });
-  const Vec3d sum = integral(spectrum);
+Triple tristimulus(const std::function<double(double)>& spectrum) {
+  static const Triple white = integral([](double) { return 1.0; });
+  const Triple sum = integral(spectrum);
   return {sum[0] / white[0], sum[1] / white[1], sum[2] / white[2]};
 }
 
-Vec3d tristimulus(double first, double last, std::span<const double> values) {
+Triple tristimulus(double first, double last, std::span<const double> values) {
   return tristimulus([&](double nanometers) {
     if (nanometers < first || nanometers > last) return 0.0;
     const double at = (nanometers - first) / (last - first) * static_cast<double>(values.size() - 1);
@@ -55,7 +58,7 @@ Vec3d tristimulus(double first, double last, std::span<const double> values) {
   });
 }
 
-Vec3d black_body(double kelvin) {
+Triple black_body(double kelvin) {
   constexpr double c2 = 14388e3;  // nm K
   // Relative to 560 nm, so that no temperature leaves the range of numbers.
   const auto exponent = [kelvin](double nanometers) { return c2 / (nanometers * kelvin); };
@@ -66,21 +69,21 @@ Vec3d black_body(double kelvin) {
   });
 }
 
-Chromaticity chromaticity(const Vec3d& xyz) {
+Chromaticity chromaticity(const Triple& xyz) {
   const double sum = xyz[0] + xyz[1] + xyz[2];
   return {xyz[0] / sum, xyz[1] / sum};
 }
 
-Vec3d tristimulus(const Chromaticity& colour, double luminance) {
+Triple tristimulus(const Chromaticity& colour, double luminance) {
   return {colour.x / colour.y * luminance, luminance, (1 - colour.x - colour.y) / colour.y * luminance};
 }
 
-double luminance(const Vec3d& rgb) {
-  return vec::dot(kLuminance, rgb);
+double luminance(const Triple& rgb) {
+  return dot(kLuminance, rgb);
 }
 
 LinearColour linear_colour(const Chromaticity& colour, double luminance_wanted) {
-  const Vec3d white = times(kFromXyz, times(kAdapted, {1, 1, 1}));
+  const Triple white = times(kFromXyz, times(kAdapted, {1, 1, 1}));
   LinearColour result{times(kFromXyz, times(kAdapted, tristimulus(colour, 1)))};
   for (std::size_t c = 0; c < 3; ++c) {
     result.rgb[c] /= white[c];
@@ -88,7 +91,8 @@ LinearColour linear_colour(const Chromaticity& colour, double luminance_wanted) 
     result.rgb[c] = std::max(result.rgb[c], 0.0);
   }
   const double brightness = luminance(result.rgb);
-  if (brightness > 0) result.rgb = vec::scale(result.rgb, luminance_wanted / brightness);
+  if (brightness > 0)
+    for (double& channel : result.rgb) channel *= luminance_wanted / brightness;
   return result;
 }
 
