@@ -19,8 +19,8 @@ BusKind kind_of(BusRequester requester, const Block& block) {
   if (requester.is_divert()) return BusKind::diverted;
   if (block.records != 0) return BusKind::records;
   if (block.is_broadcast()) return BusKind::broadcast;
-  if (requester.is_host()) return is(protocol::MessageKind::load) ? BusKind::load : BusKind::control;
   if (block.destination == protocol::kFrameBuffer) return BusKind::pixels;
+  if (requester.is_host()) return is(protocol::MessageKind::load) ? BusKind::load : BusKind::control;
   if (is(protocol::MachineMessage::text)) return BusKind::text;
   return is(protocol::MessageKind::credits) ? BusKind::credits : BusKind::answers;
 }
@@ -107,7 +107,7 @@ void Bus::grant(std::uint32_t number, Cycles now) {
   next_ = (number + 1) % requesters_;
   busy_ = true;
   if (requests_[number] == BusRequest::frame_buffer) --places_;
-  const BusSend send = client_.take(BusRequester(number));
+  const BusSend send = client_.take(BusRequester(number), requests_[number]);
   requests_[number] = send.next;
   set_seen(number, send.next);
   const Cycles duration = count(BusRequester(number), pool_[send.block]);
@@ -128,7 +128,7 @@ Cycles Bus::count(BusRequester requester, const Block& block) {
   add(figures_.kinds[static_cast<std::size_t>(kind_)]);
   if (!requester.is_host()) {
     add(figures_.from_pe[requester.pe()]);
-  } else if (!block.is_broadcast()) {
+  } else if (!block.is_broadcast() && block.destination != protocol::kFrameBuffer) {
     add(figures_.to_pe[block.destination]);
   }
   return arbitration + data;

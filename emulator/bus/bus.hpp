@@ -44,8 +44,8 @@ struct BusSend {
 class BusClient {
  public:
   virtual ~BusClient() = default;
-  /// The requester has been granted the bus.
-  virtual BusSend take(BusRequester requester) = 0;
+  /// The requester has been granted the bus for what it asked for.
+  virtual BusSend take(BusRequester requester, BusRequest granted) = 0;
 };
 
 /// A transfer of n bytes, header included, takes arbitration_cycles + ceil(n / bytes_per_cycle). The arbiter sees a new

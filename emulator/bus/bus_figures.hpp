@@ -21,7 +21,7 @@ enum class BusKind : std::uint8_t {
   credits,    ///< PE to host
   answers,    ///< PE to host: all other messages
   text,       ///< PE to host
-  pixels,     ///< PE to the frame buffer controller
+  pixels,     ///< PE to the frame buffer controller, and what the host reads from it
   diverted,   ///< divert buffer to host memory
   count
 };

@@ -35,11 +35,16 @@ void FrameBufferController::begin_picture(std::uint32_t width, std::uint32_t hei
   }
 }
 
+std::uint64_t FrameBufferController::pixels_of(const Block& block) {
+  if (block.source == protocol::kHost) return (block.bytes - sizeof(FrameRead)) / sizeof(PixelSums);
+  return block.bytes / sizeof(PixelAdd);
+}
+
 void FrameBufferController::arrive(BlockIndex index, Cycles now) {
   const Block& block = pool_[index];
   const bool pixels = block.message_kind == static_cast<std::uint16_t>(protocol::MachineMessage::pixels) &&
                       block.bytes % sizeof(PixelAdd) == 0;
-  if (!pixels) {
+  if (!pixels && block.source != protocol::kHost) {
     throw MachineFailure("PE " + std::to_string(block.source) +
                          ": sent the frame buffer controller a message of kind " + std::to_string(block.message_kind) +
                          " with " + std::to_string(block.bytes) + " bytes; it takes whole pixels only");
@@ -49,7 +54,7 @@ void FrameBufferController::arrive(BlockIndex index, Cycles now) {
                          std::to_string(places_used_));
   }
   high_water_ = std::max(high_water_, places_used_);
-  const Cycles duration = block.bytes / sizeof(PixelAdd) * cycles_per_pixel_;
+  const Cycles duration = pixels_of(block) * cycles_per_pixel_;
   free_at_ = std::max(free_at_, now) + duration;
   busy_cycles_ += duration;
   message_cycles_ += free_at_ - now;
@@ -78,6 +83,21 @@ void FrameBufferController::add_pixels(BlockIndex index) {
   }
   --places_used_;
   pool_.give_back(index);
+}
+
+void FrameBufferController::answer(BlockIndex index) {
+  Block& block = pool_[index];
+  FrameRead read{};
+  std::memcpy(&read, block.data.data(), sizeof read);
+  const auto plane = static_cast<std::uint32_t>(read.plane);
+  const std::size_t pixels = plane < protocol::kPlanes ? frame_buffer_.planes[plane].size() : 0;
+  if (read.count > pixels || read.first > pixels - read.count) {
+    throw MachineFailure("the host program reads " + std::to_string(read.count) + " pixels from " +
+                         std::to_string(read.first) + " on of plane " + std::to_string(plane) +
+                         " of the frame buffer, which has " + std::to_string(pixels) + " of them");
+  }
+  std::memcpy(&block.data[sizeof read], &frame_buffer_.planes[plane][read.first], read.count * sizeof(PixelSums));
+  --places_used_;
 }
 
 }  // namespace torolux

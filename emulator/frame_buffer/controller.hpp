@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frame buffer controller (FBC): messages of pixels in, sums in the frame buffer out.
+// The frame buffer controller (FBC): messages of pixels in, sums in the frame buffer out; also to the host that reads.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace torolux {
 
-/// Takes messages in order; each PixelAdd costs cycles_per_pixel. The bus counts its places, and brings no more.
+/// Takes messages in order; each PixelAdd costs cycles_per_pixel, and so does a pixel that is read. The bus counts its
+/// places, and brings no more.
 class FrameBufferController {
  public:
   /// layers: planes besides the colours, as bits (protocol::plane_bit).
@@ -22,11 +23,18 @@ class FrameBufferController {
   /// While it has nothing to do: its sums become those of an empty picture.
   void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
 
-  /// A message has come over the bus. Throws MachineFailure: not of pixels, a pixel or a plane that is not in the
-  /// frame buffer; no place for it.
+  /// Of a message: PixelAdds, or sums that the host reads (FrameRead).
+  static std::uint64_t pixels_of(const Block& block);
+
+  /// A message has come over the bus. Throws MachineFailure: not of pixels, no place for it.
   void arrive(BlockIndex block, Cycles now);
-  /// Event pixels_done: adds the message's pixels and frees its place.
+  /// Event pixels_done: adds the message's pixels and frees its place. Throws MachineFailure: a pixel or a plane that
+  /// is not in the frame buffer.
   void add_pixels(BlockIndex block);
+
+  /// Event pixels_done of a FrameRead: its sums stand in the message, which goes on to the host; its place is free.
+  /// Throws MachineFailure likewise.
+  void answer(BlockIndex block);
 
   std::uint32_t waiting() const { return places_used_; }
   const FrameBuffer& frame_buffer() const { return frame_buffer_; }

@@ -3,6 +3,7 @@
 #include "emulator/host/host_actor.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 #include "emulator/errors.hpp"
@@ -65,6 +66,20 @@ void HostActor::send_records(PeNumber pe, std::span<const std::byte> records, st
   ++lines_[pe].made;
 }
 
+/// The bus is held at once for as long as the answer takes, which the message has room for.
+void HostActor::read_pixels(const FrameRead& read) {
+  if (read.count == 0 || read.count > kMostPixelsRead) {
+    throw MachineFailure("the host program reads " + std::to_string(read.count) +
+                         " pixels of the frame buffer at once: 1 to " + std::to_string(kMostPixelsRead) + " can be");
+  }
+  const BlockIndex index = pool_.take();
+  Block& block = pool_[index];
+  block.data.fill({});
+  block.set_payload(std::as_bytes(std::span(&read, 1)));
+  block.bytes += read.count * static_cast<std::uint32_t>(sizeof(PixelSums));
+  queue_for(protocol::kFrameBuffer, index);
+}
+
 void HostActor::queue_for(std::uint16_t destination, BlockIndex index) {
   Block& block = pool_[index];
   block.number = (std::uint64_t{protocol::kHost} << 32U) | numbers_++;
@@ -110,16 +125,32 @@ void HostActor::step() {
     lines_[block.destination].diverted += block.records;
     events_.push(clock_.now(), source_, EventKind::host_queue, block.destination, 1, index);
   } else {
-    program_->on_message(*this, block.source, block.message_kind, block.payload());
-    ++messages_read_;
+    tell_program(block);
     pool_.give_back(index);
   }
   schedule_step(clock_.now());
 }
 
+void HostActor::tell_program(const Block& block) {
+  if (block.source != protocol::kHost) {
+    program_->on_message(*this, block.source, block.message_kind, block.payload());
+    ++messages_read_;
+    return;
+  }
+  FrameRead read{};
+  std::memcpy(&read, block.data.data(), sizeof read);
+  std::array<PixelSums, kMostPixelsRead> sums{};
+  std::memcpy(sums.data(), &block.data[sizeof read], read.count * sizeof(PixelSums));
+  program_->on_pixels(*this, read, std::span(sums).first(read.count));
+}
+
+bool HostActor::is_barrier(BlockIndex block) const {
+  return pool_[block].is_broadcast() || pool_[block].destination == protocol::kFrameBuffer;
+}
+
 HostQueue HostActor::enqueue(unsigned pe, BlockIndex block) {
   const HostQueue queue = pool_[block].source == protocol::kHost ? HostQueue::program : HostQueue::resend;
-  const bool waits = pool_[block].is_broadcast() || !behind_.empty();
+  const bool waits = is_barrier(block) || !behind_.empty();
   if (queue == HostQueue::program && waits) {
     behind_.push(pool_, block);
   } else {
@@ -135,7 +166,7 @@ void HostActor::put(unsigned pe, HostQueue queue, BlockIndex block) {
 }
 
 std::optional<unsigned> HostActor::let_through() {
-  if (behind_.empty() || pool_[behind_.front()].is_broadcast()) return std::nullopt;
+  if (behind_.empty() || is_barrier(behind_.front())) return std::nullopt;
   const BlockIndex block = behind_.pop(pool_);
   const unsigned pe = pool_[block].destination;
   put(pe, HostQueue::program, block);

@@ -41,6 +41,7 @@ class HostActor final : public HostPort {
   void send_message(PeNumber pe, std::uint16_t kind, std::span<const std::byte> contents) override;
   void broadcast(std::uint16_t kind, std::span<const std::byte> contents) override;
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override;
+  void read_pixels(const FrameRead& read) override;
   void begin_stage(std::string_view name) override { client_->begin_stage(name); }
   void note(HostGauge gauge, double value) override { client_->note(gauge, value); }
   std::size_t queued(PeNumber pe) const override { return lines_[pe].made + broadcasts_made_; }
@@ -51,7 +52,7 @@ class HostActor final : public HostPort {
   void go_on_with(HostProgram& program, Cycles now);
   /// Instead of that, where the program goes on.
   void resume(HostClient& client) { client_ = &client; }
-  /// A message or diverted records have come over the bus.
+  /// A message or diverted records have come over the bus, or sums that were read.
   void arrive(BlockIndex block, Cycles now);
   /// Event host_step: the next message.
   void step();
@@ -63,24 +64,28 @@ class HostActor final : public HostPort {
   void slots_granted(unsigned pe, HostQueue queue);
   /// A control buffer that the host had used is free again.
   void control_buffer_free(unsigned pe);
-  /// Whether something is ready for which there is room.
-  bool ready() const { return !ready_.empty() || broadcast_fits(); }
-  /// What goes over the bus next, and the queue that it stood in; pe, queue: of a broadcast, any.
+  /// Whether something is ready for which there is room at the PEs.
+  bool ready() const { return !ready_.empty() || (barrier_is_next() && !reads_next() && full_ == 0); }
+  /// Or a read, for which the frame buffer controller needs a place.
+  bool ready_to_read() const { return ready_.empty() && barrier_is_next() && reads_next(); }
+  /// What goes over the bus next, and the queue that it stood in; pe, queue: of a broadcast or a read, any.
   struct Taken {
     BlockIndex block;
     unsigned pe;
     HostQueue queue;
   };
   Taken take();
-  /// A broadcast has been taken: the next that waited for it stands in the line of this PE. To be called until there is
-  /// none.
+  /// The same where a place of the frame buffer controller was asked for.
+  BlockIndex take_read() { return behind_.pop(pool_); }
+  /// A broadcast or a read has been taken: the next that waited for it stands in the line of this PE. To be called
+  /// until there is none.
   std::optional<unsigned> let_through();
 
   bool idle() const { return inbox_.empty() && !stepping_; }
   std::size_t inbox() const { return inbox_.size(); }
   std::uint64_t messages_read() const { return messages_read_; }  ///< by the program, so far
   std::size_t waiting(unsigned pe) const { return lines_[pe].queues[0].size() + lines_[pe].queues[1].size(); }
-  /// Broadcasts, and what waits for them.
+  /// Broadcasts and reads, and what waits for them.
   std::size_t waiting_for_all() const { return behind_.size(); }
   const HostClock& clock() const { return clock_; }
   std::uint64_t records_diverted(unsigned pe) const { return lines_[pe].diverted; }
@@ -106,7 +111,10 @@ class HostActor final : public HostPort {
   void queue_for(std::uint16_t destination, BlockIndex block);
   void put(unsigned pe, HostQueue queue, BlockIndex block);
   bool fits(unsigned pe, HostQueue queue) const;
-  bool broadcast_fits() const { return ahead_ == 0 && full_ == 0 && !behind_.empty(); }
+  bool barrier_is_next() const { return ahead_ == 0 && !behind_.empty(); }
+  bool reads_next() const { return pool_[behind_.front()].destination == protocol::kFrameBuffer; }
+  bool is_barrier(BlockIndex block) const;
+  void tell_program(const Block& block);
   BlockIndex take_broadcast();
   void use_control_buffer(Line& line);
   void update(unsigned pe);
@@ -120,8 +128,9 @@ class HostActor final : public HostPort {
   BlockPool& pool_;
   std::vector<Line> lines_;
   ReadySet ready_;  // PEs for which there is something, and room
-  // A broadcast is a barrier: first it waits until the program's queues are empty, then for its control buffers.
-  BlockQueue behind_;                // the first broadcast, and all that the program has made since
+  // A broadcast is a barrier: first it waits until the program's queues are empty, then for its control buffers. So is
+  // a read, which waits for a place of the frame buffer controller.
+  BlockQueue behind_;                // the first barrier, and all that the program has made since
   std::size_t ahead_ = 0;            // of the program, in the PEs' lines
   unsigned full_ = 0;                // PEs without a free control buffer, as far as the host knows
   std::size_t broadcasts_made_ = 0;  // not yet taken by the bus

@@ -19,6 +19,16 @@ class SnapshotWriter;  // emulator/snapshot/archive.hpp
 
 using protocol::PeNumber;
 using Cycles = std::uint64_t;  ///< virtual time
+using PixelSums = std::array<std::int64_t, 3>;
+
+/// Sums of a plane that the host reads from the frame buffer.
+struct FrameRead {
+  protocol::Plane plane;
+  std::uint32_t first;  ///< pixel: row * width + column
+  std::uint32_t count;  ///< 1..kMostPixelsRead
+};
+/// One message has them.
+inline constexpr std::uint32_t kMostPixelsRead = (protocol::kMostMessageBytes - sizeof(FrameRead)) / sizeof(PixelSums);
 
 /// What only a host program knows of the run.
 enum class HostGauge : std::uint8_t {
@@ -51,6 +61,10 @@ class HostPort {
   virtual void broadcast(std::uint16_t kind, std::span<const std::byte> contents) = 0;
   /// records: count * record_bytes, count 1..kMostRecordsPerPacket. The NIU puts them into its slots.
   virtual void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) = 0;
+  /// Asks the frame buffer controller for sums: HostProgram::on_pixels brings them, in the order of the calls. It waits
+  /// for all sends made earlier, and what is made later waits for it. The controller answers when it has added what had
+  /// come to it before.
+  virtual void read_pixels(const FrameRead& read) = 0;
   /// Messages and record packets not yet taken by the bus, to this PE, broadcasts included.
   virtual std::size_t queued(PeNumber pe) const = 0;
 };
@@ -61,6 +75,8 @@ class HostProgram {
   virtual void start(HostPort& port) = 0;
   /// Called in order of virtual time. Diverted records do not come here: the machine sends them again by itself.
   virtual void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) = 0;
+  /// What read_pixels asked for. Called in order of virtual time, like on_message.
+  virtual void on_pixels(HostPort& /*port*/, const FrameRead& /*read*/, std::span<const PixelSums> /*sums*/) {}
   /// Names of the kinds of records that the PEs send each other; the machine knows none of itself.
   virtual std::span<const std::string_view> record_kinds() const { return {}; }
   /// Which of them a record is. Called for every record that a PE sends.
@@ -75,8 +91,6 @@ class HostProgram {
   /// Between two messages.
   virtual void save(SnapshotWriter& /*archive*/) {}
 };
-
-using PixelSums = std::array<std::int64_t, 3>;
 
 /// The picture as the frame buffer controller adds it up; row 0 on top.
 struct FrameBuffer {

@@ -331,7 +331,7 @@ void Emulation::drop(unsigned pe, BlockIndex block) {
 /// Of the host's program or its diverted records; what waits for a broadcast asks for slots once that has gone.
 void Emulation::host_queue(unsigned pe, BlockIndex block) {
   const HostQueue queue = host_.enqueue(pe, block);
-  if (pe != kEveryPe) ask_for_slots(pe, queue);
+  if (pe < pes_) ask_for_slots(pe, queue);
   update_host();
 }
 
@@ -343,16 +343,31 @@ BusRequest Emulation::first_request(unsigned pe) const {
 }
 
 void Emulation::update_host() {
-  if (host_.ready()) bus_.request(BusRequester::host(), BusRequest::room, now_);
+  if (const BusRequest next = host_request(); next != BusRequest::none) {
+    bus_.request(BusRequester::host(), next, now_);
+  }
 }
 
-BusSend Emulation::take(BusRequester requester) {
-  if (requester.is_host()) {
+BusRequest Emulation::host_request() const {
+  if (host_.ready()) return BusRequest::room;
+  return host_.ready_to_read() ? BusRequest::frame_buffer : BusRequest::none;
+}
+
+BusSend Emulation::take_of_host(BusRequest granted) {
+  BlockIndex block = kNoBlock;
+  if (granted == BusRequest::frame_buffer) {
+    block = host_.take_read();
+  } else {
     const HostActor::Taken taken = host_.take();
     ask_for_slots(taken.pe, taken.queue);
-    while (const auto pe = host_.let_through()) ask_for_slots(*pe, HostQueue::program);
-    return {taken.block, host_.ready() ? BusRequest::room : BusRequest::none};
+    block = taken.block;
   }
+  while (const auto pe = host_.let_through()) ask_for_slots(*pe, HostQueue::program);
+  return {block, host_request()};
+}
+
+BusSend Emulation::take(BusRequester requester, BusRequest granted) {
+  if (requester.is_host()) return take_of_host(granted);
   const unsigned pe = requester.pe();
   if (requester.is_divert()) return {parts_[pe].diverting, BusRequest::none};
   const BlockIndex block = parts_[pe].outgoing.pop(pool_);
@@ -368,7 +383,8 @@ void Emulation::bus_done(BlockIndex index) {
   const unsigned from = block.source;
   const unsigned to = block.destination;
   const bool from_host_queue = from == protocol::kHost;
-  if (record_watcher_ != nullptr && block.records == 0)
+  const bool is_read = from_host_queue && to == protocol::kFrameBuffer;
+  if (record_watcher_ != nullptr && block.records == 0 && !is_read)
     record_watcher_->came(now_, {block.source, block.destination, block.message_kind, block.payload()});
   if (block.records != 0 && !from_host_queue && parts_[to].diverting == index) {
     parts_[to].diverting = kNoBlock;
@@ -376,6 +392,8 @@ void Emulation::bus_done(BlockIndex index) {
     torus_.try_ejection(to, now_);
   } else if (block.records != 0) {
     copy_in(to, index, true);
+  } else if (is_read) {
+    controller_.arrive(index, now_);
   } else if (from_host_queue) {
     host_message(index);
   } else {
@@ -398,10 +416,15 @@ void Emulation::host_message(BlockIndex index) {
 }
 
 void Emulation::pixels_done(BlockIndex block) {
-  const Cycles pixels = pool_[block].bytes / sizeof(protocol::PixelAdd);
+  const Cycles pixels = FrameBufferController::pixels_of(pool_[block]);
   time_line_.frame_buffer_was_busy(now_ - pixels * cycles_per_pixel_, now_);
   if (watch_) watch_->frame_buffer_was_busy(now_ - pixels * cycles_per_pixel_, now_);
-  controller_.add_pixels(block);
+  if (pool_[block].source == protocol::kHost) {
+    controller_.answer(block);
+    host_.arrive(block, now_);
+  } else {
+    controller_.add_pixels(block);
+  }
   bus_.free_place(now_);
 }
 

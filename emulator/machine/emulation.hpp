@@ -109,6 +109,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   BusRequest first_request(unsigned pe) const;
   void host_queue(unsigned pe, BlockIndex block);
   void update_host();
+  BusRequest host_request() const;
+  BusSend take_of_host(BusRequest granted);
   void send_message(unsigned pe, BlockIndex block);
   void fail_program(unsigned pe, BlockIndex block);
   void fail_niu(unsigned pe, BlockIndex block);
@@ -119,7 +121,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void injected(unsigned pe, Cycles tail) override;
   bool accept(unsigned pe, BlockIndex block) override;
   void coming(unsigned pe) override;
-  BusSend take(BusRequester requester) override;
+  BusSend take(BusRequester requester, BusRequest granted) override;
 
   /// What belongs to a PE beside its NIU's account.
   struct PePart {

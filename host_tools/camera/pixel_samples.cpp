@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "firmware/protocol/random.hpp"
+#include "firmware/protocol/stratified.hpp"
 
 namespace torolux {
 namespace {
@@ -85,6 +86,15 @@ PixelSamples::PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint3
   for (std::uint32_t i = 0; i <= steps; ++i) {
     const double distance = samples == 1 ? 0 : filter_distance(filter, static_cast<double>(i) / steps);
     distances_.push_back(static_cast<float>(distance));
+  }
+}
+
+PixelSamples::PixelSamples(const Quality& quality, std::uint32_t seed)
+    : PixelSamples(quality.filter, quality.sample_places(), seed) {
+  if (!quality.adaptive()) return;
+  for (std::uint32_t sample = 0; sample < places_.size(); ++sample) {
+    const protocol::StratifiedPair pair = protocol::stratified_pair(sample, seed);
+    places_[sample] = {pair.x, pair.y};
   }
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware/protocol/camera_ray.hpp"
-#include "host_tools/settings/pixel_filter.hpp"
+#include "host_tools/settings/quality.hpp"
 
 namespace torolux {
 
@@ -30,6 +30,8 @@ double filter_distance(PixelFilter filter, double u);
 class PixelSamples {
  public:
   PixelSamples(PixelFilter filter, std::uint32_t samples, std::uint32_t seed);
+  /// Adaptive: of the samples of a pixel every first 2^n are spread evenly.
+  PixelSamples(const Quality& quality, std::uint32_t seed);
 
   /// Of the filter's table.
   static std::uint32_t entries(PixelFilter filter, std::uint32_t samples);

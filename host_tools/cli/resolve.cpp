@@ -159,6 +159,12 @@ Resolved resolve(const RenderOptions& options, const Scene& scene) {
   resolved.machine = std::move(settings.machine);
   resolved.tone = settings.tone;
   resolved.outputs = options.outputs;
+  if (resolved.quality.adaptive() && (resolved.path.size() > 1 || options.display.display)) {
+    throw UsageError(
+        "--most-samples is for one picture: leave it out with --path and --display (or take --most-samples 0, where "
+        "the "
+        "scene asks for it)");
+  }
   if (options.no_picture && !resolved.outputs.empty()) throw UsageError("--no-picture and --output exclude each other");
   if (resolved.outputs.empty() && !options.no_picture) resolved.outputs.emplace_back(scene.name + ".png");
   resolved.files = {options.save_radiosity, options.save_mesh, options.radiosity};

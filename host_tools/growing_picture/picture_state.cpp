@@ -27,7 +27,8 @@ NamedPlane plane_of(const std::string& channel, const std::vector<std::uint32_t>
 
 PictureState picture_state(const RunningRender& running) {
   const FrameBuffer& sums = running.machine.frame_buffer();
-  return {picture_of(sums, running.setup), layers_of(sums, running.setup)};
+  const SampleCounts& samples = running.program.samples();
+  return {picture_of(sums, running.setup, samples), layers_of(sums, running.setup, samples)};
 }
 
 std::vector<NamedPlane> planes_of(const PictureState& state) {

@@ -26,6 +26,20 @@ std::array<float, 3> scaled(const PixelSums& sums, double unit) {
           static_cast<float>(static_cast<double>(sums[2]) * unit)};
 }
 
+/// Each sample weighs as if its pixel had all that it may have.
+class Shares {
+ public:
+  Shares(const SampleCounts& samples, const RenderSetup& setup)
+      : samples_(samples), all_(setup.parameters.pixel_samples) {}
+  double of(std::size_t pixel) const {
+    return samples_.empty() ? 1 : static_cast<double>(all_) / std::max(1U, samples_[pixel]);
+  }
+
+ private:
+  const SampleCounts& samples_;
+  std::uint32_t all_;
+};
+
 /// Mean over the samples that met something.
 std::array<float, 3> depth(const PixelSums& sums, double edge) {
   if (sums[1] == 0) return {std::numeric_limits<float>::infinity(), 0, 0};
@@ -60,14 +74,14 @@ std::uint32_t number(std::int64_t value) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(value, 0, kNoNumber - 1));
 }
 
-Layer layer_of(Plane plane, const std::vector<PixelSums>& sums, const RenderSetup& setup) {
+Layer layer_of(Plane plane, const std::vector<PixelSums>& sums, const RenderSetup& setup, const Shares& shares) {
   Layer layer{plane, {}, {}};
   const double to_irradiance = setup.radiance_per_quantum() * std::numbers::pi;
   const double edge = 1 / setup.mesh.space.scale;
   for (const PixelSums& pixel : sums) {
     switch (plane) {
       case Plane::irradiance:
-        layer.values.push_back(scaled(pixel, to_irradiance));
+        layer.values.push_back(scaled(pixel, to_irradiance * shares.of(layer.values.size())));
         break;
       case Plane::depth:
         layer.values.push_back(depth(pixel, edge));
@@ -93,19 +107,21 @@ Layer layer_of(Plane plane, const std::vector<PixelSums>& sums, const RenderSetu
 
 }  // namespace
 
-Picture picture_of(const FrameBuffer& frame_buffer, const RenderSetup& setup) {
+Picture picture_of(const FrameBuffer& frame_buffer, const RenderSetup& setup, const SampleCounts& samples) {
   Picture picture{frame_buffer.width, frame_buffer.height, {}};
   const std::vector<PixelSums>& sums = frame_buffer.plane(Plane::colour);
   picture.pixels.reserve(sums.size());
   const double unit = setup.radiance_per_quantum();
-  for (const PixelSums& pixel : sums) picture.pixels.push_back(scaled(pixel, unit));
+  const Shares shares(samples, setup);
+  for (const PixelSums& pixel : sums) picture.pixels.push_back(scaled(pixel, unit * shares.of(picture.pixels.size())));
   return picture;
 }
 
-std::vector<Layer> layers_of(const FrameBuffer& frame_buffer, const RenderSetup& setup) {
+std::vector<Layer> layers_of(const FrameBuffer& frame_buffer, const RenderSetup& setup, const SampleCounts& samples) {
+  const Shares shares(samples, setup);
   std::vector<Layer> layers;
   for (const LayerName& layer : layers_in(setup.parameters.layers)) {
-    layers.push_back(layer_of(layer.plane, frame_buffer.plane(layer.plane), setup));
+    layers.push_back(layer_of(layer.plane, frame_buffer.plane(layer.plane), setup, shares));
   }
   return layers;
 }

@@ -277,10 +277,11 @@ double host_cycles_of_ray(const MachineDescription& machine) {
 void predict_rays(const Scene& scene, const Camera& camera, const RenderSetup& setup, const Quality& quality,
                   const MachineChoice& machine, Prediction& prediction) {
   const CameraRays rays(camera, setup.mesh.space, quality.width, quality.height,
-                        PixelSamples(quality.filter, quality.samples, setup.parameters.seed), setup.parameters.seed);
+                        PixelSamples(quality, setup.parameters.seed), setup.parameters.seed);
   const CameraSampleChoice choice = camera_sample_choice(quality, machine, setup.parameters);
   const CameraSample sample = sample_camera(scene, setup.mesh, setup.ray_placement, rays, choice, kPaths);
-  const double count = sample.sent * static_cast<double>(rays.count());
+  // Of pixels that will have more the number is not known.
+  const double count = sample.sent * static_cast<double>(quality.width) * quality.height * quality.samples;
   Load load(sample.paths, kCyclesToShow, kCyclesPerRayTurn);
   const bool by_host = setup.parameters.pixel_samples == 0;  // the camera rays
   if (by_host) {

@@ -106,13 +106,13 @@ struct RenderSession::Parts {
     save_ply(*files.save_mesh, scene, setup->mesh, setup->units, irradiance);
   }
 
-  void take_picture(RenderResult& result) const {
+  void take_picture(RenderResult& result, const SampleCounts& samples) const {
     const FrameBuffer& sums = machine->frame_buffer();
     result.figures.picture_sha256 = digest_of(sums, protocol::Plane::colour);
     for (const LayerName& layer : layers_in(quality.layers))
       result.figures.layers_sha256.push_back(digest_of(sums, layer.plane));
-    result.picture = picture_of(sums, *setup);
-    result.layers = layers_of(sums, *setup);
+    result.picture = picture_of(sums, *setup, samples);
+    result.layers = layers_of(sums, *setup, samples);
   }
 };
 
@@ -163,7 +163,8 @@ RenderResult RenderSession::run(Machine::Then then) {
     watch.run(machine, program, setup, false, then);
   } catch (const StateSaved&) {
     const bool traces_rays = program.progress(0).stage == RenderStage::ray_tracing;
-    if (p.files.picture_so_far && traces_rays) p.files.picture_so_far(picture_of(machine.frame_buffer(), setup));
+    if (p.files.picture_so_far && traces_rays)
+      p.files.picture_so_far(picture_of(machine.frame_buffer(), setup, program.samples()));
     throw;
   }
   result.figures.run_seconds = seconds_since(run_begin);
@@ -176,7 +177,7 @@ RenderResult RenderSession::run(Machine::Then then) {
   result.figures.energy = balance(p.scene, setup.mesh, setup.units, *program.solution());
   if (!p.files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
   p.write_files(origin, drafts.splits, *program.solution());
-  p.take_picture(result);
+  p.take_picture(result, program.samples());
   p.solved = program.take_solution();
   return result;
 }
@@ -185,10 +186,9 @@ bool RenderSession::view(const View& view, const std::function<bool()>& wanted, 
   Parts& p = *parts_;
   const RenderSetup& setup = p.setup.value();
   const CameraRays rays(view.camera, setup.mesh.space, view.width, view.height,
-                        PixelSamples(p.quality.filter, p.quality.samples, setup.parameters.seed),
-                        setup.parameters.seed);
-  const RayTracingSettings settings{setup.credits,     view.width, view.height,
-                                    p.quality.samples, view.pass,  p.choice.skip_empty_subspaces};
+                        PixelSamples(p.quality, setup.parameters.seed), setup.parameters.seed);
+  const RayTracingSettings settings{
+      setup.credits, view.width, view.height, p.quality.sample_places(), view.pass, p.choice.skip_empty_subspaces};
   ViewProgram program(setup, rays, settings);
   if (!view.adds) p.machine->begin_picture(view.width, view.height, p.quality.layers);
   if (!wanted()) return false;
@@ -208,8 +208,8 @@ bool RenderSession::view(const View& view, const std::function<bool()>& wanted, 
 
 Picture RenderSession::picture(std::uint32_t taken) const {
   Picture picture = picture_of(frame_buffer(), *parts_->setup);
-  if (taken == parts_->quality.samples) return picture;
-  const float share = static_cast<float>(parts_->quality.samples) / static_cast<float>(taken);
+  if (taken == parts_->quality.sample_places()) return picture;
+  const float share = static_cast<float>(parts_->quality.sample_places()) / static_cast<float>(taken);
   for (auto& pixel : picture.pixels)
     for (float& channel : pixel) channel *= share;
   return picture;

@@ -18,7 +18,9 @@ inline constexpr std::uint32_t kMostTexels = 4U << 20U;
 /// Everything that determines the picture, and nothing that does not.
 struct Quality {
   std::uint32_t width = 512, height = 512;
-  std::uint32_t samples = 16;  ///< per pixel
+  std::uint32_t samples = 16;      ///< per pixel
+  std::uint32_t most_samples = 0;  ///< not 0: pixels have from `samples` to so many, as they need them
+  double noise = 2;                ///< then: halves of a block's samples that differ by more [L*] ask for more
   PixelFilter filter = PixelFilter::box;
   LayerSet layers = 0;                                ///< of the picture, besides its colours, which they do not change
   std::optional<double> patch_length = std::nullopt;  ///< longest edge, scene units; absent: auto
@@ -41,6 +43,10 @@ struct Quality {
   bool two_sided_lights = false;
   std::uint32_t texels = 16384;  ///< of each texture, at most; 1..kMostTexels
   std::uint64_t seed = 1;
+
+  bool adaptive() const { return most_samples != 0; }
+  /// That a pixel may have.
+  std::uint32_t sample_places() const { return adaptive() ? most_samples : samples; }
 };
 
 }  // namespace torolux

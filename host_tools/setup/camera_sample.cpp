@@ -145,9 +145,9 @@ CameraSampleChoice camera_sample_choice(const Quality& quality, const MachineCho
                                         const StageParameters& parameters) {
   CameraSampleChoice choice;
   choice.pixels = std::uint64_t{quality.width} * quality.height;
-  choice.samples = quality.samples;
+  choice.samples = quality.sample_places();
   choice.bounces = quality.bounces;
-  choice.least_weight = double{parameters.least_weight} * quality.samples;
+  choice.least_weight = double{parameters.least_weight} * quality.sample_places();
   choice.shadow_rays = quality.shadow_rays;
   choice.two_sided_lights = quality.two_sided_lights;
   choice.skip_empty_subspaces = machine.skip_empty_subspaces;

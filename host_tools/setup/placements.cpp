@@ -46,8 +46,8 @@ class Chooser {
           make_placement(mesh, lists_, {{1, 1}, std::nullopt, "modulo", machine.scheme, machine.empty}, {});
       radiosity_heat_ = sample_radiosity_heat(scene, mesh, whole, quality.bounces);
       if (for_each_stage()) {
-        const CameraRays rays(camera, mesh.space, quality.width, quality.height,
-                              PixelSamples(quality.filter, quality.samples, parameters.seed), parameters.seed);
+        const CameraRays rays(camera, mesh.space, quality.width, quality.height, PixelSamples(quality, parameters.seed),
+                              parameters.seed);
         ray_heat_ = sample_ray_heat(scene, mesh, whole, rays, camera_sample_choice(quality, machine, parameters));
       }
     }

@@ -39,6 +39,15 @@ void check(const Quality& quality, const MachineChoice& machine) {
   require(
       machine.columns > 0 && machine.rows > 0 && std::uint64_t{machine.columns} * machine.rows <= protocol::kMostPes,
       "--pes: at least 1x1 and at most " + std::to_string(protocol::kMostPes) + " in all");
+  if (!quality.adaptive()) return;
+  require(quality.samples >= 2 && quality.most_samples >= 2 * std::uint64_t{quality.samples},
+          "--most-samples " + std::to_string(quality.most_samples) + " with --samples " +
+              std::to_string(quality.samples) +
+              ": --samples must be 2 or more, of which two halves are compared, and --most-samples at least twice "
+              "that; powers of 2 spread best");
+  require(machine.camera_rays == RayMaker::pes,
+          "--most-samples asks for camera rays of the PEs: leave out --camera-rays host (or --scheme paper, which "
+          "means it)");
 }
 
 /// A record of reflected light is to carry no less than this part of what a record of emission does, on average.
@@ -116,15 +125,15 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   if (quality.shadow_rays) {
     setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
   }
-  setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.samples);
+  setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.sample_places());
   const MachineDescription::Records& records = machine.description.records;
   setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,
                records.gather_records};
   setup.load_together = machine.scheme == Scheme::spread;
   setup.points_travel = machine.points == Points::travel;
   if (machine.camera_rays == RayMaker::pes) {
-    setup.parameters.pixel_samples = quality.samples;
-    setup.parameters.filter_entries = PixelSamples::entries(quality.filter, quality.samples);
+    setup.parameters.pixel_samples = quality.sample_places();
+    setup.parameters.filter_entries = PixelSamples::entries(quality.filter, quality.sample_places());
   }
   Placements placements = choose_placements(scene, camera, quality, machine, setup.mesh, setup.parameters, setup.map);
   setup.placement = std::move(placements.radiosity);

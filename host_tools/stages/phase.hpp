@@ -23,6 +23,11 @@ class Phase {
   /// Throws MachineFailure where the message is not one that this phase expects.
   virtual void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
                           std::span<const std::byte> contents) = 0;
+  /// Likewise of sums that it has not asked for.
+  virtual void on_pixels(HostPort& /*port*/, const FrameRead& read, std::span<const PixelSums> /*sums*/) {
+    throw MachineFailure("the frame buffer controller sent pixels from " + std::to_string(read.first) +
+                         " on, which nobody had asked for");
+  }
   virtual bool done() const = 0;
   virtual const char* waiting_for() const = 0;
   /// All that changes after it has been made: it goes on, instead of being started, from what another one has saved.

@@ -20,6 +20,8 @@ struct RayTracingSettings {
   std::uint32_t width = 1, height = 1, samples = 1;
   SamplePass pass;                   ///< those that are taken; each weighs 1 / samples, whatever the pass
   bool skip_empty_subspaces = true;  ///< where the host makes the rays
+  std::uint32_t least_samples = 0;   ///< not 0: pixels have so many, and up to `samples` where they need them
+  double noise = 0;                  ///< need: the halves of a block's samples differ by more [L*]
 };
 
 class RayPhase : public Phase {

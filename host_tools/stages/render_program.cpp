@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host_tools/layout/stage_image.hpp"
+#include "host_tools/stages/adaptive_phase.hpp"
 #include "host_tools/stages/load_phase.hpp"
 #include "host_tools/stages/radiosity_phase.hpp"
 #include "host_tools/stages/read_phase.hpp"
@@ -57,6 +58,12 @@ void RenderProgram::on_message(HostPort& port, PeNumber source, std::uint16_t ki
   if (phase_->done()) leave(port);
 }
 
+void RenderProgram::on_pixels(HostPort& port, const FrameRead& read, std::span<const PixelSums> sums) {
+  if (!phase_) throw MachineFailure("the frame buffer controller sent pixels, and nothing is left to do");
+  phase_->on_pixels(port, read, sums);
+  if (phase_->done()) leave(port);
+}
+
 void RenderProgram::enter(HostPort& port, Step step) {
   if (step != Step::finished && name_of(step) != name_of(step_)) port.begin_stage(name_of(step));
   step_ = step;
@@ -101,6 +108,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
                                            setup.units.watts_per_quantum, setup.units.unit_radiance);
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
+      if (is_adaptive())
+        return std::make_unique<AdaptivePhase>(setup.placement.torus.pes(), job_.ray_tracing, job_.rays.view());
       if (setup.parameters.pixel_samples > 0)
         return std::make_unique<TilePhase>(setup.placement.torus.pes(), job_.ray_tracing);
       return std::make_unique<RayTracingPhase>(setup.ray_placement, job_.rays, job_.ray_tracing);
@@ -175,6 +184,7 @@ void RenderProgram::leave(HostPort& port) {
       break;
     case Step::ray_tracing:
       rays_ = static_cast<const RayPhase&>(*phase_).sent();
+      samples_ = samples();
       enter(port, Step::report);
       break;
     case Step::report:
@@ -197,6 +207,11 @@ std::uint64_t RenderProgram::credits_home() const {
   return job_.setup.credits;
 }
 
+const SampleCounts& RenderProgram::samples() const {
+  if (step_ == Step::ray_tracing && is_adaptive()) return static_cast<const AdaptivePhase&>(*phase_).samples();
+  return samples_;
+}
+
 std::uint64_t RenderProgram::rounds_ended() const {
   if (step_ != Step::radiosity) return rounds_.size();
   return static_cast<const RadiosityPhase&>(*phase_).rounds().size() - 1;
@@ -206,7 +221,7 @@ template <class Archive>
 void RenderProgram::archive(Archive& archive) {
   archive.section("program");
   archive(step_, job_.solution, times_, rounds_, radiosity_visits_, ray_visits_, shots_, rays_, emitted_shot_,
-          reflected_shot_);
+          reflected_shot_, samples_);
 }
 
 void RenderProgram::save(SnapshotWriter& archive) {

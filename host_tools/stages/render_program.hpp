@@ -17,6 +17,7 @@
 #include "host_tools/stages/radiosity_settings.hpp"
 #include "host_tools/stages/ray_tracing_phase.hpp"
 #include "host_tools/stages/rounds.hpp"
+#include "host_tools/stages/sample_plan.hpp"
 
 namespace torolux {
 
@@ -42,6 +43,7 @@ class RenderProgram : public LightProgram {
 
   void start(HostPort& port) override;
   void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) override;
+  void on_pixels(HostPort& port, const FrameRead& read, std::span<const PixelSums> sums) override;
   bool finished() const override { return step_ == Step::finished; }
   const char* waiting_for() const override;
 
@@ -56,6 +58,8 @@ class RenderProgram : public LightProgram {
   const VisitSums& ray_visits() const { return ray_visits_; }
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< once the radiosity stage has ended
   std::uint64_t rays() const { return rays_; }
+  /// Of each pixel, as far as they have been made; empty: all have the same.
+  const SampleCounts& samples() const;
   std::uint64_t credits_home() const;
   std::uint64_t rounds_ended() const;
 
@@ -76,6 +80,7 @@ class RenderProgram : public LightProgram {
   template <class Archive>
   void archive(Archive& archive);
   std::unique_ptr<Phase> loading(protocol::Stage stage);
+  bool is_adaptive() const { return job_.ray_tracing.least_samples > 0; }
 
   RenderJob job_;
   bool given_;  ///< the solution
@@ -87,6 +92,7 @@ class RenderProgram : public LightProgram {
   VisitSums radiosity_visits_{}, ray_visits_{};
   std::uint64_t shots_ = 0;
   std::uint64_t rays_ = 0;
+  SampleCounts samples_;  ///< once all are made
   protocol::Flux emitted_shot_{};
   protocol::Flux reflected_shot_{};
 };

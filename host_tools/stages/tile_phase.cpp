@@ -4,6 +4,7 @@
 #include "host_tools/stages/tile_phase.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace torolux {
 namespace {
@@ -21,6 +22,10 @@ constexpr std::uint64_t kRaysOfTile = 32;
 constexpr std::uint64_t kLeastTilesOfPe = 4;
 /// Larger ones spare nothing worth having.
 constexpr std::uint32_t kMostTileEdge = 32;
+
+std::uint64_t pixels_of(const protocol::Tile& tile) {
+  return std::uint64_t{tile.columns} * tile.rows;
+}
 
 }  // namespace
 
@@ -48,10 +53,22 @@ TilePhase::TilePhase(unsigned pes, const RayTracingSettings& settings, const std
       settings_(settings),
       view_(view),
       grid_(tile_grid(settings.width, settings.height, settings.pass.count, pes)),
-      step_(golden_step(grid_.count())),
-      end_(grid_.count()),
-      rays_held_(pes),
+      tiles_(grid_.count()),
+      pixels_(std::uint64_t{settings.width} * settings.height),
+      step_(golden_step(tiles_)),
+      end_(tiles_),
+      held_(pes),
       credits_(settings.credits, pes) {}
+
+TilePhase::TilePhase(unsigned pes, const RayTracingSettings& settings, const protocol::View& view, ChosenTiles chosen)
+    : TilePhase(pes, settings, view) {
+  chosen_ = std::move(chosen);
+  tiles_ = chosen_.tiles.size();
+  pixels_ = 0;
+  for (const protocol::Tile& tile : chosen_.tiles) pixels_ += pixels_of(tile);
+  step_ = golden_step(tiles_);
+  end_ = tiles_;
+}
 
 void TilePhase::start(HostPort& port) {
   if (view_) port.broadcast(static_cast<std::uint16_t>(MessageKind::view), std::as_bytes(std::span(&*view_, 1)));
@@ -59,7 +76,7 @@ void TilePhase::start(HostPort& port) {
     for (unsigned pe = 0; pe < pes_; ++pe) deal(port, static_cast<PeNumber>(pe));
   }
   for (unsigned pe = 0; pe < pes_; ++pe) {
-    if (!rays_held_[pe].empty()) credits_.grant_share(port, static_cast<PeNumber>(pe));
+    if (!held_[pe].empty()) credits_.grant_share(port, static_cast<PeNumber>(pe));
   }
   credits_.note(port);
 }
@@ -77,26 +94,32 @@ void TilePhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
   }
 }
 
+protocol::Tile TilePhase::tile_in_turn(std::uint64_t turn) const {
+  const std::uint64_t number = turn * step_ % tiles_;
+  return chosen_.tiles.empty() ? grid_.tile(number) : chosen_.tiles[number];
+}
+
 /// The next tile, if there is one.
 void TilePhase::deal(HostPort& port, PeNumber pe) {
   if (next_ == end_) return;
   port.work(HostWork::entry, 1);
-  const protocol::Tile tile = grid_.tile(next_++ * step_ % grid_.count());
-  rays_held_[pe].push_back(std::uint64_t{tile.columns} * tile.rows * settings_.pass.count);
+  held_[pe].push_back(next_);
   ++under_way_;
-  torolux::send(port, pe, MessageKind::tile, tile);
+  torolux::send(port, pe, MessageKind::tile, tile_in_turn(next_++));
 }
 
 void TilePhase::take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done) {
-  std::deque<std::uint64_t>& held = rays_held_[source];
+  std::deque<std::uint64_t>& held = held_[source];
   if (done.points > held.size()) {
     throw MachineFailure("PE " + std::to_string(source) + " has done more tiles than it was dealt");
   }
   sent_ += done.records;
   under_way_ -= done.points;
   for (std::uint32_t i = 0; i < done.points; ++i) {
-    made_ += held.front();
+    const protocol::Tile tile = tile_in_turn(held.front());
     held.pop_front();
+    made_ += pixels_of(tile) * settings_.pass.count;
+    if (chosen_.finished) chosen_.finished(tile);
     deal(port, source);
   }
 }

@@ -56,6 +56,7 @@ class SinkPort final : public HostPort {
   void send_message(PeNumber, std::uint16_t, std::span<const std::byte> contents) override { put(contents); }
   void broadcast(std::uint16_t, std::span<const std::byte> contents) override { put(contents); }
   void send_records(PeNumber, std::span<const std::byte> records, std::uint32_t) override { put(records); }
+  void read_pixels(const FrameRead&) override {}
   std::size_t queued(PeNumber) const override { return 0; }
   std::uint64_t done(HostWork what) const { return done_[static_cast<std::size_t>(what)]; }
 

@@ -350,5 +350,55 @@ TEST(Layers, MakeTheSamePictureAndAreTheSame) {
   }
 }
 
+/// Which pixels get more samples is chosen by integers that every machine has alike; each is divided by its own number.
+TEST(AdaptiveSamples, MakeTheSamePictureAndChooseTheSamePixels) {
+  RenderCase cornell = small_cornell("cornell_spheres");
+  cornell.quality.samples = 4;
+  cornell.quality.most_samples = 16;
+  cornell.quality.noise = 4;
+  cornell.quality.layers = protocol::plane_bit(protocol::Plane::irradiance);
+  cornell.machine.columns = cornell.machine.rows = 1;
+  const RenderResult one = run_case(cornell);
+  expect_all_home(one);
+  const std::uint64_t pixels = std::uint64_t{cornell.quality.width} * cornell.quality.height;
+  EXPECT_GT(one.figures.rays, 9 * pixels / 2) << "some pixels have more";
+  EXPECT_LT(one.figures.rays, 14 * pixels) << "and some have not";
+  const auto expect_same = [&](const char* engine, unsigned columns, unsigned rows,
+                               std::array<std::uint32_t, 3> subspaces) {
+    cornell.machine.engine = engine;
+    cornell.machine.columns = columns;
+    cornell.machine.rows = rows;
+    cornell.machine.subspaces = subspaces;
+    const RenderResult other = run_case(cornell);
+    expect_all_home(other);
+    EXPECT_EQ(bytes_of(other.picture), bytes_of(one.picture)) << engine << " " << columns << "x" << rows;
+    EXPECT_EQ(other.figures.picture_sha256, one.figures.picture_sha256);
+    EXPECT_EQ(other.figures.rays, one.figures.rays);
+    EXPECT_EQ(other.layers[0].values, one.layers[0].values);
+  };
+  expect_same("native", 4, 4, {5, 3, 7});
+  expect_same("translated", 3, 2, {4, 4, 4});
+  expect_same("qemu", 2, 2, {2, 6, 3});
+}
+
+/// Where no block asks for more, the picture is that of the least samples; where all do, that of the most.
+TEST(AdaptiveSamples, LieBetweenTheLeastAndTheMost) {
+  RenderCase cornell = small_cornell();
+  cornell.quality.samples = 2;
+  cornell.quality.most_samples = 8;
+  cornell.quality.noise = 100;
+  const std::uint64_t least = run_case(cornell).figures.rays;
+  cornell.quality.noise = 0;
+  const RenderResult most = run_case(cornell);
+  cornell.quality.samples = 4;
+  const std::uint64_t twice = [&] {
+    cornell.quality.noise = 100;
+    return run_case(cornell).figures.rays;
+  }();
+  EXPECT_NEAR(static_cast<double>(twice), 2.0 * static_cast<double>(least), 0.01 * static_cast<double>(twice));
+  EXPECT_GT(most.figures.rays, 3 * least);
+  EXPECT_LE(most.figures.rays, std::uint64_t{8} * cornell.quality.width * cornell.quality.height);
+}
+
 }  // namespace
 }  // namespace torolux::test

@@ -38,6 +38,13 @@ class ListeningHost : public HostProgram {
   std::function<void(HostPort&)> at_start;
   std::function<void(HostPort&, const Heard&)> at_message;
   std::vector<Heard> heard;
+  /// What was read of the frame buffer.
+  struct Pixels {
+    Cycles time;
+    FrameRead read;
+    std::vector<PixelSums> sums;
+  };
+  std::vector<Pixels> pixels;
 
   void start(HostPort& port) override {
     if (at_start) at_start(port);
@@ -46,6 +53,9 @@ class ListeningHost : public HostProgram {
     heard.push_back({port.now(), source, kind, {contents.begin(), contents.end()}});
     const Heard last = heard.back();
     if (at_message) at_message(port, last);
+  }
+  void on_pixels(HostPort& port, const FrameRead& read, std::span<const PixelSums> sums) override {
+    pixels.push_back({port.now(), read, {sums.begin(), sums.end()}});
   }
   bool finished() const override { return heard.size() >= expected_; }
   const char* waiting_for() const override { return "more messages"; }

@@ -49,6 +49,7 @@ class FakePort final : public HostPort {
   void send_records(PeNumber pe, std::span<const std::byte> records, std::uint32_t record_bytes) override {
     waiting_.push_back({pe, 0, record_bytes, {records.begin(), records.end()}});
   }
+  void read_pixels(const FrameRead& read) override { reads_.push_back(read); }
   std::size_t queued(PeNumber pe) const override {
     return static_cast<std::size_t>(std::count_if(waiting_.begin(), waiting_.end(), [pe](const Sent& sent) {
       return sent.pe == pe || sent.pe == protocol::kHost;
@@ -57,10 +58,13 @@ class FakePort final : public HostPort {
 
   /// All that was sent since the last call; the queues are empty then.
   std::vector<Sent> take() { return std::exchange(waiting_, {}); }
+  /// Likewise of reads.
+  std::vector<FrameRead> take_reads() { return std::exchange(reads_, {}); }
 
  private:
   unsigned pes_;
   std::vector<Sent> waiting_;
+  std::vector<FrameRead> reads_;
   std::array<std::uint64_t, kHostWorks> done_{};
 };
 
