@@ -67,7 +67,7 @@ void AdaptivePhase::on_message(HostPort& port, PeNumber source, protocol::Messag
                                std::span<const std::byte> contents) {
   if (!phase_) unexpected(source, kind, "reading the frame buffer");
   phase_->on_message(port, source, kind, contents);
-  if (phase_->done()) go_on(port);
+  if (phase_->done() && !given_up_) go_on(port);
 }
 
 void AdaptivePhase::go_on(HostPort& port) {
@@ -86,6 +86,7 @@ void AdaptivePhase::on_pixels(HostPort& port, const FrameRead& read, std::span<c
   port.work(HostWork::unpack, host_lines(sums.size_bytes()));
   plan_.take(read.first, sums);
   ++answered_;
+  if (given_up_) return;
   if (answered_ < reads_.size()) return read_more(port);
   port.work(HostWork::entry, kEntriesOfBlock * plan_.advance());
   if (!plan_.finished()) enter(port, Step::trace);

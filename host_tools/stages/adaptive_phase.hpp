@@ -20,7 +20,9 @@ class AdaptivePhase : public RayPhase {
   void on_message(HostPort& port, PeNumber source, protocol::MessageKind kind,
                   std::span<const std::byte> contents) override;
   void on_pixels(HostPort& port, const FrameRead& read, std::span<const PixelSums> sums) override;
-  bool done() const override { return plan_.finished(); }
+  bool done() const override {
+    return plan_.finished() || (given_up_ && (phase_ ? phase_->done() : answered_ == asked_));
+  }
   const char* waiting_for() const override;
   void save(SnapshotWriter& archive) override;
   void restore(SnapshotReader& archive) override;
@@ -30,7 +32,10 @@ class AdaptivePhase : public RayPhase {
   std::uint64_t count() const override { return made_ + (tracing() ? tracer().count() : 0); }
   std::uint64_t sent() const override { return sent_ + (tracing() ? tracer().sent() : 0); }
   std::uint64_t credits_home() const override { return tracing() ? tracer().credits_home() : settings_.credits; }
-  void give_up() override;
+  void give_up() override {
+    given_up_ = true;
+    if (tracing()) static_cast<RayPhase&>(*phase_).give_up();
+  }
   /// So far; a pixel has all samples of a pass once its tile has been made.
   const SampleCounts& samples() const { return samples_; }
 
@@ -59,6 +64,7 @@ class AdaptivePhase : public RayPhase {
   std::vector<FrameRead> reads_;  ///< of the step read
   std::uint64_t asked_ = 0, answered_ = 0;
   std::uint64_t made_ = 0, sent_ = 0;  ///< in passes before the present one
+  bool given_up_ = false;
 };
 
 }  // namespace torolux

@@ -137,6 +137,16 @@ TEST(Checkpoint, RaysOfTheHostGoOn) {
   expect_same_in_pieces(render_case, 61, 5);
 }
 
+// Passes over the picture, the reading of its sums between them, and how many samples each pixel has.
+TEST(Checkpoint, AdaptiveSamplesGoOn) {
+  RenderCase render_case = small_case();
+  render_case.quality.max_shots = 2;
+  render_case.quality.width = render_case.quality.height = 48;
+  render_case.quality.samples = 2;
+  render_case.quality.most_samples = 8;
+  expect_same_in_pieces(render_case, 37, 8);
+}
+
 // Each engine goes on where another has stopped.
 TEST(Checkpoint, EnginesTakeTurns) {
   RenderCase render_case = small_case();

@@ -31,6 +31,25 @@ TEST(PixelPlace, OneSampleInEachStratum) {
   }
 }
 
+/// Of pixels that may have more samples the first 2, 4, 8 ... are spread evenly: one in each of as many rows and
+/// columns.
+TEST(PixelPlace, OfAdaptiveSamplesTheFirstAreEven) {
+  Quality quality;
+  quality.samples = 4;
+  quality.most_samples = 64;
+  const PixelSamples samples(quality, 11);
+  ASSERT_EQ(samples.count(), 64U);
+  for (std::uint32_t bits = 1; bits <= 6; ++bits) {
+    std::set<std::uint32_t> columns, rows;
+    for (const protocol::SamplePlace& place : samples.places().first(1U << bits)) {
+      columns.insert(place.x >> (32U - bits));
+      rows.insert(place.y >> (32U - bits));
+    }
+    EXPECT_EQ(columns.size(), 1U << bits);
+    EXPECT_EQ(rows.size(), 1U << bits);
+  }
+}
+
 /// Weight of a filter at a distance from the middle, of integral one: the definitions in pixel_samples.hpp.
 double weight(PixelFilter filter, double x) {
   if (filter == PixelFilter::box) return std::fabs(x) <= 0.5 ? 1 : 0;

@@ -299,6 +299,14 @@ TEST(Resolve, ACameraThatLooksNowhereIsRefused) {
   EXPECT_THROW(scene_options(options), InputError);
 }
 
+TEST(Resolve, AdaptiveSamplesAreForOnePicture) {
+  RenderOptions options;
+  options.given.set(&Quality::most_samples, 64U);
+  EXPECT_NO_THROW(resolve(options, bare_scene()));
+  options.display.display = true;
+  EXPECT_THAT(message_of<UsageError>([&] { resolve(options, bare_scene()); }), HasSubstr("--most-samples"));
+}
+
 TEST(Resolve, MissingMachineFileIsRefused) {
   RenderOptions options;
   options.machine = "/nowhere/machine.toml";

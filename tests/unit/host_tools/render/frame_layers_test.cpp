@@ -50,6 +50,15 @@ TEST_F(FrameLayersTest, ColoursAreRadiance) {
   EXPECT_FLOAT_EQ(picture.pixels[1][1], static_cast<float>(2 * setup_.units.unit_radiance));
 }
 
+/// Of four samples that a pixel may have, one had two, the other all.
+TEST_F(FrameLayersTest, EachPixelIsDividedByItsOwnSamples) {
+  setup_.parameters.pixel_samples = 4;
+  frame_.planes[0] = {{std::int64_t{1} << 39U, 0, 0}, {std::int64_t{1} << 40U, 0, 0}};
+  const Picture picture = picture_of(frame_, setup_, {2, 4});
+  EXPECT_FLOAT_EQ(picture.pixels[0][0], picture.pixels[1][0]);
+  EXPECT_FLOAT_EQ(picture.pixels[0][0], static_cast<float>(setup_.units.unit_radiance));
+}
+
 TEST_F(FrameLayersTest, IrradianceIsPiTimesTheSum) {
   const Layer of = layer(Plane::irradiance, {std::int64_t{1} << 40U, 0, 0}, {});
   EXPECT_FLOAT_EQ(of.values[0][0], static_cast<float>(std::numbers::pi * setup_.units.unit_radiance));
