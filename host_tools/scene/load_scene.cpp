@@ -141,6 +141,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   Scene scene;
   scene.name = file.name.value_or(scene_name(path));
   scene.defaults = file.defaults;
+  scene.sky = file.sky;
   scene.camera = choose_camera(cameras, options.camera_name, file.camera, whole, notices);
   const vec::Box bounds = builder.bounds();
   if (options.studio) {
@@ -175,12 +176,12 @@ void refuse_what_is_told(const std::vector<std::string>& told) {
 }
 
 void check_renderable(const Scene& scene) {
-  const bool lit = std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
+  const bool lit = scene.sky || std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
     return vec::largest(scene.materials[triangle.material].emission) > 0;
   });
   if (!lit)
     throw InputError("scene '" + scene.name +
-                     "' has no light: no face emits. Give a material Ke, add a [[light]] to scene.toml, or use "
+                     "' has no light: no face emits. Give a material Ke, add a [[light]] or a [sky] to scene.toml, or use "
                      "--studio for a room with a lamp");
   if (scene.camera) check_camera(*scene.camera);
 }

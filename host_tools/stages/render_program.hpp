@@ -89,6 +89,7 @@ class RenderProgram : public LightProgram {
   std::uint64_t rays_ = 0;
   protocol::Flux emitted_shot_{};
   protocol::Flux reflected_shot_{};
+  protocol::Flux sky_shot_{};
 };
 
 }  // namespace torolux
