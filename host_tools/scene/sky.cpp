@@ -68,6 +68,21 @@ std::vector<Vec3d> sky_table(const std::function<Vec3d(const Vec3d&)>& radiance)
   return table;
 }
 
+void take_suns(const std::vector<ImportedSun>& suns, std::optional<Sky>& sky, Notices& notices) {
+  for (const ImportedSun& sun : suns) {
+    if (sky && vec::largest(sky->sun_irradiance) > 0) {
+      notices.note("one sun shines: scene.toml's, or the first; this one (directional light) is not rendered", sun.place);
+      continue;
+    }
+    if (!sky) {
+      sky.emplace();
+      sky->radiance.assign(kSkyCells, Vec3d{0, 0, 0});
+    }
+    sky->sun = vec::unit(sun.direction);
+    sky->sun_irradiance = sun.irradiance;
+  }
+}
+
 double sky_cell_solid_angle(std::size_t cell) {
   const auto angle = [](double part) { return std::atan2(part, 1 - part); };
   const double begin = static_cast<double>(cell % (kSkySectors / 4)) * (4.0 / kSkySectors);

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "host_tools/scene/imported_mesh.hpp"
+#include "host_tools/scene/notices.hpp"
 #include "host_tools/scene/scene.hpp"
 
 namespace torolux {
@@ -14,6 +16,10 @@ inline constexpr double kSunRadiusDegrees = 0.2665;
 
 /// elevation, azimuth: in degrees, above the horizon and from north to east.
 Vec3d sky_direction(const Sky& sky, double elevation, double azimuth);
+
+/// The first of these suns shines where the sky has none of its own, or there is no sky; the others are told.
+/// direction: in the scene's space, any length.
+void take_suns(const std::vector<ImportedSun>& suns, std::optional<Sky>& sky, Notices& notices);
 
 /// By cell of the machine's table (firmware/protocol/sky.hpp): its mean over the cell. radiance: of a unit direction in
 /// the sky's frame: east, north, up.

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "emulator/nearest_name.hpp"
 #include "firmware/protocol/sky.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/shape_entries.hpp"
 #include "host_tools/scene/sky.hpp"
+#include "host_tools/scene/sky_models.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -17,6 +19,8 @@ namespace {
 constexpr double kMost = kMostCoordinate;
 /// What the ground reflects where nothing else is said: grass, earth and stone together.
 constexpr double kGround = 0.2;
+/// A clear day with little haze.
+constexpr double kTurbidity = 3;
 
 void read_frame(TomlTable& table, Sky& sky) {
   const Vec3d up = table.triple("up", -kMost, kMost, false).value_or(Vec3d{0, 1, 0});
@@ -37,8 +41,33 @@ void read_sun(TomlTable table, Sky& sky) {
   const double azimuth = table.required(table.number("azimuth", -360, 360), "azimuth");
   sky.sun = sky_direction(sky, elevation, azimuth);
   sky.sun_irradiance = table.required(table.triple("irradiance", 0, kMost, true), "irradiance");
-  if (!(vec::largest(sky.sun_irradiance) > 0)) refuse(table.place("irradiance"), table.title() + " has no light");
   table.finish();
+}
+
+/// The sun's direction in the sky's frame, for a model that needs it.
+Vec3d high_sun(const TomlTable& table, const Sky& sky, bool given, const std::string& model) {
+  const Vec3d sun{vec::dot(sky.sun, sky.east), vec::dot(sky.sun, sky.north), vec::dot(sky.sun, sky.up)};
+  if (!given || !(sun[2] > 0))
+    refuse(table.place("model"), "[sky] 'model' is \"" + model +
+                                     "\", which depends on where the sun stands: give [sky.sun] an elevation above 0 "
+                                     "(and an irradiance of 0 where the sun itself is hidden)");
+  return sun;
+}
+
+SkyModel read_model(TomlTable& table, const Sky& sky, bool sun_given) {
+  const std::string model = table.text("model").value_or("uniform");
+  const auto light = [&table](std::string_view key) {
+    return table.required(table.triple(key, 0, kMost, true), key);
+  };
+  if (model == "uniform") return uniform_sky(table.triple("radiance", 0, kMost, true).value_or(Vec3d{0, 0, 0}));
+  if (model == "overcast") return overcast_sky(light("zenith"));
+  if (model == "clear") return clear_sky(light("zenith"), high_sun(table, sky, sun_given, model));
+  if (model == "preetham") {
+    const double turbidity = table.number("turbidity", 1.9, 10).value_or(kTurbidity);
+    return preetham_sky(turbidity, high_sun(table, sky, sun_given, model));
+  }
+  refuse(table.place("model"),
+         "[sky] 'model': " + no_such_name(model, "model of a sky", {"uniform", "overcast", "clear", "preetham"}));
 }
 
 /// Light that comes up from far ground, which is level, diffuse and lit by all of the sky.
@@ -60,10 +89,9 @@ SkyQuad read_opening(TomlTable table) {
 Sky read_sky(TomlTable table) {
   Sky sky;
   read_frame(table, sky);
-  const auto uniform = table.triple("radiance", 0, kMost, true);
-  const Vec3d above = uniform.value_or(Vec3d{0, 0, 0});
-  sky.radiance = sky_table([&above](const Vec3d& direction) { return direction[2] > 0 ? above : Vec3d{0, 0, 0}; });
-  if (const toml::table* sun = table.table("sun")) read_sun({*sun, table.place().file, "[sky.sun]"}, sky);
+  const toml::table* sun = table.table("sun");
+  if (sun != nullptr) read_sun({*sun, table.place().file, "[sky.sun]"}, sky);
+  sky.radiance = sky_table(read_model(table, sky, sun != nullptr));
   light_ground(table.triple("ground", 0, 1, true).value_or(Vec3d{kGround, kGround, kGround}), sky);
   for (const toml::table* opening : table.tables("opening"))
     sky.openings.push_back(read_opening({*opening, table.place().file, "[[sky.opening]]"}));
@@ -72,7 +100,7 @@ Sky read_sky(TomlTable table) {
                                        std::to_string(protocol::kMostSkyOpenings) + " are possible");
   table.finish();
   if (!(greatest_sky_radiance(sky) > 0))
-    refuse(table.place(), "[sky] has no light: give its 'radiance', a 'sun', or both");
+    refuse(table.place(), "[sky] has no light: give it a 'model', a 'radiance', or a [sky.sun]");
   return sky;
 }
 
