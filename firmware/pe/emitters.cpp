@@ -45,11 +45,27 @@ glm::vec3 point_on(const Emitter& emitter, float a, float b) {
          to_vector(emitter.corner[2]) * b;
 }
 
+/// Of sky and sun: a direction by what comes from there. False: none comes to this side.
+bool sample_by_radiance(const Scene& scene, const Emitter& sky, float place, float v, const glm::vec3& normal,
+                        const glm::vec3& geometric, EmitterSample& sample) {
+  const std::uint32_t word = place < 1.0F ? static_cast<std::uint32_t>(place * 0x1p32F) : 0xFFFF'FFFFU;
+  const protocol::SkySample from = protocol::sample_sky(scene.layout.sky_frame, scene.sky, word, v);
+  sample.direction = to_vector(from.direction);
+  sample.polygon = sky.polygon;
+  const float leaving = glm::dot(sample.direction, normal);
+  if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
+  sample.irradiance_over_pi = to_vector(from.radiance_by_solid_angle) * (leaving * sky.area_over_chance);
+  return true;
+}
+
 /// One point by the emitters' power alone. False: no light comes from there.
 bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
                      const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
   float place = 0.0F;
   const Emitter& emitter = choose(scene, numbers.x, place);
+  if (emitter.polygon == protocol::kSkyTarget) {
+    return sample_by_radiance(scene, emitter, place, protocol::uniform_float(numbers.y), normal, geometric, sample);
+  }
   const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
   const float square = glm::dot(way, way);
   if (!(square > 0.0F)) return false;
@@ -65,10 +81,14 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
   return true;
 }
 
-/// A triangle or two, as lamps of one piece have, are alike from nearly everywhere.
+/// Of the sky at least so many: a surface sees half of it, and most what stands above it.
+constexpr std::uint32_t kSkyCandidates = 4;
+
+/// A triangle or two, as lamps of one piece have, are alike from nearly everywhere. The sky is the last of all.
 std::uint32_t candidates_of(const Scene& scene) {
   const auto emitters = static_cast<std::uint32_t>(scene.emitters.size());
-  return emitters <= 2U ? 1U : std::min(emitters - 1U, kMostCandidates);
+  const std::uint32_t least = scene.emitters.back().polygon == protocol::kSkyTarget ? kSkyCandidates : 1U;
+  return emitters <= 2U ? least : std::clamp(emitters - 1U, least, kMostCandidates);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // followed at once.
 #include "firmware/pe/hemicube.hpp"
 #include "firmware/pe/pe.hpp"
+#include "firmware/pe/sky.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
@@ -24,6 +25,10 @@ Frame frame_about(const glm::vec3& z) {
   return {{1.0F + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
 }
 
+bool is_of_sky(const PointRecord& point) {
+  return (point.flags & protocol::kSky) != 0;
+}
+
 /// One pixel on. False: it gets no flux.
 bool step_pixel(const Scene& scene, Expansion& expansion) {
   const HemicubeGrid& grid = scene.hemicube_grid;
@@ -38,9 +43,10 @@ bool step_pixel(const Scene& scene, Expansion& expansion) {
 }
 
 /// Moves on to the next pixel that gets any flux. False: the point is done.
-bool next_pixel(const Scene& scene, Expansion& expansion) {
+bool next_pixel(Pe& pe, Expansion& expansion) {
+  const bool of_sky = is_of_sky(expansion.point);
   while (expansion.next_pixel < expansion.end_pixel) {
-    if (step_pixel(scene, expansion)) return true;
+    if (of_sky ? step_sky_pixel(pe, expansion) : step_pixel(pe.scene, expansion)) return true;
   }
   return false;
 }
@@ -66,36 +72,45 @@ bool begin_point(Pe& pe) {
     expansion.number = protocol::point_number(point);
     expansion.key = protocol::point_key(point.key, expansion.number);
     expansion.within = protocol::stratified_pair(expansion.number, point.key);
-    expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
-    begin_pixels(pe.scene, expansion);
-    expansion.active = next_pixel(pe.scene, expansion);
+    if (is_of_sky(point)) {
+      begin_sky_pixels(pe, expansion);
+    } else {
+      expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
+      begin_pixels(pe.scene, expansion);
+    }
+    expansion.active = next_pixel(pe, expansion);
     if (expansion.active) return true;
     ++pe.done.points;
   }
   return false;
 }
 
-/// Takes a credit.
-void create_record(Pe& pe, Niu& niu) {
+/// Of the pixel, from the point.
+glm::vec3 direction_of(const Pe& pe, std::uint32_t shift) {
   const Expansion& expansion = pe.expansion;
   // Anywhere in the pixel: through the middle of each, what is small would get too little or too much, however many
   // hemi-cubes there are. The shot's points share the pixel out among themselves: to what is far away they are one
   // hemi-cube of so many times the pixels. In each pixel the points' places are shifted (by exclusive or) by numbers of
   // its own: they keep as far apart, and pixels have nothing to do with each other.
   const HemicubeGrid& grid = pe.scene.hemicube_grid;
-  const std::uint32_t shift = protocol::pixel_key(expansion.point.key, expansion.pixel);
   const HemicubePixel pixel = hemicube_pixel(grid, expansion.pixel);
-  const glm::vec3 direction =
-      pixel_direction(expansion.frame, grid, pixel, pe.scene.hemicube[entry_of(grid.n, pixel)],
-                      {protocol::uniform_float(expansion.within.x ^ shift),
-                       protocol::uniform_float(expansion.within.y ^ protocol::hash_combine(shift, 1))});
+  return pixel_direction(expansion.frame, grid, pixel, pe.scene.hemicube[entry_of(grid.n, pixel)],
+                         {protocol::uniform_float(expansion.within.x ^ shift),
+                          protocol::uniform_float(expansion.within.y ^ protocol::hash_combine(shift, 1))});
+}
+
+/// Takes a credit.
+void create_record(Pe& pe, Niu& niu) {
+  const Expansion& expansion = pe.expansion;
+  const bool of_sky = is_of_sky(expansion.point);
+  const std::uint32_t shift = protocol::pixel_key(expansion.point.key, expansion.pixel);
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
-  record.origin = expansion.point.origin;
-  record.direction = to_array(direction);
+  record.origin = of_sky ? to_array(sky_origin(pe.scene, expansion)) : expansion.point.origin;
+  record.direction = to_array(of_sky ? expansion.sky_direction : direction_of(pe, shift));
   record.flux = expansion.pixel_flux;
-  record.place = expansion.point.place;
-  record.polygon = expansion.point.polygon;
+  record.place = of_sky ? cell_of(pe.scene.layout, to_vector(record.origin)) : expansion.point.place;
+  record.polygon = of_sky ? protocol::kNoPolygon : expansion.point.polygon;
   record.key = protocol::record_key(expansion.key, shift);
   record.kind = protocol::RecordKind::light;
   record.bounce = 0;
@@ -119,6 +134,10 @@ void take_point(Pe& pe, Niu& niu, const PointRecord& point) {
   if (part > protocol::kPointParts) {
     niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::point_part), part);
   }
+  const bool enters = !is_of_sky(point) || (point.polygon < pe.scene.sky_openings.size() && !pe.scene.sky.empty());
+  if (!enters) {
+    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::opening), point.polygon);
+  }
   points.place[(points.first + points.waiting) % protocol::kPointPlaces] = point;
   ++points.waiting;
 }
@@ -128,7 +147,7 @@ void expand_points(Pe& pe, Niu& niu, std::uint32_t most) {
   for (std::uint32_t i = 0; i < most && pe.credits.in_hand > 0; ++i) {
     if (!pe.expansion.active && !begin_point(pe)) return;
     create_record(pe, niu);
-    pe.expansion.active = next_pixel(pe.scene, pe.expansion);
+    pe.expansion.active = next_pixel(pe, pe.expansion);
     if (!pe.expansion.active) ++pe.done.points;
   }
 }

@@ -6,6 +6,7 @@
 #include "firmware/pe/glossy.hpp"
 #include "firmware/pe/intersect.hpp"
 #include "firmware/pe/layers.hpp"
+#include "firmware/pe/sky.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/random.hpp"
@@ -308,6 +309,7 @@ void follow_ray(Pe& pe, Niu& niu, Slot slot) {
       pe.outbox.put(niu, pe.slots, way.next, slot);
       return;
     }
+    if (way.end == WayEnd::escaped) see_sky(pe, niu, record);
     const Next next = way.end == WayEnd::hit ? meet_surface(pe, niu, slot, way.hit) : Next::ended;
     if (next == Next::sent || (next == Next::ended && !next_path(pe, niu, slot))) return;
   }

@@ -22,6 +22,7 @@ struct Scene {
   std::span<const protocol::Material> materials;
   std::span<const protocol::Vec3f> normals;
   std::span<const std::uint32_t> nodes;
+  std::span<const protocol::SkyEntry> sky;
   // Radiosity stage.
   std::span<const protocol::PatchReference> patch_references;
   std::span<const protocol::PatchPart> patch_parts;
@@ -31,6 +32,7 @@ struct Scene {
   std::span<const protocol::Facet> facets;
   std::span<const protocol::HemicubeEntry> hemicube;
   HemicubeGrid hemicube_grid;
+  std::span<const protocol::SkyOpening> sky_openings;
   // Ray tracing stage.
   std::span<const protocol::CornerIrradiance> irradiance;
   std::span<const protocol::KeptSurface> kept;
@@ -51,6 +53,7 @@ struct Scene {
     materials = memory.store<const protocol::Material>(layout.materials);
     normals = memory.store<const protocol::Vec3f>(layout.normals);
     nodes = memory.store<const std::uint32_t>(layout.nodes);
+    sky = memory.store<const protocol::SkyEntry>(layout.sky);
     patch_references = memory.store<const protocol::PatchReference>(layout.patch_references);
     patch_parts = memory.store<const protocol::PatchPart>(layout.patch_parts);
     patches = memory.store<const protocol::Patch>(layout.patches);
@@ -58,6 +61,7 @@ struct Scene {
     elements = memory.store<protocol::Element>(layout.elements);
     facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
+    sky_openings = memory.store<const protocol::SkyOpening>(layout.sky_openings);
     irradiance = memory.store<const protocol::CornerIrradiance>(layout.irradiance);
     kept = memory.store<const protocol::KeptSurface>(layout.kept);
     textures = memory.store<const protocol::Texture>(layout.textures);

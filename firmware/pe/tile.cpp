@@ -5,6 +5,7 @@
 #include "firmware/protocol/fault_fields.hpp"
 
 #include "firmware/pe/pe.hpp"
+#include "firmware/pe/sky.hpp"
 #include "firmware/protocol/first_cell.hpp"
 
 namespace torolux::pe {
@@ -94,6 +95,8 @@ void make_ray(Pe& pe, Niu& niu) {
   record.direction = ray.direction;
   if (!(lens ? find_lens_start(pe, record) : find_start(pe, record))) {
     pe.slots.free_own(slot);
+    const glm::vec3 light = sky_towards(pe.scene, to_vector(direction)) * tiles.weight;
+    if (!pe.scene.sky.empty()) pe.results.add_pixel(niu, tiles.pixel.number, light * pe.scene.layout.pixel_scale);
     return;
   }
   record.weight = {tiles.weight, tiles.weight, tiles.weight};

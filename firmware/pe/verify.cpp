@@ -27,6 +27,7 @@ class Verifier {
     for (const protocol::Material& material : scene_.materials) check(material);
     check_textures();
     check_emitters();
+    check_sky();
     if (scene_.layout.stage != Stage::radiosity) return;
     for (const protocol::PatchPart& part : scene_.patch_parts) check(part);
     for (const protocol::Patch& patch : scene_.patches) check(patch);
@@ -113,6 +114,29 @@ class Verifier {
   }
 
   /// Whatever the random bits are, one of them is chosen.
+  /// All of it or nothing; so a drawn word finds an entry.
+  void check_sky() {
+    const auto entries = static_cast<std::uint32_t>(scene_.sky.size());
+    require(entries == 0 || entries == protocol::kSkyEntries, StoreIndex::sky_entries, entries, protocol::kSkyEntries);
+    std::uint32_t before = 0;
+    for (const protocol::SkyEntry& entry : scene_.sky) {
+      require(entry.chosen_to >= before, StoreIndex::sky_chance, entry.chosen_to, before);
+      before = entry.chosen_to;
+    }
+    require(entries == 0 || before == 0xFFFF'FFFFU, StoreIndex::sky_chance, before, 0xFFFF'FFFFU);
+    for (const protocol::Emitter& emitter : scene_.emitters) {
+      require(emitter.polygon != protocol::kSkyTarget || entries > 0, StoreIndex::sky_entries, 0, protocol::kSkyEntries);
+    }
+    for (std::uint32_t i = 0; i < scene_.sky_openings.size(); ++i) {
+      const protocol::SkyOpening& opening = scene_.sky_openings[i];
+      const auto sum = [](const protocol::Vec3f& a, const protocol::Vec3f& b) {
+        return protocol::Vec3f{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+      };
+      const protocol::Vec3f beside = sum(opening.corner, opening.along);
+      check_corners({opening.corner, beside, sum(beside, opening.across)}, StoreIndex::sky_opening, i);
+    }
+  }
+
   void check_emitters() {
     std::uint32_t before = 0;
     for (const protocol::Emitter& emitter : scene_.emitters) {

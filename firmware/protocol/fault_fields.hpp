@@ -71,6 +71,9 @@ enum class StoreIndex : std::uint32_t {
   tile_rows,
   view_first,
   view_step,
+  sky_entries,
+  sky_chance,
+  sky_opening,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreIndex::count)> kStoreIndexWords = {
@@ -130,6 +133,9 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreInde
     "tile empty or outside the picture: first row %, picture's height %",
     "pass over a picture without samples, or beyond a pixel's: first %, of %",
     "step between the samples of a pass = %, limit %",
+    "entries of the sky = %: none or %",
+    "chance of a part of the sky = %, at least %",
+    "corner of an opening outside the unit cube, of opening %",
 };
 
 /// FaultCode::bad_record: which field; no third detail.
@@ -146,6 +152,7 @@ enum class RecordField : std::uint32_t {
   surface,
   point_places,
   point_part,
+  opening,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(RecordField::count)> kRecordFieldWords = {
@@ -161,6 +168,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(RecordFie
     "surface that it hits = %",
     "points waiting at this PE = %",
     "part of a point = %",
+    "opening through which sky comes = %, which is not there",
 };
 
 /// FaultCode::bad_layout: a StoreName, with its address and count, or one of the layout's other fields.
@@ -208,6 +216,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(LayoutFie
     "sample places: address %, count %",
     "filter: address %, count %",
     "emitters: address %, count %",
+    "sky: address %, count %",
+    "openings: address %, count %",
     "stage = %",
     "cells along an axis = %: at least 1 and at most %",
     "own record slots = %, of % in all",

@@ -44,6 +44,8 @@ inline constexpr std::uint8_t kEntryAxisMask = 0x30;
 inline constexpr std::uint32_t kPartShift = 4;
 inline constexpr std::uint8_t kPartMask = 0xF0;
 inline constexpr std::uint32_t kPointParts = 8;
+/// Of a point: it is of sky and sun, through an opening (sky.hpp).
+inline constexpr std::uint8_t kSky = 2;
 
 /// Radiosity stage: one hemi-cube pixel's flux.
 struct RadiosityRecord {
@@ -66,9 +68,10 @@ static_assert(sizeof(RadiosityRecord) == 64);
 struct PointRecord {
   Vec3f origin;
   Vec3f normal;           ///< unit length, of the side that shoots
-  Flux flux;              ///< to be divided among the hemi-cube's pixels
+  Flux flux;  ///< to be divided among the hemi-cube's pixels; kSky: its part of what the opening would let in from all
+              ///< directions were its cosine to each 1
   std::uint32_t place;    ///< cell code of the subspace that holds `origin`
-  std::uint32_t polygon;  ///< global number of the polygon that its light leaves
+  std::uint32_t polygon;  ///< global number of the polygon that its light leaves; kSky: number of the opening
   std::uint32_t key;      ///< hash of (seed, patch, shot)
   RecordKind kind;
   std::uint8_t number_low;  ///< of the point in its shot, 16 bits

@@ -9,7 +9,7 @@
 
 namespace torolux::protocol {
 
-/// In the order in which StageLayout names them.
+/// In the order in which faults name them.
 enum class StoreName : std::uint32_t {
   cell_words,
   cell_entries,
@@ -35,6 +35,8 @@ enum class StoreName : std::uint32_t {
   sample_places,
   filter,
   emitters,
+  sky,
+  sky_openings,
   count
 };
 inline constexpr std::uint32_t kStores = static_cast<std::uint32_t>(StoreName::count);
@@ -74,6 +76,8 @@ constexpr std::array<StoreExtent, kStores> store_extents(const StageLayout& l) {
       {l.sample_places, sizeof(SamplePlace)},
       {l.filter, sizeof(float)},
       {l.emitters, sizeof(Emitter)},
+      {l.sky, sizeof(SkyEntry)},
+      {l.sky_openings, sizeof(SkyOpening)},
   }};
 }
 

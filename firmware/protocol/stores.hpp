@@ -13,6 +13,7 @@
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/polygon_boxes.hpp"
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/sky.hpp"
 #include "firmware/protocol/texture.hpp"
 
 namespace torolux::protocol {
@@ -140,9 +141,10 @@ struct Tally {
   Flux escaped;            ///< left the object space
   Flux cut_off;            ///< bounce limit
   Flux back_side;          ///< fell on a side that has no elements
+  Flux sky_rest;           ///< of sky points' flux, less that of their records
   std::uint64_t rays;      ///< records created
 };
-static_assert(sizeof(Tally) == 128);
+static_assert(sizeof(Tally) == 152);
 
 /// [n]: segments that ended at one PE, in a stage, after n subspaces of all PEs; kMostVisits: or more.
 using Visits = std::array<std::uint32_t, kMostVisits + 1>;
@@ -181,7 +183,7 @@ struct Emitter {
   Vec3f emission;            ///< radiance from the front, in units of the scene's greatest
   float area_over_chance;    ///< area / (pi * the chance that it is chosen)
   std::uint32_t chosen_to;   ///< chosen by 32 random bits up to this, and beyond the one before; the last: all ones
-  std::uint32_t polygon;     ///< global number
+  std::uint32_t polygon;     ///< global number; kSkyTarget: sky and sun, whose corners and emission are not used
   std::uint32_t both_sides;  ///< 0 or 1: emits from the back, too
 };
 static_assert(sizeof(Emitter) == 64);
@@ -245,6 +247,8 @@ struct StageLayout {
   std::uint32_t credits_kept;                   ///< that a PE keeps in hand while it has work
   std::uint32_t gather_cycles, gather_records;  ///< NiuWindow::gather
   std::uint32_t bounces;                        ///< path segments after which light is cut off
+  Store sky;                                    ///< SkyEntry[kSkyEntries], or empty: no sky
+  SkyFrame sky_frame;
   // Radiosity stage (counts 0 in the other).
   Store patch_references;         ///< PatchReference[]
   Store patch_parts;              ///< PatchPart[], of patches that this PE owns
@@ -253,6 +257,7 @@ struct StageLayout {
   Store elements;                 ///< Element[]
   Store facets;                   ///< Facet[]
   Store hemicube;                 ///< HemicubeEntry[hemicube_weights(hemicube_size)]
+  Store sky_openings;             ///< SkyOpening[]
   std::uint32_t hemicube_size;    ///< N, even
   std::uint32_t shot_points;      ///< k: k * k points at most per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light
@@ -271,6 +276,6 @@ struct StageLayout {
   float least_weight;  ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 372);
+static_assert(sizeof(StageLayout) == 476);
 
 }  // namespace torolux::protocol

@@ -9,6 +9,8 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/sky_tables.hpp"
+#include "host_tools/scene/sky.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -25,8 +27,10 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
     const double area = triangle.area * (two_sided_lights ? 2 : 1);
     emitted = vec::add(emitted, vec::scale(material.emission, std::numbers::pi * area));
   }
+  if (scene.sky) units.unit_radiance = std::max(units.unit_radiance, greatest_sky_radiance(*scene.sky));
+  for (const SkyInlet& inlet : sky_inlets(scene, mesh.space)) emitted = vec::add(emitted, inlet.flux);
   const double greatest = std::max({emitted[0], emitted[1], emitted[2]});
-  if (!(greatest > 0)) throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke)");
+  if (!(greatest > 0)) throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke), and there is no sky");
   units.watts_per_quantum = greatest / kEmittedQuanta;
   // The machine's floats must hold radiances and their reciprocals.
   if (!std::isfinite(greatest) || !(units.watts_per_quantum > 1e-300) || !(units.unit_radiance > 1e-30) ||
@@ -60,6 +64,12 @@ std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, co
     all.push_back({triangle.corner, to_float(radiance), static_cast<float>(area / std::numbers::pi), 0, t,
                    units.two_sided_lights ? 1U : 0U});
     flux.push_back(area * (radiance[0] + radiance[1] + radiance[2]));
+    sum += flux.back();
+  }
+  if (scene.sky) {
+    // The last one, with chances of its own (protocol::sample_sky).
+    all.push_back({{}, {}, static_cast<float>(1 / std::numbers::pi), 0, protocol::kSkyTarget, 0});
+    flux.push_back(sky_power(sky_inlets(scene, mesh.space), mesh.space, units));
     sum += flux.back();
   }
   // The chance that counts is the one that whole numbers of 2^-32 give it.

@@ -12,6 +12,7 @@
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/copies.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
+#include "host_tools/layout/sky_tables.hpp"
 
 namespace torolux {
 namespace {
@@ -45,6 +46,7 @@ class ImageWriter {
     write_patches();
     if (common_.hemicube.count == 0)
       put_all<protocol::HemicubeEntry>(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
+    write_sky();
     return std::move(bytes_);
   }
 
@@ -55,6 +57,7 @@ class ImageWriter {
     write_kept(irradiance);
     if (common_.emitters.count == 0 && layout_.emitters.count > 0)
       put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
+    write_sky();
     if (common_.sample_places.count == 0 && layout_.sample_places.count > 0) {
       put_all<protocol::SamplePlace>(layout_.sample_places, camera.sample_places);
       put_all<float>(layout_.filter, camera.filter);
@@ -173,6 +176,14 @@ class ImageWriter {
       if (triangle.sides != 0) references += protocol::triangles_of_level(triangle.patch_level);
       put(layout_.polygons, local, polygon);
     }
+  }
+
+  void write_sky() {
+    if (layout_.sky.count == 0 || common_.sky.count > 0) return;
+    put_all<protocol::SkyEntry>(layout_.sky, sky_tables(scene_, units_).entries);
+    if (layout_.sky_openings.count == 0) return;
+    const std::vector<SkyInlet> inlets = sky_inlets(scene_, mesh_.space);
+    for (std::size_t i = 0; i < inlets.size(); ++i) put(layout_.sky_openings, i, inlets[i].opening);
   }
 
   void write_textures() {

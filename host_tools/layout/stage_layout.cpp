@@ -206,6 +206,10 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.sample_places = allocator.place("sample places", Lessened::samples, samples, sizeof(protocol::SamplePlace));
   layout.filter = allocator.place("filter", Lessened::samples, filter, sizeof(float));
   layout.emitters = allocator.place("emitters", Lessened::patches, emitters, sizeof(protocol::Emitter));
+  const std::uint32_t openings = stage == Stage::radiosity ? parameters.sky_openings : 0;
+  layout.sky = allocator.place("sky", Lessened::nothing, parameters.sky_entries, sizeof(protocol::SkyEntry));
+  layout.sky_openings = allocator.place("openings", Lessened::nothing, openings, sizeof(protocol::SkyOpening));
+  layout.sky_frame = parameters.sky_frame;
   result.load_end = allocator.next();
   layout.open_batches = open_batches(placement.torus.pes());
   layout.own_slots = protocol::own_slots(stage, layout.open_batches);

@@ -37,8 +37,8 @@ struct Component {
 
 class Sides {
  public:
-  Sides(std::span<const Vec3d> positions, std::span<const SideTriangle> triangles)
-      : positions_(positions), triangles_(triangles) {
+  Sides(std::span<const Vec3d> positions, std::span<const SideTriangle> triangles, bool sky)
+      : positions_(positions), triangles_(triangles), sky_(sky) {
     boxes_.reserve(triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) boxes_.push_back(box_of(corners(t)));
   }
@@ -169,7 +169,7 @@ class Sides {
         box.high[axis] = std::max(box.high[axis], boxes_[t].high[axis]);
       }
     }
-    std::uint8_t lit = 0;
+    std::uint8_t lit = sky_ ? outside : std::uint8_t{0};
     for (std::uint32_t t = 0; t < triangles_.size() && lit != (kFrontPresent | kBackPresent); ++t) {
       if (triangles_[t].emits_from == 0) continue;
       if (own[t]) {
@@ -193,13 +193,15 @@ class Sides {
 
   std::span<const Vec3d> positions_;
   std::span<const SideTriangle> triangles_;
+  bool sky_;
   std::vector<Box> boxes_;
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> lit_sides(std::span<const Vec3d> positions, std::span<const SideTriangle> triangles) {
-  return Sides(positions, triangles).find();
+std::vector<std::uint8_t> lit_sides(std::span<const Vec3d> positions, std::span<const SideTriangle> triangles,
+                                    bool sky) {
+  return Sides(positions, triangles, sky).find();
 }
 
 }  // namespace torolux

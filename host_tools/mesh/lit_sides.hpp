@@ -20,7 +20,8 @@ struct SideTriangle {
 /// Sides as kFrontPresent | kBackPresent for each triangle. A side is left out only where no light can reach it for
 /// certain: it belongs to a closed component (every edge shared by exactly two triangles, wound alike, nothing of it
 /// glass, nowhere touching itself), which so parts space in two, and no emitter is on that side of it.
-/// positions: normalised.
-std::vector<std::uint8_t> lit_sides(std::span<const Vec3d> positions, std::span<const SideTriangle> triangles);
+/// positions: normalised. sky: light comes from outside of all.
+std::vector<std::uint8_t> lit_sides(std::span<const Vec3d> positions, std::span<const SideTriangle> triangles,
+                                    bool sky = false);
 
 }  // namespace torolux

@@ -92,7 +92,7 @@ void choose_sides(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
     triangles.push_back(
         {triangle.position, material.kind != SurfaceKind::glass, emits(material) ? lit : static_cast<std::uint8_t>(0)});
   }
-  const std::vector<std::uint8_t> sides = lit_sides(positions, triangles);
+  const std::vector<std::uint8_t> sides = lit_sides(positions, triangles, scene.sky.has_value());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const bool diffuse = scene.materials[mesh.triangles[t].material].kind == SurfaceKind::diffuse;
     mesh.triangles[t].sides = diffuse ? sides[t] : 0;
@@ -300,6 +300,7 @@ Scene retriangulated(const Scene& scene) {
   cut.texture_points = scene.texture_points;
   cut.triangles = scene.triangles;
   cut.materials = scene.materials;
+  cut.sky = scene.sky;
   retriangulate(cut);
   return cut;
 }

@@ -40,7 +40,7 @@ class LightSearch {
   }
 
   std::vector<std::string> run() {
-    if (emitters_.empty()) return {};
+    if (emitters_.empty() || scene_.sky) return {};
     for (; paths_ < kMostPaths && rays_left_ > 0; ++paths_)
       if (finds_light()) return {};
     if (paths_ < kLeastPaths) return {};

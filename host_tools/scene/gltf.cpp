@@ -196,14 +196,14 @@ class Importer {
   }
 
   void tell_units() {
-    for (const ImportedMaterial& one : mesh_.materials) {
-      if (!emits(one.material)) continue;
+    if (!mesh_.suns.empty() || std::ranges::any_of(mesh_.materials, [](const ImportedMaterial& one) {
+          return emits(one.material);
+        })) {
       notices_.note(units_ == GltfUnits::watt
                         ? "light is taken in watts: 1 cd/m^2 as 1 W/(m^2 sr), 1 cd as 1 W/sr; --gltf-units lumen "
                           "divides by 683 lm/W"
                         : "light is taken in lumens: 683 lm are 1 W; --gltf-units watt takes the numbers as they are",
                     root_.place());
-      return;
     }
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes an icosahedron of a point light, and an octagon of a spot.
+// Makes an icosahedron of a point light, an octagon of a spot, and notes a sun.
 #include "host_tools/scene/gltf_lights.hpp"
 
 #include <array>
@@ -79,13 +79,19 @@ void add_gltf_light(const GltfObject& root, const GltfLight& light, double size,
   const Place place = object.place();
   const std::string type = object.text("type").value_or("");
   const double intensity = object.number("intensity", 0, kMostCoordinate).value_or(1) * radiance_per_luminance(units);
-  const Vec3d power = vec::scale(object.colour("color").value_or(Vec3d{1, 1, 1}), intensity);  // [W/sr]
+  // [W/sr]; of a sun [W/m^2]
+  const Vec3d power = vec::scale(object.colour("color").value_or(Vec3d{1, 1, 1}), intensity);
   const std::string name = object.text("name").value_or("light " + std::to_string(light.number));
   if (object.has("range")) notices.note("the range of a light is not used: light goes on for ever", place);
-  if (type == "directional") return notices.note("a sun (directional light) is not rendered", place);
-  if (type != "point" && type != "spot")
+  if (type != "point" && type != "spot" && type != "directional")
     refuse(place, "'type' is " + in_quotes(type) + "; expected point, spot or directional");
   if (!(vec::largest(power) > 0)) return;
+  if (type == "directional") {
+    const Vec3d towards = light.place.axes[2];
+    if (!(vec::length(towards) > 0)) refuse(place, "its node's scale is zero: it shines nowhere");
+    mesh.suns.push_back({towards, power, place});
+    return;
+  }
   if (type == "point") {
     const Body body = icosahedron(light.place.origin, size);
     // The mean projected area of a convex body is a quarter of its surface (A. Cauchy 1841).

@@ -80,6 +80,13 @@ struct ImportedCamera {
   Place place;
 };
 
+/// A sun of a file that has one.
+struct ImportedSun {
+  Vec3d direction;   ///< towards it, in the file's space, any length
+  Vec3d irradiance;  ///< on a surface that faces it [W/m^2]
+  Place place;
+};
+
 struct ImportedMesh {
   std::string file;
   std::vector<std::string> parts;  ///< of a file without lines: what messages call the places of its faces
@@ -90,6 +97,7 @@ struct ImportedMesh {
   std::vector<ImportedMaterial> materials;
   std::vector<std::pair<std::string, Place>> missing_libraries;
   std::vector<ImportedCamera> cameras;
+  std::vector<ImportedSun> suns;
 
   Place place_of(const ImportedTriangle& triangle) const {
     return parts.empty() ? Place{file, triangle.line} : Place{parts[triangle.line], 0};

@@ -14,9 +14,11 @@
 #include "host_tools/scene/mgf.hpp"
 #include "host_tools/scene/obj.hpp"
 #include "host_tools/scene/part_overlaps.hpp"
+#include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/plain_text.hpp"
 #include "host_tools/scene/scene_file.hpp"
 #include "host_tools/scene/scene_shapes.hpp"
+#include "host_tools/scene/sky.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/studio.hpp"
 
@@ -75,10 +77,15 @@ std::string scene_name(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal().parent_path().filename().string();
 }
 
-/// Returns the cameras that they bring along.
-std::vector<ImportedCamera> add_meshes(const SceneFile& file, const std::filesystem::path& scene, SceneFiles& files,
-                                       const SceneOptions& options, SceneBuilder& builder, Notices& notices) {
+/// What meshes bring along.
+struct Brought {
   std::vector<ImportedCamera> cameras;
+  std::vector<ImportedSun> suns;
+};
+
+Brought add_meshes(const SceneFile& file, const std::filesystem::path& scene, SceneFiles& files,
+                   const SceneOptions& options, SceneBuilder& builder, Notices& notices) {
+  Brought brought;
   for (const MeshEntry& entry : file.meshes) {
     const std::filesystem::path mesh = scene.parent_path() / entry.file;
     const Place asked_at = entry.place.file.empty() ? Place{scene.string(), 0} : entry.place;
@@ -86,9 +93,13 @@ std::vector<ImportedCamera> add_meshes(const SceneFile& file, const std::filesys
       refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf, .glb or .mgf; no other mesh is read");
     const ImportedMesh imported = import_mesh(mesh, files, asked_at, options, notices);
     builder.add_mesh(imported, entry, file.materials);
-    add_cameras(imported, entry, cameras);
+    add_cameras(imported, entry, brought.cameras);
+    for (ImportedSun sun : imported.suns) {
+      sun.direction = MeshTransform(entry).direction(sun.direction);
+      brought.suns.push_back(std::move(sun));
+    }
   }
-  return cameras;
+  return brought;
 }
 
 void add_lights(const SceneFile& file, SceneBuilder& builder) {
@@ -134,7 +145,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
     refuse(whole, "no [[mesh]], [room] or shape is named: there is nothing to render");
 
   SceneBuilder builder(files, options.missing_materials, notices);
-  const std::vector<ImportedCamera> cameras = add_meshes(file, path, files, options, builder, notices);
+  const Brought brought = add_meshes(file, path, files, options, builder, notices);
   add_shapes(file, whole, builder);
   add_lights(file, builder);
   add_lamps(file, builder);
@@ -142,7 +153,9 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   Scene scene;
   scene.name = file.name.value_or(scene_name(path));
   scene.defaults = file.defaults;
-  scene.camera = choose_camera(cameras, options.camera_name, file.camera, whole, notices);
+  scene.sky = file.sky;
+  take_suns(brought.suns, scene.sky, notices);
+  scene.camera = choose_camera(brought.cameras, options.camera_name, file.camera, whole, notices);
   const vec::Box bounds = builder.bounds();
   if (options.studio) {
     if (!builder.has_surface()) refuse(whole, "no surface with an area: there is nothing to put into the studio");
@@ -177,12 +190,12 @@ void refuse_what_is_told(const std::vector<std::string>& told) {
 }
 
 void check_renderable(const Scene& scene) {
-  const bool lit = std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
+  const bool lit = scene.sky || std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
     return vec::largest(scene.materials[triangle.material].emission) > 0;
   });
   if (!lit)
     throw InputError("scene '" + scene.name +
-                     "' has no light: no face emits. Give a material Ke, add a [[light]] to scene.toml, or use "
+                     "' has no light: no face emits. Give a material Ke, add a [[light]] or a [sky] to scene.toml, or use "
                      "--studio for a room with a lamp");
   if (scene.camera) check_camera(*scene.camera);
 }

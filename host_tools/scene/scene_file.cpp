@@ -10,6 +10,7 @@
 #include "emulator/nearest_name.hpp"
 #include "host_tools/scene/camera_entry.hpp"
 #include "host_tools/scene/imported_mesh.hpp"
+#include "host_tools/scene/sky_entry.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/scene/toml_table.hpp"
 
@@ -190,6 +191,7 @@ SceneFile read_scene_file(std::string_view text, const std::string& file) {
   for (const toml::table* light : table.tables("light"))
     scene.lights.push_back(read_light({*light, file, "[[light]]"}));
   read_shapes(table, file, scene);
+  if (const toml::table* sky = table.table("sky")) scene.sky = read_sky({*sky, file, "[sky]"});
   if (const toml::table* camera = table.table("camera")) {
     TomlTable entry(*camera, file, "[camera]");
     scene.camera = read_camera(entry, "[camera]");

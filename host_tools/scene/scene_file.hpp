@@ -51,6 +51,7 @@ struct SceneFile {
   std::optional<RoomEntry> room;
   std::vector<ShapeEntry> shapes;
   std::vector<LampEntry> lamps;
+  std::optional<Sky> sky;
   std::optional<Camera> camera;
   SceneDefaults defaults;
 };

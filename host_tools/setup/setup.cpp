@@ -11,6 +11,7 @@
 #include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/random.hpp"
 #include "host_tools/camera/pixel_samples.hpp"
+#include "host_tools/layout/sky_tables.hpp"
 #include "host_tools/settings/options.hpp"
 #include "host_tools/setup/placements.hpp"
 
@@ -54,7 +55,7 @@ void check(const Quality& quality, const MachineChoice& machine) {
 constexpr double kFaintestRecord = 0.2;
 
 void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality, StageParameters& parameters) {
-  double emitting = 0;
+  auto emitting = static_cast<double>(parameters.sky_openings);
   for (const MeshPatch& patch : mesh.patches) {
     if (emits(scene.materials[patch.material])) emitting += quality.two_sided_lights ? 2.0 : 1.0;
   }
@@ -119,6 +120,10 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   setup.parameters.seed = machine_seed(quality.seed);
   setup.parameters.bounces = quality.bounces;
   setup.parameters.hemicube = quality.hemicube;
+  const SkyTables sky = sky_tables(scene, setup.units);
+  setup.parameters.sky_frame = sky.frame;
+  setup.parameters.sky_entries = static_cast<std::uint32_t>(sky.entries.size());
+  setup.parameters.sky_openings = static_cast<std::uint32_t>(sky_inlets(scene, setup.mesh.space).size());
   choose_points(scene, setup.mesh, quality, setup.parameters);
   setup.parameters.pixel_scale = kPixelScale;
   setup.parameters.layers = quality.layers;

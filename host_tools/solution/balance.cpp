@@ -54,6 +54,9 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   const protocol::Tally& tally = solution.tally;
   Flux shot = solution.emitted_shot;
   add_to(shot, solution.reflected_shot);
+  Flux entered = solution.sky_shot;
+  for (std::size_t c = 0; c < 3; ++c) entered[c] -= tally.sky_rest[c];
+  add_to(shot, entered);
   Flux arrived = sums.incident;
   for (const Flux* part : {&tally.absorbed_specular, &tally.escaped, &tally.cut_off, &tally.back_side}) {
     add_to(arrived, *part);
@@ -67,7 +70,7 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   EnergyBalance energy;
   const auto watts = [&units](std::int64_t quanta) { return static_cast<double>(quanta) * units.watts_per_quantum; };
   for (std::size_t c = 0; c < 3; ++c) {
-    energy.emitted[c] = watts(sums.emitted[c]);
+    energy.emitted[c] = watts(sums.emitted[c] + entered[c]);
     energy.absorbed[c] =
         watts(sums.incident[c] - solution.reflected_shot[c] - sums.unshot_reflected[c] - tally.reflected_glossy[c]);
     energy.absorbed_specular[c] = watts(tally.absorbed_specular[c]);
@@ -83,7 +86,8 @@ double flux_of_record(const Solution& solution) {
   if (solution.tally.rays == 0) return 0;
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    sum += static_cast<double>(solution.emitted_shot[c] + solution.reflected_shot[c]);
+    sum += static_cast<double>(solution.emitted_shot[c] + solution.reflected_shot[c] + solution.sky_shot[c] -
+                               solution.tally.sky_rest[c]);
   }
   return sum / 3 / static_cast<double>(solution.tally.rays);
 }

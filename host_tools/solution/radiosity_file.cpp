@@ -26,15 +26,16 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 7;
+constexpr std::uint16_t kVersion = 8;
 
 struct SavedSums {
   protocol::Tally tally;
   protocol::Flux emitted_shot;
   protocol::Flux reflected_shot;
+  protocol::Flux sky_shot;
   std::uint64_t shots;
 };
-static_assert(sizeof(SavedSums) == 184);
+static_assert(sizeof(SavedSums) == 232);
 
 constexpr auto make_crc_table() {
   std::array<std::uint32_t, 256> table{};
@@ -113,7 +114,8 @@ std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, std::span<c
   put(rest, bytes_of(origin));
   put(rest, std::uint64_t{splits.size()});
   for (const Split& split : splits) put(rest, split);
-  put(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.shots});
+  put(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.sky_shot,
+                      solution.shots});
   for (const SolvedSide& side : solution.sides) put(rest, side);
   for (const SolvedElement& element : solution.elements) put(rest, element);
   std::span<std::byte> start = bytes;
@@ -163,12 +165,15 @@ Solution unpack_radiosity(const SavedRadiosity& saved, const RadiosityOrigin& ex
   solution.tally = sums.tally;
   solution.emitted_shot = sums.emitted_shot;
   solution.reflected_shot = sums.reflected_shot;
+  solution.sky_shot = sums.sky_shot;
   solution.shots = sums.shots;
   for (const protocol::Flux* flux :
        {&sums.tally.absorbed_specular, &sums.tally.reflected_glossy, &sums.tally.escaped, &sums.tally.cut_off,
-        &sums.tally.back_side, &sums.emitted_shot, &sums.reflected_shot}) {
+        &sums.tally.back_side, &sums.emitted_shot, &sums.reflected_shot, &sums.sky_shot}) {
     check_flux(*flux, name);
   }
+  for (const std::int64_t rest : sums.tally.sky_rest)  // of few records it may be less than nothing
+    check_flux({std::abs(rest), 0, 0}, name);
   FluxSum side_sum;
   solution.sides.reserve(mesh.patch_sides);
   for (std::uint32_t i = 0; i < mesh.patch_sides; ++i) {

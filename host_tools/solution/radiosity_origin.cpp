@@ -165,6 +165,13 @@ std::uint64_t hash_of_geometry(const Scene& scene) {
   return geometry.value();
 }
 
+void add_sky(const Sky& sky, Hash& hash) {
+  for (const Vec3d& axis : {sky.east, sky.north, sky.up, sky.sun, sky.sun_irradiance}) hash.add(axis);
+  for (const Vec3d& radiance : sky.radiance) hash.add(radiance);
+  for (const SkyQuad& quad : sky.openings)
+    for (const Vec3d& v : {quad.corner, quad.along, quad.across}) hash.add(v);
+}
+
 std::uint64_t hash_of_materials(const Scene& scene) {
   Hash materials;
   for (const SceneMaterial& material : scene.materials) {
@@ -182,6 +189,7 @@ std::uint64_t hash_of_materials(const Scene& scene) {
     for (const auto& [r, g, b] : texture.texels)
       materials.add((std::uint64_t{r} << 16U) | (std::uint64_t{g} << 8U) | b);
   }
+  if (scene.sky) add_sky(*scene.sky, materials);
   return materials.value();
 }
 

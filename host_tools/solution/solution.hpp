@@ -31,11 +31,12 @@ struct Solution {
   protocol::Tally tally{};              ///< of all PEs
   protocol::Flux emitted_shot{};        ///< flux of all shots of emitted light
   protocol::Flux reflected_shot{};      ///< flux of all shots of reflected light
+  protocol::Flux sky_shot{};            ///< flux of the sky's shots; what has entered is Tally::sky_rest less
   std::uint64_t shots = 0;
 
   template <class Archive>
   void archive(Archive& archive) {
-    archive(elements, sides, tally, emitted_shot, reflected_shot, shots);
+    archive(elements, sides, tally, emitted_shot, reflected_shot, sky_shot, shots);
   }
 };
 

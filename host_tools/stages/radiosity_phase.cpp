@@ -68,7 +68,7 @@ void check_candidate(PeNumber source, const Candidate& candidate) {
 
 RadiosityPhase::RadiosityPhase(RadiositySettings settings)
     : settings_(std::move(settings)),
-      shots_of_(settings_.pes),
+      shots_of_(settings_.pes + 1),
       deals_(settings_.pes),
       supplied_(settings_.pes),
       credits_(settings_.credits, settings_.pes) {}
@@ -131,7 +131,9 @@ void RadiosityPhase::take_candidates(HostPort& port, PeNumber source, std::span<
   if (message.last == 0) return;
   for (const std::int64_t unshot : message.unshot) check_flux(source, "unshot flux", unshot);
   unshot_ += message.unshot[0] + message.unshot[1] + message.unshot[2];
-  if (++answers_ == settings_.pes) begin_round(port);
+  if (++answers_ < settings_.pes) return;
+  for (std::size_t i = 0; i < settings_.sky.size() && rounds_.size() == 1; ++i) unshot_ += settings_.sky[i].enters;
+  begin_round(port);
 }
 
 std::uint64_t RadiosityPhase::most_shots() const {
@@ -156,13 +158,15 @@ void RadiosityPhase::begin_round(HostPort& port) {
   round.unshot = settings_.emitted > 0 ? static_cast<double>(unshot_) / settings_.emitted : 0;
   port.note(HostGauge::unshot, round.unshot);
   round.chosen = round.last_shot_done = round.end = port.now();
-  if (candidates_.empty() || unshot_ <= settings_.enough_unshot) {
+  const bool sky_waits = !settings_.sky.empty() && rounds_.size() == 1;
+  if (!sky_waits && (candidates_.empty() || unshot_ <= settings_.enough_unshot)) {
     state_ = State::done;
     return;
   }
   state_ = State::shooting;
   round.shooters = static_cast<std::uint32_t>(candidates_.size());
   add_shots();
+  if (sky_waits) add_sky_shots();
   round.pes = static_cast<std::uint32_t>(owners_.size());
   wanting_.clear();
   for (std::uint32_t i = 0; i < kSupply; ++i) {
@@ -210,6 +214,41 @@ void RadiosityPhase::add_shots() {
   }
 }
 
+/// They are the host's to deal: of nothing in the scene, and all of them in the first round.
+void RadiosityPhase::add_sky_shots() {
+  for (std::uint32_t i = 0; i < settings_.sky.size(); ++i) {
+    const SkyShot& sky = settings_.sky[i];
+    for (std::size_t c = 0; c < 3; ++c) sky_shot_[c] += sky.flux[c];
+    Candidate opening{};
+    opening.number = i;
+    shots_of_[sky_owner()].push_back({opening, 0, sky.points});
+    points_left_ += sky.points;
+  }
+  owners_.push_back(sky_owner());
+}
+
+void RadiosityPhase::send_sky_point(HostPort& port, const RoundShot& shot, PeNumber to, bool divide) const {
+  const SkyShot& sky = settings_.sky[shot.candidate.number];
+  const std::uint32_t number = sky.points - shot.points;
+  protocol::PointRecord point{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto upto = [&](std::int64_t n) {
+      const std::int64_t each = sky.flux[c] / sky.points;
+      return each * n + sky.flux[c] % sky.points * n / sky.points;
+    };
+    point.flux[c] = upto(std::int64_t{number} + 1) - upto(number);
+  }
+  point.polygon = shot.candidate.number;
+  point.key = sky.key;
+  point.kind = protocol::RecordKind::point;
+  point.number_low = static_cast<std::uint8_t>(number);
+  point.number_high = static_cast<std::uint8_t>(number >> 8U);
+  const std::uint32_t part = divide ? shot.part + 1U : 0U;
+  point.flags =
+      static_cast<std::uint8_t>(std::uint32_t{protocol::kDirect} | protocol::kSky | (part << protocol::kPartShift));
+  port.send_records(to, std::as_bytes(std::span(&point, 1)), sizeof point);
+}
+
 void RadiosityPhase::take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done) {
   if (done.points > supplied_[source]) {
     throw MachineFailure("PE " + std::to_string(source) + " has done more than it was dealt");
@@ -238,7 +277,8 @@ void RadiosityPhase::deal(HostPort& port) {
     if (ends && supplied_[to] > 0 && settings_.points_travel) break;
     wanting_.pop_front();
     turn_ = turn_ < owners_.size() ? turn_ : 0;
-    const PeNumber owner = settings_.points_travel ? owners_[turn_++] : to;
+    const PeNumber at_home = shots_of_[to].empty() ? sky_owner() : to;
+    const PeNumber owner = settings_.points_travel ? owners_[turn_++] : at_home;
     if (!shots_of_[owner].empty()) deal_point(port, owner, to);
   }
   for (const PeNumber owner : std::exchange(dealing_, {})) send_deal(port, owner);
@@ -246,14 +286,15 @@ void RadiosityPhase::deal(HostPort& port) {
 
 void RadiosityPhase::deal_point(HostPort& port, PeNumber owner, PeNumber to) {
   RoundShot& shot = shots_of_[owner].front();
-  if (!shot.begun) begin_shot(port, owner, shot);
+  const bool of_sky = owner == sky_owner();
+  if (!shot.begun && !of_sky) begin_shot(port, owner, shot);
   const bool divide = shot.part > 0 || (settings_.points_travel && points_left_ < kPointsUndivided * settings_.pes);
   const std::uint32_t parts = divide ? protocol::kPointParts : 1U;
-  protocol::Deal& deal = deals_[owner];
-  if (deal.count > 0 && deal.parts != parts) send_deal(port, owner);
-  if (deal.count == 0) dealing_.push_back(owner);
-  deal.parts = parts;
-  deal.pe[deal.count++] = to;
+  if (of_sky) {
+    send_sky_point(port, shot, to, divide);
+  } else {
+    add_to_deal(port, owner, to, parts);
+  }
   ++supplied_[to];
   ++under_way_;
   shot.part = (shot.part + 1U) % parts;
@@ -262,10 +303,18 @@ void RadiosityPhase::deal_point(HostPort& port, PeNumber owner, PeNumber to) {
     --shot.points;
   }
   const bool last = shot.points == 0;
-  if (last || deal.count == protocol::Deal::kMost) send_deal(port, owner);
+  if (!of_sky && (last || deals_[owner].count == protocol::Deal::kMost)) send_deal(port, owner);
   if (!last) return;
   shots_of_[owner].pop_front();
   if (shots_of_[owner].empty()) std::erase(owners_, owner);
+}
+
+void RadiosityPhase::add_to_deal(HostPort& port, PeNumber owner, PeNumber to, std::uint32_t parts) {
+  protocol::Deal& deal = deals_[owner];
+  if (deal.count > 0 && deal.parts != parts) send_deal(port, owner);
+  if (deal.count == 0) dealing_.push_back(owner);
+  deal.parts = parts;
+  deal.pe[deal.count++] = to;
 }
 
 void RadiosityPhase::send_deal(HostPort& port, PeNumber owner) {

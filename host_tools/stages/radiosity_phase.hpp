@@ -32,13 +32,14 @@ class RadiosityPhase : public Phase {
   std::int64_t unshot() const { return selected_unshot_; }  ///< [quanta, R + G + B], at the last selection
   const protocol::Flux& emitted_shot() const { return emitted_shot_; }
   const protocol::Flux& reflected_shot() const { return reflected_shot_; }
+  const protocol::Flux& sky_shot() const { return sky_shot_; }
 
  private:
   template <class Archive>
   void archive(Archive& archive) {
     archive(state_, candidates_, answers_, unshot_, selected_unshot_, threshold_, expected_, shots_of_, owners_, turn_,
             deals_, dealing_, wanting_, supplied_, under_way_, points_left_, recalled_, credits_, shots_, rounds_,
-            emitted_shot_, reflected_shot_);
+            emitted_shot_, reflected_shot_, sky_shot_);
   }
 
   enum class State { selecting, shooting, done };
@@ -52,7 +53,7 @@ class RadiosityPhase : public Phase {
     std::uint32_t number;    ///< of the shot, over the stage
     std::uint32_t points;    ///< left to be dealt
     std::uint32_t part = 0;  ///< of the next one, where it is dealt in parts
-    bool begun = false;      ///< its owner has been told
+    bool begun = false;      ///< its owner has been told; of the sky there is nobody to be told
   };
 
   void begin_selection(HostPort& port);
@@ -64,8 +65,12 @@ class RadiosityPhase : public Phase {
   void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
   void deal(HostPort& port);
   void deal_point(HostPort& port, PeNumber owner, PeNumber to);
+  void add_to_deal(HostPort& port, PeNumber owner, PeNumber to, std::uint32_t parts);
   void send_deal(HostPort& port, PeNumber owner);
   void begin_shot(HostPort& port, PeNumber owner, RoundShot& shot);
+  PeNumber sky_owner() const { return static_cast<PeNumber>(settings_.pes); }
+  void add_sky_shots();
+  void send_sky_point(HostPort& port, const RoundShot& shot, PeNumber to, bool divide) const;
   void recall_if_due(HostPort& port);
   void end_round_if_over(HostPort& port);
 
@@ -77,8 +82,9 @@ class RadiosityPhase : public Phase {
   std::int64_t selected_unshot_ = 0;  ///< of all, at the last one
   std::int64_t threshold_ = 0;        ///< of the selection: PEs name only sides with more
   std::int64_t expected_ = 0;         ///< so much have this round's shots, if they are like those of the last one
-  std::vector<std::deque<RoundShot>> shots_of_;  ///< with points left, by owner
-  std::vector<PeNumber> owners_;                 ///< of those, in the order of PEs
+  std::vector<std::deque<RoundShot>> shots_of_;  ///< with points left, by owner; behind the PEs the sky's, whose points
+                                                 ///< the host makes
+  std::vector<PeNumber> owners_;                 ///< of those, in the order of PEs, the sky last
   std::size_t turn_ = 0;                         ///< of owners_: who makes the next point
   std::vector<protocol::Deal> deals_;            ///< being filled, by owner
   std::vector<PeNumber> dealing_;                ///< owners whose deal is being filled
@@ -92,6 +98,7 @@ class RadiosityPhase : public Phase {
   std::vector<RoundFigures> rounds_;
   protocol::Flux emitted_shot_{};
   protocol::Flux reflected_shot_{};
+  protocol::Flux sky_shot_{};
 };
 
 }  // namespace torolux

@@ -2,10 +2,41 @@
 // From reflectances, emission and the quality to the limits of the radiosity stage.
 #include "host_tools/stages/radiosity_settings.hpp"
 #include "firmware/protocol/messages.hpp"
+#include "firmware/protocol/random.hpp"
+#include "host_tools/layout/sky_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace torolux {
+
+namespace {
+
+/// First word of the keys of the sky's shots; those of patches begin with their numbers.
+constexpr std::uint32_t kSkyKey = 0xFFFF'FFFFU;
+
+/// As many points as so many emitting patches have, dealt by the flux that comes in.
+std::vector<SkyShot> sky_shots(const Scene& scene, const RenderSetup& setup) {
+  std::vector<SkyShot> shots;
+  const std::vector<SkyInlet> inlets = sky_inlets(scene, setup.mesh.space);
+  const auto flux_of = [](const SkyInlet& inlet) { return inlet.flux[0] + inlet.flux[1] + inlet.flux[2]; };
+  double all = 0;
+  for (const SkyInlet& inlet : inlets) all += flux_of(inlet);
+  const double points = static_cast<double>(inlets.size()) * std::pow(setup.parameters.emission_points, 2);
+  for (const SkyInlet& inlet : inlets) {
+    SkyShot& shot = shots.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c)
+      shot.flux[c] = std::llround(inlet.all[c] / setup.units.watts_per_quantum);
+    shot.enters = std::llround(flux_of(inlet) / setup.units.watts_per_quantum);
+    constexpr double most = double{protocol::kMostEmissionPoints} * protocol::kMostEmissionPoints;
+    shot.points = static_cast<std::uint32_t>(std::clamp(std::round(points * flux_of(inlet) / all), 1.0, most));
+    shot.key = protocol::hash_combine(protocol::hash_combine(setup.parameters.seed, kSkyKey),
+                                      static_cast<std::uint32_t>(shots.size()));
+  }
+  return shots;
+}
+
+}  // namespace
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality) {
   const Mesh& mesh = setup.mesh;
@@ -29,6 +60,8 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
   settings.emission_points = setup.parameters.emission_points;
   settings.points_per_quantum = setup.parameters.points_per_quantum;
   settings.points_travel = setup.points_travel;
+  settings.sky = sky_shots(scene, setup);
+  for (const SkyShot& shot : settings.sky) emitted += static_cast<double>(shot.enters);
   settings.emitted = emitted;
   settings.enough_unshot = static_cast<std::int64_t>(emitted * quality.unshot);
   // Where no side has more than this, emitted or reflected, all of them together have no more than `enough_unshot`.

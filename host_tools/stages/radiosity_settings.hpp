@@ -11,6 +11,14 @@
 
 namespace torolux {
 
+/// Light that comes in through one opening: the host makes the points of its shot.
+struct SkyShot {
+  protocol::Flux flux{};     ///< as PointRecord::flux has a part of it
+  std::int64_t enters = 0;   ///< of it, about [quanta, R + G + B]
+  std::uint32_t points = 0;  ///< at most kMostEmissionPoints squared
+  std::uint32_t key = 0;     ///< of its random numbers
+};
+
 struct RadiositySettings {
   unsigned pes = 1;
   std::uint64_t credits = 256;     ///< W, > 0
@@ -18,6 +26,7 @@ struct RadiositySettings {
   std::int64_t least_unshot = 0;   ///< sides with no more than this are not shot [quanta, R + G + B]
   std::int64_t enough_unshot = 0;  ///< the stage ends when no more than this is unshot [quanta, R + G + B]
   double emitted = 0;              ///< all that the emitters have [quanta, R + G + B]
+  std::vector<SkyShot> sky;        ///< by opening
   std::uint32_t max_shots = 0;     ///< 0: no limit
   std::vector<std::array<protocol::Fraction, 3>> reflectance;  ///< by global patch
   std::uint32_t shot_points = 1, emission_points = 1;          ///< as in protocol::StageLayout

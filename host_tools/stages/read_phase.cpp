@@ -59,6 +59,7 @@ void ReadPhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
       sum.escaped[c] += tally.escaped[c];
       sum.cut_off[c] += tally.cut_off[c];
       sum.back_side[c] += tally.back_side[c];
+      sum.sky_rest[c] += tally.sky_rest[c];
     }
     sum.rays += tally.rays;
     port.work(HostWork::unpack, host_lines(bytes_[source].size()));

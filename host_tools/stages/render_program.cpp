@@ -165,6 +165,7 @@ void RenderProgram::leave(HostPort& port) {
       shots_ = radiosity.shots();
       emitted_shot_ = radiosity.emitted_shot();
       reflected_shot_ = radiosity.reflected_shot();
+      sky_shot_ = radiosity.sky_shot();
       times_.radiosity = now;
       enter(port, Step::read);
       break;
@@ -174,6 +175,7 @@ void RenderProgram::leave(HostPort& port) {
       job_.solution = static_cast<ReadPhase&>(*phase_).take_solution();
       job_.solution->emitted_shot = emitted_shot_;
       job_.solution->reflected_shot = reflected_shot_;
+      job_.solution->sky_shot = sky_shot_;
       job_.solution->shots = shots_;
       times_.read = now;
       enter(port, job_.radiosity_only ? Step::finished : Step::load_ray_tracing);
@@ -221,7 +223,7 @@ template <class Archive>
 void RenderProgram::archive(Archive& archive) {
   archive.section("program");
   archive(step_, job_.solution, times_, rounds_, radiosity_visits_, ray_visits_, shots_, rays_, emitted_shot_,
-          reflected_shot_, samples_);
+          reflected_shot_, sky_shot_, samples_);
 }
 
 void RenderProgram::save(SnapshotWriter& archive) {

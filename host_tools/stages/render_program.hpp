@@ -95,6 +95,7 @@ class RenderProgram : public LightProgram {
   SampleCounts samples_;  ///< once all are made
   protocol::Flux emitted_shot_{};
   protocol::Flux reflected_shot_{};
+  protocol::Flux sky_shot_{};
 };
 
 }  // namespace torolux

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <thread>
 
+#include "tests/references/distant_light.hpp"
 #include "tests/references/eye.hpp"
 #include "tests/references/light_paths.hpp"
 #include "tests/references/panes.hpp"
@@ -23,7 +24,9 @@ class Path {
  public:
   /// caustics: how those are found that light_paths.hpp describes.
   Path(const World& world, LightFinding finding, Caustics caustics, Samples& samples)
-      : world_(world), finding_(finding), caustics_(caustics), samples_(samples) {}
+      : world_(world), finding_(finding), caustics_(caustics), samples_(samples) {
+    if (world.sky()) far_.emplace(*world.sky());
+  }
 
   /// A camera ray.
   Colour along(const Vec& origin, const Vec& direction) {
@@ -44,11 +47,31 @@ class Path {
   void follow() {
     for (;;) {
       const auto hit = world_.closest(origin_, direction_, leaving_);
-      if (!hit) return;
+      if (!hit) return see_sky();
       meet_emitter(*hit);
       if (turns_ == 0) sees_diffuse_ = world_.material(*hit).model == Model::diffuse;
       if (!turn(*hit) || !survives()) return;
     }
+  }
+
+  /// The path leaves the scene. Of surfaces that scatter, the sun has been asked for.
+  void see_sky() {
+    if (!far_) return;
+    light_ += weight_ * radiance_scale_ * far_->sky(direction_);
+    if (density_ == 0 || finding_ == LightFinding::directions_only)
+      light_ += weight_ * radiance_scale_ * far_->sun(direction_);
+  }
+
+  void ask_sun(const Hit& hit, const Reflection& reflection) {
+    if (!far_ || !far_->has_sun()) return;
+    const double height = samples_.uniform();
+    const Vec out = far_->to_sun({height, samples_.uniform()});
+    const double cosine = reflection.cosine(out);
+    if (cosine <= 0) return;
+    const Vec origin = world_.leave(hit, out);
+    const Vec beyond = origin + out * (4 * world_.size());
+    const Colour through = passed(world_, origin, beyond, hit.triangle, kNoTriangle);
+    light_ += weight_ * through * radiance_scale_ * reflection.value(out) * far_->sun_irradiance() * cosine;
   }
 
   bool turn(const Hit& hit) {
@@ -112,6 +135,7 @@ class Path {
                                 diffuse, specular, exponent);
     const unsigned dimension = 1 + 3 * turns_;
     const auto [emitter, lobe] = samples_.pair(dimension);
+    if (finding_ != LightFinding::directions_only) ask_sun(hit, reflection);
     if (finding_ != LightFinding::directions_only) ask_emitters(hit, reflection, emitter, samples_.pair(dimension + 1));
     const Vec out = reflection.sample(lobe, samples_.pair(dimension + 2));
     const double cosine = reflection.cosine(out);
@@ -189,6 +213,7 @@ class Path {
   LightFinding finding_;
   Caustics caustics_;
   Samples& samples_;
+  std::optional<DistantLight> far_;
   bool sees_diffuse_ = false;  // the camera, at the path's first turn
   Vec vertex_ = Vec::Zero();   // where the path was last turned
   Vec origin_ = Vec::Zero();   // the same, off the surface

@@ -139,7 +139,7 @@ std::vector<Material> materials_of(const Scene& scene) {
 }
 
 World::World(const Scene& scene, std::vector<Material> materials, bool two_sided_lights)
-    : materials_(std::move(materials)), textures_(scene.textures), two_sided_lights_(two_sided_lights) {
+    : materials_(std::move(materials)), textures_(scene.textures), sky_(scene.sky), two_sided_lights_(two_sided_lights) {
   for (const SceneTriangle& from : scene.triangles) {
     Triangle& triangle = triangles_.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) triangle.corner[i] = vec(scene.positions[from.position[i]]);
@@ -159,6 +159,10 @@ World::World(const Scene& scene, std::vector<Material> materials, bool two_sided
   // Some 30 units in the last place of the greatest coordinate.
   offset_ = 4e-6 * caster_->size;
   collect_emitters();
+}
+
+double World::size() const {
+  return caster_->size;
 }
 
 World::~World() = default;

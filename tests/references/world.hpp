@@ -109,6 +109,10 @@ class World {
   /// Whether anything but these two triangles lies between two points.
   bool blocked(const Vec& from, const Vec& to, std::uint32_t leaving, std::uint32_t target) const;
   bool has_panes() const;
+  /// Sky and sun, where the scene has them. Openings are none of the references' business.
+  const std::optional<Sky>& sky() const { return sky_; }
+  /// Longest edge of the bounding box [user units].
+  double size() const;
   /// The hit's point, moved off the surface towards `direction` by some rounding errors of the ray caster.
   Vec leave(const Hit& hit, const Vec& direction) const;
 
@@ -122,6 +126,7 @@ class World {
   std::vector<SceneTexture> textures_;
   std::vector<Emitter> emitters_;
   std::vector<std::uint32_t> emitter_of_;  // by triangle; kNoTriangle: none
+  std::optional<Sky> sky_;
   bool two_sided_lights_;
   double offset_ = 0;  // of leave()
   std::unique_ptr<RayCaster> caster_;

@@ -263,6 +263,8 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.sample_places, s.sample_places);
   place(l.filter, s.filter);
   place(l.emitters, s.emitters);
+  place(l.sky, s.sky);
+  place(l.sky_openings, s.sky_openings);
   l.record_slots = {next, l.own_slots + niu_slots};
   message(pe, MessageKind::configure, l);
   for (const auto& [address, bytes] : blocks) load_bytes(pe, address, bytes);

@@ -221,6 +221,34 @@ TEST(Malformed, EmittersThatDoNotHoldAreRefused) {
   }
 }
 
+TEST(Malformed, SkiesThatDoNotHoldAreRefused) {
+  const auto fault = [](const std::function<void(PeStores&)>& change) {
+    FakeMachine machine(1);
+    machine.load(small_scene(), Stage::radiosity, 64, 1, [&](PeStores& s) {
+      for (std::uint32_t i = 1; i <= protocol::kSkyEntries; ++i)
+        s.sky.push_back({{1, 1, 1}, i * (0xFFFF'FFFFU / protocol::kSkyEntries)});
+      s.sky.back().chosen_to = 0xFFFF'FFFFU;
+      s.sky_openings = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+      change(s);
+    });
+    return fault_of([&] {
+      machine.message(0, MessageKind::begin);
+      machine.run();
+    });
+  };
+  EXPECT_EQ(fault([](PeStores&) {}), 0U);
+  const std::vector<std::function<void(PeStores&)>> changes = {
+      [](PeStores& s) { s.sky.pop_back(); },
+      [](PeStores& s) { s.sky.push_back(s.sky.back()); },
+      [](PeStores& s) { s.sky.back().chosen_to -= 1; },
+      [](PeStores& s) { std::swap(s.sky[3].chosen_to, s.sky[4].chosen_to); },
+      [](PeStores& s) { s.sky_openings[0].along[0] = 1.5F; },
+      [](PeStores& s) { s.sky_openings[0].corner[2] = -0.5F; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
+}
+
 TEST(Malformed, TexturesThatLeaveTheirStoresAreRefused) {
   const auto fault = [](const std::function<void(PeStores&)>& change) {
     FakeMachine machine(1);

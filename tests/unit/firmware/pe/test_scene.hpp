@@ -90,6 +90,8 @@ struct PeStores {
   std::vector<protocol::SamplePlace> sample_places;
   std::vector<float> filter;
   std::vector<protocol::Emitter> emitters;  ///< ray tracing stage
+  std::vector<protocol::SkyEntry> sky;      ///< none, as the openings
+  std::vector<protocol::SkyOpening> sky_openings;
 
   /// Spans over these vectors, for handlers called directly.
   pe::Scene scene();

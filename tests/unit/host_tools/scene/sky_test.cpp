@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Proves: irradiances that theory knows come out of the table (uniform, overcast, sun); models have their known values;
+// the frame turns from north to east; what [sky] may not say is refused with its line.
+#include "host_tools/scene/sky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "emulator/errors.hpp"
+#include "firmware/protocol/sky.hpp"
+#include "host_tools/scene/colour.hpp"
+#include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/sky_models.hpp"
+#include "host_tools/scene/vec.hpp"
+
+namespace torolux {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Sky sky_of(const std::string& table) {
+  return read_scene_file("[sky]\n" + table, "scene.toml").sky.value();
+}
+
+TEST(Sky, CellsFillTheSphere) {
+  double sum = 0;
+  for (std::size_t cell = 0; cell < protocol::kSkyCells; ++cell) sum += sky_cell_solid_angle(cell);
+  EXPECT_NEAR(sum, 4 * kPi, 1e-12);
+}
+
+TEST(Sky, AUniformOneGivesPiTimesItsRadiance) {
+  const Sky sky = sky_of("radiance = [2, 1, 0]\nground = 0\n");
+  EXPECT_NEAR(sky_irradiance(sky, {0, 1, 0})[0], 2 * kPi, 1e-3);
+  EXPECT_NEAR(sky_irradiance(sky, {0, 1, 0})[1], kPi, 1e-3);
+  EXPECT_NEAR(sky_irradiance(sky, {1, 0, 0})[0], kPi, 2e-3) << "a wall sees half of it";
+  EXPECT_NEAR(sky_irradiance(sky, {0, -1, 0})[0], 0, 1e-12);
+  EXPECT_NEAR(sky_from_everywhere(sky)[0], 4 * kPi, 1e-9);
+}
+
+// 7/9 pi Lz on level ground (Moon & Spencer 1942), less 0.06 % by the bands, each of which has its mean; the ground
+// sends a fifth of it up, over pi.
+TEST(Sky, AnOvercastOneGivesSevenNinths) {
+  const Sky sky = sky_of("model = \"overcast\"\nzenith = 9\n");
+  EXPECT_NEAR(sky_irradiance(sky, {0, 1, 0})[1], 7 * kPi, 0.02);
+  EXPECT_NEAR(sky_irradiance(sky, {0, -1, 0})[1], 0.2 * 7 * kPi, 5e-3);
+}
+
+TEST(Sky, TheSunGivesItsIrradianceTimesTheCosine) {
+  const Sky sky = sky_of("ground = 0\n[sky.sun]\nelevation = 30\nazimuth = 90\nirradiance = 8\n");
+  EXPECT_NEAR(sky.sun[0], std::sqrt(0.75), 1e-12) << "east is x";
+  EXPECT_NEAR(sky_irradiance(sky, {0, 1, 0})[2], 4, 1e-9);
+  EXPECT_NEAR(sky_irradiance(sky, {1, 0, 0})[2], 8 * std::sqrt(0.75), 1e-9);
+  EXPECT_NEAR(sky_irradiance(sky, {-1, 0, 0})[2], 0, 1e-9);
+}
+
+TEST(Sky, NorthIsBackAndTurnsToEast) {
+  const Sky y_up = sky_of("radiance = 1\n");
+  EXPECT_NEAR(sky_direction(y_up, 0, 0)[2], -1, 1e-12);
+  EXPECT_NEAR(sky_direction(y_up, 0, 90)[0], 1, 1e-12);
+  const Sky z_up = sky_of("radiance = 1\nup = [0, 0, 2]\n");
+  EXPECT_NEAR(sky_direction(z_up, 0, 0)[1], 1, 1e-12);
+  EXPECT_NEAR(sky_direction(z_up, 0, 90)[0], 1, 1e-12);
+  EXPECT_NEAR(sky_direction(z_up, 90, 0)[2], 1, 1e-12);
+}
+
+// CIE's clear sky: darkest at some 90 degrees from the sun, brighter at the horizon than above it.
+TEST(Sky, AClearOneIsBrightestAboutTheSun) {
+  const Vec3d sun{std::sqrt(0.5), 0, std::sqrt(0.5)};
+  const SkyModel clear = clear_sky({1, 1, 1}, sun);
+  EXPECT_NEAR(clear({0, 0, 1})[0], 1, 1e-12);
+  EXPECT_GT(clear(sun)[0], 3);
+  EXPECT_LT(clear({-std::sqrt(0.5), 0, std::sqrt(0.5)})[0], 0.7);
+  EXPECT_EQ(clear({0, 0, -1})[0], 0);
+}
+
+// Preetham's zenith at turbidity 2 and the sun 45 degrees high: (4.0453 T - 4.971) tan((4/9 - T/120) pi/2) - 0.2155 T +
+// 2.4192 = 4.418 kcd/m^2; bluer away from the sun than about it.
+TEST(Sky, PreethamsHasHisZenith) {
+  const Vec3d sun{std::sqrt(0.5), 0, std::sqrt(0.5)};
+  const SkyModel model = preetham_sky(2, sun);
+  const double chi = (4.0 / 9 - 2.0 / 120) * kPi / 2;
+  const double expected = 1000 * ((4.0453 * 2 - 4.971) * std::tan(chi) - 0.2155 * 2 + 2.4192) / kLumenPerWatt;
+  EXPECT_NEAR(luminance(model({0, 0, 1})), expected, 1e-6 * expected);
+  const Vec3d away = model({-std::sqrt(0.5), 0, std::sqrt(0.5)});
+  const Vec3d about = model(sun);
+  EXPECT_GT(away[2], 1.5 * away[0]) << "blue";
+  EXPECT_LT(about[2] / about[0], away[2] / away[0]);
+  EXPECT_GT(luminance(about), 3 * luminance(away));
+}
+
+TEST(Sky, OpeningsAreRectangles) {
+  const Sky sky = sky_of("radiance = 1\n[[sky.opening]]\ncorner = [1, 0, 0]\nedges = [[0, 0, 2], [0, 3, 0]]\n");
+  ASSERT_EQ(sky.openings.size(), 1U);
+  EXPECT_EQ(sky.openings[0].along, (Vec3d{0, 0, 2}));
+  EXPECT_EQ(sky.openings[0].across, (Vec3d{0, 3, 0}));
+}
+
+void expect_refused(const std::string& table, const std::string& why) {
+  try {
+    sky_of(table);
+    ADD_FAILURE() << table;
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("scene.toml:"), 0U) << error.what();
+  }
+}
+
+TEST(Sky, WhatItMayNotSayIsRefused) {
+  expect_refused("", "no light");
+  expect_refused("radiance = -1\n", "radiance");
+  expect_refused("model = \"overcst\"\n", "overcast");
+  expect_refused("model = \"overcast\"\n", "zenith");
+  expect_refused("model = \"preetham\"\n", "[sky.sun]");
+  expect_refused("model = \"clear\"\nzenith = 1\n[sky.sun]\nelevation = -5\nazimuth = 0\nirradiance = 1\n", "above 0");
+  expect_refused("radiance = 1\nup = [0, 0, 0]\n", "up");
+  expect_refused("radiance = 1\nnorth = [0, 2, 0]\n", "north");
+  expect_refused("radiance = 1\ncolour = 1\n", "colour");
+  expect_refused("radiance = 1\n[sky.sun]\nelevation = 5\n", "azimuth");
+}
+
+TEST(Sky, OneSunShines) {
+  Notices notices;
+  std::optional<Sky> sky;
+  take_suns({{{0, 2, 0}, {3, 2, 1}, {"a.gltf", 0}}, {{1, 0, 0}, {1, 1, 1}, {"a.gltf", 0}}}, sky, notices);
+  ASSERT_TRUE(sky);
+  EXPECT_EQ(sky->sun, (Vec3d{0, 1, 0}));
+  EXPECT_EQ(sky->sun_irradiance, (Vec3d{3, 2, 1}));
+  EXPECT_EQ(notices.lines().size(), 1U);
+}
+
+}  // namespace
+}  // namespace torolux
