@@ -65,8 +65,7 @@ void note_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, con
 void note_way(Pe& pe, Niu& niu, const RayRecord& record, const Way& way) {
   if (wanted(pe, Plane::cost)) pe.results.add(niu, Plane::cost, record.pixel, {way.visited, 0, 0});
   if (way.end == WayEnd::handed_on || record.bounce != 0 || (record.flags & protocol::kShadow) == 0) return;
-  const std::uint32_t met =
-      way.end == WayEnd::hit ? pe.scene.polygons[way.hit.polygon].number : protocol::kSkyTarget;
+  const std::uint32_t met = way.end == WayEnd::hit ? pe.scene.polygons[way.hit.polygon].number : protocol::kSkyTarget;
   if (wanted(pe, Plane::irradiance) && met == record.target) {
     add_irradiance(pe, niu, record, to_vector(carried_irradiance(record)));
   }

@@ -125,7 +125,8 @@ class Verifier {
     }
     require(entries == 0 || before == 0xFFFF'FFFFU, StoreIndex::sky_chance, before, 0xFFFF'FFFFU);
     for (const protocol::Emitter& emitter : scene_.emitters) {
-      require(emitter.polygon != protocol::kSkyTarget || entries > 0, StoreIndex::sky_entries, 0, protocol::kSkyEntries);
+      require(emitter.polygon != protocol::kSkyTarget || entries > 0, StoreIndex::sky_entries, 0,
+              protocol::kSkyEntries);
     }
     for (std::uint32_t i = 0; i < scene_.sky_openings.size(); ++i) {
       const protocol::SkyOpening& opening = scene_.sky_openings[i];

@@ -34,11 +34,11 @@ static_assert(sizeof(SkyEntry) == 16);
 
 /// What all of the sky shares.
 struct SkyFrame {
-  Vec3f x, y, up;           ///< unit length, at right angles, right-handed; the turn begins at x and goes to y
-  Vec3f sun;                ///< unit length, towards the sun's middle
-  Vec3f sun_x, sun_y;       ///< unit length, at right angles to it and each other
-  float sun_tangent;        ///< of the disc's radius as seen; 0: no sun
-  Vec3f inverse_irradiance; ///< 1 / the radiance summed over all directions [1 / (unit of radiance x sr)]; 0: none
+  Vec3f x, y, up;            ///< unit length, at right angles, right-handed; the turn begins at x and goes to y
+  Vec3f sun;                 ///< unit length, towards the sun's middle
+  Vec3f sun_x, sun_y;        ///< unit length, at right angles to it and each other
+  float sun_tangent;         ///< of the disc's radius as seen; 0: no sun
+  Vec3f inverse_irradiance;  ///< 1 / the radiance summed over all directions [1 / (unit of radiance x sr)]; 0: none
 };
 static_assert(sizeof(SkyFrame) == 88);
 
@@ -76,8 +76,8 @@ inline SkyHorizontal sky_horizontal(float turn) {
 
 /// A direction drawn by chance, and what comes from there: its mean over all draws is the integral over the sphere.
 struct SkySample {
-  Vec3f direction;               ///< unit length, towards the sky
-  Vec3f radiance_by_solid_angle; ///< radiance over the density of directions [unit of radiance x sr]
+  Vec3f direction;                ///< unit length, towards the sky
+  Vec3f radiance_by_solid_angle;  ///< radiance over the density of directions [unit of radiance x sr]
 };
 
 constexpr float dot(const Vec3f& a, const Vec3f& b) {
@@ -88,12 +88,12 @@ constexpr Vec3f combined(const Vec3f& a, float by_a, const Vec3f& b, float by_b,
           (a[2] * by_a + b[2] * by_b) + c[2] * by_c};
 }
 
-/// Of the sun's disc, evenly (Shirley & Chiu 1997, A Low Distortion Map Between Disk and Square, has no seam; here the
-/// disc is filled by its square's inscribed rings without angles: a point of a square ring, drawn to the circle).
-/// u, v: uniform, 0..1.
+/// Of the sun's disc, evenly.
+/// u: of its area from the middle on, v: of the turn; 0..1. The turn's sine and cosine are those of an angle of at most
+/// an eighth of it, by their series, turned by quarters.
 inline Vec3f sun_direction(const SkyFrame& frame, float u, float v) {
   const float radius = std::sqrt(u) * frame.sun_tangent;
-  // A turn that is even in angle: four quarters, each by the half-angle formulas from its middle on.
+  // Each quarter from its middle on.
   const float turned = v * 4.0F;
   const auto quarter = static_cast<std::uint32_t>(turned);
   const float angle = ((turned - static_cast<float>(quarter)) - 0.5F) * 1.57079633F;
@@ -170,8 +170,8 @@ inline Vec3f sky_radiance(const SkyFrame& frame, std::span<const SkyEntry> sky, 
   const float turn = (vertical ? 0.0F : sky_turn(x, y)) * (float{kSkySectors} / 4.0F);
   constexpr std::uint32_t kHorizon = kSkyBands / 2U;
   const bool above = height >= 0.0F;
-  const SkyBetween band = sky_between((height + 1.0F) * (float{kSkyBands} / 2.0F), above ? kHorizon : 0U,
-                                      above ? kSkyBands : kHorizon);
+  const SkyBetween band =
+      sky_between((height + 1.0F) * (float{kSkyBands} / 2.0F), above ? kHorizon : 0U, above ? kSkyBands : kHorizon);
   const float from_middle = turn < 0.5F ? turn + (float{kSkySectors} - 0.5F) : turn - 0.5F;  // the turn goes round
   const std::uint32_t left = std::min(static_cast<std::uint32_t>(from_middle), kSkySectors - 1U);
   const std::uint32_t right = left + 1U == kSkySectors ? 0U : left + 1U;

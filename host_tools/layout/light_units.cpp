@@ -30,7 +30,8 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
   if (scene.sky) units.unit_radiance = std::max(units.unit_radiance, greatest_sky_radiance(*scene.sky));
   for (const SkyInlet& inlet : sky_inlets(scene, mesh.space)) emitted = vec::add(emitted, inlet.flux);
   const double greatest = std::max({emitted[0], emitted[1], emitted[2]});
-  if (!(greatest > 0)) throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke), and there is no sky");
+  if (!(greatest > 0))
+    throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke), and there is no sky");
   units.watts_per_quantum = greatest / kEmittedQuanta;
   // The machine's floats must hold radiances and their reciprocals.
   if (!std::isfinite(greatest) || !(units.watts_per_quantum > 1e-300) || !(units.unit_radiance > 1e-30) ||

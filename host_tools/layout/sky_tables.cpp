@@ -35,8 +35,8 @@ std::vector<SkyQuad> openings(const Sky& sky, const SceneSpace& space) {
   if (sky.openings.empty()) return faces(space);
   std::vector<SkyQuad> quads;
   for (const SkyQuad& quad : sky.openings)
-    quads.push_back({space.to_normalised(quad.corner), vec::scale(quad.along, space.scale),
-                     vec::scale(quad.across, space.scale)});
+    quads.push_back(
+        {space.to_normalised(quad.corner), vec::scale(quad.along, space.scale), vec::scale(quad.across, space.scale)});
   return quads;
 }
 

@@ -24,9 +24,9 @@ struct StageParameters {
   float points_per_quantum = 0;
   float pixel_scale = 0;
   float least_weight = 0;
-  std::uint32_t emitters = 0;                           ///< that shadow rays aim at; 0: no shadow rays
-  std::uint32_t layers = 0;                             ///< as protocol::StageLayout
-  std::uint32_t sky_entries = 0, sky_openings = 0;      ///< likewise
+  std::uint32_t emitters = 0;                       ///< that shadow rays aim at; 0: no shadow rays
+  std::uint32_t layers = 0;                         ///< as protocol::StageLayout
+  std::uint32_t sky_entries = 0, sky_openings = 0;  ///< likewise
   protocol::SkyFrame sky_frame{};
   std::uint32_t pixel_samples = 0, filter_entries = 0;  ///< of the camera rays that PEs make; 0: the host makes them
 };

@@ -196,9 +196,8 @@ class Importer {
   }
 
   void tell_units() {
-    if (!mesh_.suns.empty() || std::ranges::any_of(mesh_.materials, [](const ImportedMaterial& one) {
-          return emits(one.material);
-        })) {
+    if (!mesh_.suns.empty() ||
+        std::ranges::any_of(mesh_.materials, [](const ImportedMaterial& one) { return emits(one.material); })) {
       notices_.note(units_ == GltfUnits::watt
                         ? "light is taken in watts: 1 cd/m^2 as 1 W/(m^2 sr), 1 cd as 1 W/sr; --gltf-units lumen "
                           "divides by 683 lm/W"

@@ -11,10 +11,10 @@
 #include "host_tools/scene/choose_camera.hpp"
 #include "host_tools/scene/decide_panes.hpp"
 #include "host_tools/scene/gltf.hpp"
+#include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/mgf.hpp"
 #include "host_tools/scene/obj.hpp"
 #include "host_tools/scene/part_overlaps.hpp"
-#include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/plain_text.hpp"
 #include "host_tools/scene/scene_file.hpp"
 #include "host_tools/scene/scene_shapes.hpp"
@@ -190,13 +190,15 @@ void refuse_what_is_told(const std::vector<std::string>& told) {
 }
 
 void check_renderable(const Scene& scene) {
-  const bool lit = scene.sky || std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
-    return vec::largest(scene.materials[triangle.material].emission) > 0;
-  });
+  const bool lit =
+      scene.sky || std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
+        return vec::largest(scene.materials[triangle.material].emission) > 0;
+      });
   if (!lit)
-    throw InputError("scene '" + scene.name +
-                     "' has no light: no face emits. Give a material Ke, add a [[light]] or a [sky] to scene.toml, or use "
-                     "--studio for a room with a lamp");
+    throw InputError(
+        "scene '" + scene.name +
+        "' has no light: no face emits. Give a material Ke, add a [[light]] or a [sky] to scene.toml, or use "
+        "--studio for a room with a lamp");
   if (scene.camera) check_camera(*scene.camera);
 }
 

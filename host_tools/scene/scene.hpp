@@ -88,10 +88,10 @@ struct SkyQuad {
 /// What shines from far away: its radiance depends on the direction alone.
 struct Sky {
   Vec3d east{1, 0, 0}, north{0, 0, -1}, up{0, 1, 0};  ///< unit length, at right angles: east x north = up
-  std::vector<Vec3d> radiance;       ///< by cell (firmware/protocol/sky.hpp), without the sun [W/(m^2 sr)]
-  Vec3d sun{0, 1, 0};                ///< unit length, towards it
-  Vec3d sun_irradiance{0, 0, 0};     ///< on a surface that faces it [W/m^2]
-  std::vector<SkyQuad> openings;     ///< through which alone its light comes in; none: from all around
+  std::vector<Vec3d> radiance;    ///< by cell (firmware/protocol/sky.hpp), without the sun [W/(m^2 sr)]
+  Vec3d sun{0, 1, 0};             ///< unit length, towards it
+  Vec3d sun_irradiance{0, 0, 0};  ///< on a surface that faces it [W/m^2]
+  std::vector<SkyQuad> openings;  ///< through which alone its light comes in; none: from all around
 };
 
 /// A value that is read only where nothing outweighs it.

@@ -24,8 +24,7 @@ Vec3d direction_in(std::size_t cell, double up, double along) {
   const double turn = (static_cast<double>(cell % kSkySectors) + along) * (4.0 / kSkySectors);
   const double quarter = std::floor(turn);
   // The angle of the place on the square |x| + |y| = 1.
-  const double angle =
-      quarter * (std::numbers::pi / 2) + std::atan2(turn - quarter, 1 - (turn - quarter));
+  const double angle = quarter * (std::numbers::pi / 2) + std::atan2(turn - quarter, 1 - (turn - quarter));
   const double out = std::sqrt(std::max(0.0, 1 - height * height));
   return {std::cos(angle) * out, std::sin(angle) * out, height};
 }
@@ -71,7 +70,8 @@ std::vector<Vec3d> sky_table(const std::function<Vec3d(const Vec3d&)>& radiance)
 void take_suns(const std::vector<ImportedSun>& suns, std::optional<Sky>& sky, Notices& notices) {
   for (const ImportedSun& sun : suns) {
     if (sky && vec::largest(sky->sun_irradiance) > 0) {
-      notices.note("one sun shines: scene.toml's, or the first; this one (directional light) is not rendered", sun.place);
+      notices.note("one sun shines: scene.toml's, or the first; this one (directional light) is not rendered",
+                   sun.place);
       continue;
     }
     if (!sky) {

@@ -56,9 +56,7 @@ Vec3d high_sun(const TomlTable& table, const Sky& sky, bool given, const std::st
 
 SkyModel read_model(TomlTable& table, const Sky& sky, bool sun_given) {
   const std::string model = table.text("model").value_or("uniform");
-  const auto light = [&table](std::string_view key) {
-    return table.required(table.triple(key, 0, kMost, true), key);
-  };
+  const auto light = [&table](std::string_view key) { return table.required(table.triple(key, 0, kMost, true), key); };
   if (model == "uniform") return uniform_sky(table.triple("radiance", 0, kMost, true).value_or(Vec3d{0, 0, 0}));
   if (model == "overcast") return overcast_sky(light("zenith"));
   if (model == "clear") return clear_sky(light("zenith"), high_sun(table, sky, sun_given, model));

@@ -68,12 +68,12 @@ SkyModel clear_sky(const Vec3d& zenith, const Vec3d& sun) {
 }
 
 SkyModel preetham_sky(double turbidity, const Vec3d& sun) {
-  const Perez bright = perez({{{0.1787, -1.4630}, {-0.3554, 0.4275}, {-0.0227, 5.3251}, {0.1206, -2.5771},
-                               {-0.0670, 0.3703}}}, turbidity);
-  const Perez x = perez({{{-0.0193, -0.2592}, {-0.0665, 0.0008}, {-0.0004, 0.2125}, {-0.0641, -0.8989},
-                          {-0.0033, 0.0452}}}, turbidity);
-  const Perez y = perez({{{-0.0167, -0.2608}, {-0.0950, 0.0092}, {-0.0079, 0.2102}, {-0.0441, -1.6537},
-                          {-0.0109, 0.0529}}}, turbidity);
+  const Perez bright = perez(
+      {{{0.1787, -1.4630}, {-0.3554, 0.4275}, {-0.0227, 5.3251}, {0.1206, -2.5771}, {-0.0670, 0.3703}}}, turbidity);
+  const Perez x = perez(
+      {{{-0.0193, -0.2592}, {-0.0665, 0.0008}, {-0.0004, 0.2125}, {-0.0641, -0.8989}, {-0.0033, 0.0452}}}, turbidity);
+  const Perez y = perez(
+      {{{-0.0167, -0.2608}, {-0.0950, 0.0092}, {-0.0079, 0.2102}, {-0.0441, -1.6537}, {-0.0109, 0.0529}}}, turbidity);
   const double angle = angle_between({0, 0, 1}, sun);
   const double chi = (4.0 / 9 - turbidity / 120) * (std::numbers::pi - 2 * angle);
   // [cd/m^2]
@@ -81,10 +81,12 @@ SkyModel preetham_sky(double turbidity, const Vec3d& sun) {
       std::max(0.0, 1000 * ((4.0453 * turbidity - 4.9710) * std::tan(chi) - 0.2155 * turbidity + 2.4192));
   const double zenith_x = zenith_colour({{{0.00166, -0.00375, 0.00209, 0},
                                           {-0.02903, 0.06377, -0.03202, 0.00394},
-                                          {0.11693, -0.21196, 0.06052, 0.25886}}}, turbidity, angle);
+                                          {0.11693, -0.21196, 0.06052, 0.25886}}},
+                                        turbidity, angle);
   const double zenith_y = zenith_colour({{{0.00275, -0.00610, 0.00317, 0},
                                           {-0.04214, 0.08970, -0.04153, 0.00516},
-                                          {0.15346, -0.26756, 0.06670, 0.26688}}}, turbidity, angle);
+                                          {0.15346, -0.26756, 0.06670, 0.26688}}},
+                                        turbidity, angle);
   return [=](const Vec3d& way) {
     if (!(way[2] > 0)) return Vec3d{0, 0, 0};
     const double to_sun = angle_between(way, sun);

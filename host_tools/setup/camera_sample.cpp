@@ -120,6 +120,7 @@ class CameraFollower {
   }
 
   void cast_shadow(const Way& from, const Vec3d& normal, Chance& chance) {
+    if (emitters_.empty()) return look_for_sky(from, normal, chance);
     cost_.work().aims += points_of_aim(emitters_.count());
     const EmitterPoints::Point target = emitters_.point(chance);
     const Vec3d there = vec::subtract(target.place, from.ray.origin);
@@ -129,6 +130,14 @@ class CameraFollower {
     const Meeting met = cost_.walk({from.ray.origin, vec::unit(there)}, cell);
     if (met.triangle == target.triangle) cost_.work().deposits += 1;
     if (met.triangle == nullptr) sample_.escaped += 1;
+  }
+
+  /// There is nothing else to aim at.
+  void look_for_sky(const Way& from, const Vec3d& normal, Chance& chance) {
+    cost_.work().aims += 1;
+    PathCost::Cell cell = from.cell;
+    const Meeting met = cost_.walk({from.ray.origin, chance.cosine_direction(normal)}, cell);
+    if (met.triangle == nullptr) cost_.work().deposits += 1;
   }
 
   const Scene& scene_;

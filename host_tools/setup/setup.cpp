@@ -157,6 +157,8 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
                           " PEs hold nothing of the scene, and have little to do or nothing: use fewer --pes, finer "
                           "--subspaces, or --allocation balanced");
   }
+  if (scene.sky && machine.camera_rays != RayMaker::pes)
+    setup.notes.push_back("--camera-rays host: rays that pass the object space by do not see the sky, and stay black");
   for (const SceneMaterial& material : scene.materials) {
     if (material.kind != SurfaceKind::diffuse && material.emission != Vec3d{0, 0, 0}) {
       setup.notes.push_back("material '" + material.name + "' is mirror or glass: its emission (Ke) is ignored");

@@ -114,8 +114,8 @@ std::vector<std::byte> pack_radiosity(const RadiosityOrigin& origin, std::span<c
   put(rest, bytes_of(origin));
   put(rest, std::uint64_t{splits.size()});
   for (const Split& split : splits) put(rest, split);
-  put(rest, SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.sky_shot,
-                      solution.shots});
+  put(rest,
+      SavedSums{solution.tally, solution.emitted_shot, solution.reflected_shot, solution.sky_shot, solution.shots});
   for (const SolvedSide& side : solution.sides) put(rest, side);
   for (const SolvedElement& element : solution.elements) put(rest, element);
   std::span<std::byte> start = bytes;

@@ -25,8 +25,7 @@ std::vector<SkyShot> sky_shots(const Scene& scene, const RenderSetup& setup) {
   const double points = static_cast<double>(inlets.size()) * std::pow(setup.parameters.emission_points, 2);
   for (const SkyInlet& inlet : inlets) {
     SkyShot& shot = shots.emplace_back();
-    for (std::size_t c = 0; c < 3; ++c)
-      shot.flux[c] = std::llround(inlet.all[c] / setup.units.watts_per_quantum);
+    for (std::size_t c = 0; c < 3; ++c) shot.flux[c] = std::llround(inlet.all[c] / setup.units.watts_per_quantum);
     shot.enters = std::llround(flux_of(inlet) / setup.units.watts_per_quantum);
     constexpr double most = double{protocol::kMostEmissionPoints} * protocol::kMostEmissionPoints;
     shot.points = static_cast<std::uint32_t>(std::clamp(std::round(points * flux_of(inlet) / all), 1.0, most));

@@ -139,7 +139,10 @@ std::vector<Material> materials_of(const Scene& scene) {
 }
 
 World::World(const Scene& scene, std::vector<Material> materials, bool two_sided_lights)
-    : materials_(std::move(materials)), textures_(scene.textures), sky_(scene.sky), two_sided_lights_(two_sided_lights) {
+    : materials_(std::move(materials)),
+      textures_(scene.textures),
+      sky_(scene.sky),
+      two_sided_lights_(two_sided_lights) {
   for (const SceneTriangle& from : scene.triangles) {
     Triangle& triangle = triangles_.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) triangle.corner[i] = vec(scene.positions[from.position[i]]);

@@ -58,7 +58,8 @@ void torolux_send(int pe, const void* data, size_t bytes);
 
 /** Waits for the next message from `pe`, or TOROLUX_ANY: of those that are here, the one that came first. Writes it to
  * `data`, which has room for `room` bytes, and returns how many bytes it had. Messages from others wait meanwhile, in
- * the memory that malloc also uses. Ends the run: no such PE, no room for the message, no memory for those that wait. */
+ * the memory that malloc also uses. Ends the run: no such PE, no room for the message, no memory for those that wait.
+ */
 size_t torolux_receive(int pe, void* data, size_t room);
 
 /** Whether torolux_receive(pe, ...) would return at once: the bytes of the next message, or -1 where none is here. */
@@ -102,10 +103,10 @@ uint64_t torolux_instructions(void);
 /** Phases of a program: what it spends its cycles on, in statistics, report and trace. At file scope, once for each
  * number 0 to TOROLUX_PHASES - 1; name: up to 23 characters: TOROLUX_PHASE_NAME(0, "multiply"); */
 #define TOROLUX_PHASES 7
-#define TOROLUX_PHASE_NAME(number, text)                                                                      \
-  __attribute__((section(".torolux.phases"), used)) static const struct {                                     \
-    uint32_t phase;                                                                                           \
-    char name[24];                                                                                            \
+#define TOROLUX_PHASE_NAME(number, text)                                  \
+  __attribute__((section(".torolux.phases"), used)) static const struct { \
+    uint32_t phase;                                                       \
+    char name[24];                                                        \
   } torolux_phase_name_##number = {TOROLUX_FIRST_PHASE + (number), text}
 /** Cycles from here on belong to this phase (a constant), until it is left. Phases may nest. Costs no cycles. */
 #define TOROLUX_ENTER_PHASE(number) TOROLUX_MARK_(TOROLUX_HINT_ENTER_PHASE + TOROLUX_FIRST_PHASE + (number))

@@ -30,7 +30,8 @@ std::vector<SkyEntry> half_and_half(bool sun) {
   const double of_cells = sun ? 2.0 / 3 : 1;
   for (std::uint32_t i = 0; i < kSkyCells; ++i) {
     const float radiance = i < kSkyCells / 2 ? 0.25F : 1.0F;
-    sky.push_back({{radiance, radiance / 2, 0}, static_cast<std::uint32_t>(of_cells * (i + 1) / kSkyCells * 0x1p32 - 1)});
+    sky.push_back(
+        {{radiance, radiance / 2, 0}, static_cast<std::uint32_t>(of_cells * (i + 1) / kSkyCells * 0x1p32 - 1)});
   }
   sky.push_back({{sun ? 1000.0F : 0.0F, 0, 0}, 0xFFFF'FFFFU});
   return sky;

@@ -54,8 +54,8 @@ TEST(SkyTables, OpeningsTakeTheFacesPlace) {
 }
 
 TEST(SkyTables, DrawsSumUpToTheSky) {
-  const Scene scene = scene_under(
-      "model = \"preetham\"\n[sky.sun]\nelevation = 40\nazimuth = 100\nirradiance = [300, 200, 100]\n");
+  const Scene scene =
+      scene_under("model = \"preetham\"\n[sky.sun]\nelevation = 40\nazimuth = 100\nirradiance = [300, 200, 100]\n");
   LightUnits units;
   units.unit_radiance = 10;
   const SkyTables tables = sky_tables(scene, units);
@@ -66,7 +66,8 @@ TEST(SkyTables, DrawsSumUpToTheSky) {
   for (std::uint32_t i = 0; i < kDraws; ++i) {
     const protocol::StratifiedPair pair = protocol::stratified_pair(i, 3);
     const auto draw = protocol::sample_sky(tables.frame, tables.entries, pair.x, protocol::uniform_float(pair.y));
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += double{draw.radiance_by_solid_angle[c]} / kDraws * units.unit_radiance;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += double{draw.radiance_by_solid_angle[c]} / kDraws * units.unit_radiance;
   }
   const Vec3d expected = sky_from_everywhere(*scene.sky);
   for (std::size_t c = 0; c < 3; ++c) {
