@@ -95,8 +95,9 @@ void make_ray(Pe& pe, Niu& niu) {
   record.direction = ray.direction;
   if (!(lens ? find_lens_start(pe, record) : find_start(pe, record))) {
     pe.slots.free_own(slot);
-    const glm::vec3 light = sky_towards(pe.scene, to_vector(direction)) * tiles.weight;
-    if (!pe.scene.sky.empty()) pe.results.add_pixel(niu, tiles.pixel.number, light * pe.scene.layout.pixel_scale);
+    if (pe.scene.sky.empty()) return;
+    const glm::vec3 light = sky_towards(pe.scene, to_vector(ray.direction)) * tiles.weight;
+    pe.results.add_pixel(niu, tiles.pixel.number, light * pe.scene.layout.pixel_scale);
     return;
   }
   record.weight = {tiles.weight, tiles.weight, tiles.weight};
