@@ -109,6 +109,8 @@ MeshChoice mesh_choice(const Quality& quality, const std::vector<Split>& splits)
 RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
                        const Image& image, const std::vector<Split>& splits) {
   check(quality, machine);
+  // Rays of the host that miss the object space never reach a PE, and the sky that they see no frame buffer.
+  require(!scene.sky || machine.camera_rays == RayMaker::pes, "--camera-rays: pes only, in a scene with a [sky]");
   RenderSetup setup;
   const std::uint64_t memory = machine.pe_memory.value_or(protocol::kLargestLocalMemory);
   const std::uint64_t pes = std::uint64_t{machine.columns} * machine.rows;
@@ -157,8 +159,6 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
                           " PEs hold nothing of the scene, and have little to do or nothing: use fewer --pes, finer "
                           "--subspaces, or --allocation balanced");
   }
-  if (scene.sky && machine.camera_rays != RayMaker::pes)
-    setup.notes.push_back("--camera-rays host: rays that pass the object space by do not see the sky, and stay black");
   for (const SceneMaterial& material : scene.materials) {
     if (material.kind != SurfaceKind::diffuse && material.emission != Vec3d{0, 0, 0}) {
       setup.notes.push_back("material '" + material.name + "' is mirror or glass: its emission (Ke) is ignored");
