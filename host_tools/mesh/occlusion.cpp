@@ -180,6 +180,7 @@ bool Occlusion::occludes(const Mesh& mesh, std::uint32_t triangle, std::uint32_t
   Vec3d at = vec::add(corner[0], vec::add(vec::scale(across, point.b1), vec::scale(up, point.b2)));
   at = vec::add(at, vec::scale(normal, side == 0 ? kHeight : -kHeight));
   for (const std::uint32_t i : near_[triangle]) {
+    if (occluders_[i].box.low[0] > at[0]) break;  // so do all that come after it
     if (!contains(occluders_[i].box, at)) continue;
     // What stands on the triangle fills half a sphere, whether it has a bottom of its own or not.
     if (std::abs(occluders_[i].angle.seen_from(at)) > 2 * std::numbers::pi - kOpening) return true;

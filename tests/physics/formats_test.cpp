@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "tests/support/cornell_means.hpp"
 #include "tests/support/memory_files.hpp"
@@ -27,8 +29,9 @@ RenderCase box() {
 
 /// Of each format by its ending; the camera is that of the scene's own files.
 Scene read_again(const Scene& scene, const std::string& ending) {
-  MemoryFiles files({{"box." + ending, ending == "glb" ? as_glb(scene) : as_mgf(scene)}});
-  Scene read = load_scene_from(files, "box." + ending, {});
+  const std::string name = "box." + ending;
+  MemoryFiles files(std::map<std::string, std::string>{{name, ending == "glb" ? as_glb(scene) : as_mgf(scene)}});
+  Scene read = load_scene_from(files, name, {});
   read.camera = scene.camera;
   return read;
 }
