@@ -196,7 +196,7 @@ RunDescription describe(const RenderOptions& options, const Resolved& resolved, 
   given(options.up, "up");
   given(options.field_of_view_degrees, "field_of_view");
   given(options.aperture, "aperture");
-  given(options.focus, "focus");
+  if (resolved.camera.aperture > 0) given(options.focus, "focus");
   return run;
 }
 
