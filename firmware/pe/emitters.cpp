@@ -48,13 +48,20 @@ glm::vec3 point_on(const Emitter& emitter, float a, float b) {
 /// Of sky and sun: a direction by what comes from there. False: none comes to this side.
 bool sample_by_radiance(const Scene& scene, const Emitter& sky, float place, float v, const glm::vec3& normal,
                         const glm::vec3& geometric, EmitterSample& sample) {
-  const std::uint32_t word = place < 1.0F ? static_cast<std::uint32_t>(place * 0x1p32F) : 0xFFFF'FFFFU;
+  // The sun's words are the last.
+  const std::uint32_t begin =
+      sky.both_sides == protocol::kSkySun ? scene.sky[protocol::kSkyCells - 1U].chosen_to + 1U : 0U;
+  const std::uint32_t most = 0xFFFF'FFFFU - begin;
+  const float upto = place * static_cast<float>(most);
+  const std::uint32_t word = begin + (upto < static_cast<float>(most) ? static_cast<std::uint32_t>(upto) : most);
   const protocol::SkySample from = protocol::sample_sky(scene.layout.sky_frame, scene.sky, word, v);
   sample.direction = to_vector(from.direction);
   sample.polygon = sky.polygon;
   const float leaving = glm::dot(sample.direction, normal);
   if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
-  sample.irradiance_over_pi = to_vector(from.radiance_by_solid_angle) * (leaving * sky.area_over_chance);
+  // Of the sun alone the chance within all of the sky does not count.
+  const float share = sky.both_sides == protocol::kSkySun ? static_cast<float>(most) * 0x1p-32F : 1.0F;
+  sample.irradiance_over_pi = to_vector(from.radiance_by_solid_angle) * (leaving * sky.area_over_chance * share);
   return true;
 }
 
@@ -63,7 +70,9 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
                      const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
   float place = 0.0F;
   const Emitter& emitter = choose(scene, numbers.x, place);
-  if (emitter.polygon == protocol::kSkyTarget) {
+  const bool of_sky = emitter.polygon == protocol::kSkyTarget;
+  const bool through = of_sky && emitter.both_sides == protocol::kSkyThroughOpening;
+  if (of_sky && !through) {
     return sample_by_radiance(scene, emitter, place, protocol::uniform_float(numbers.y), normal, geometric, sample);
   }
   const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
@@ -74,10 +83,13 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
   const float leaving = glm::dot(sample.direction, normal);
   if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
   float arriving = -glm::dot(sample.direction, unit_normal(emitter.corner));
-  if (emitter.both_sides != 0) arriving = std::fabs(arriving);
+  if (emitter.both_sides == 1U) arriving = std::fabs(arriving);
   if (!(arriving > 0.0F)) return false;
   const float seen = leaving * arriving * emitter.area_over_chance / square;
-  sample.irradiance_over_pi = to_vector(emitter.emission) * (seen < kMostSeen ? seen : kMostSeen);
+  const glm::vec3 radiance =
+      through ? to_vector(protocol::radiance_without_sun(scene.layout.sky_frame, scene.sky, to_array(sample.direction)))
+              : to_vector(emitter.emission);
+  sample.irradiance_over_pi = radiance * (seen < kMostSeen ? seen : kMostSeen);
   return true;
 }
 
