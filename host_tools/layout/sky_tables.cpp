@@ -149,7 +149,9 @@ std::vector<SkyEmitter> sky_emitters(const Scene& scene, const SceneSpace& space
     emitters.push_back(
         {{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkyAround}, sky_power + sun_power});
   } else if (sun_power > 0) {
-    emitters.push_back({{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkySun}, sun_power});
+    // Where it shines it is chosen by what it brings; where it does not, as in most of a room, the sky must not starve.
+    emitters.push_back({{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkySun},
+                        sky_power > 0 ? std::min(sun_power, sky_power) : sun_power});
   }
   return emitters;
 }
