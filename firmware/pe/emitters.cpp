@@ -45,16 +45,47 @@ glm::vec3 point_on(const Emitter& emitter, float a, float b) {
          to_vector(emitter.corner[2]) * b;
 }
 
+/// Whether a way leads out through this half of an opening (Moeller & Trumbore 1997, Fast, Minimum Storage Ray/Triangle
+/// Intersection). What lies on its edge is let through: of two halves either will do.
+bool leads_through(const Emitter& half, const glm::vec3& point, const glm::vec3& direction) {
+  const glm::vec3 first = to_vector(half.corner[1]) - to_vector(half.corner[0]);
+  const glm::vec3 second = to_vector(half.corner[2]) - to_vector(half.corner[0]);
+  const glm::vec3 across = glm::cross(direction, second);
+  const float determinant = glm::dot(first, across);
+  if (determinant == 0.0F) return false;
+  const float inverse = 1.0F / determinant;
+  const glm::vec3 way = point - to_vector(half.corner[0]);
+  const float u = glm::dot(way, across) * inverse;
+  const glm::vec3 aside = glm::cross(way, first);
+  const float v = glm::dot(direction, aside) * inverse;
+  return u >= 0.0F && v >= 0.0F && u + v <= 1.0F && glm::dot(second, aside) * inverse > 0.0F;
+}
+
+bool leads_through_any(const Scene& scene, const glm::vec3& point, const glm::vec3& direction) {
+  return std::any_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& emitter) {
+    return emitter.polygon == protocol::kSkyTarget && emitter.both_sides == protocol::kSkyThroughOpening &&
+           leads_through(emitter, point, direction);
+  });
+}
+
 /// Of sky and sun: a direction by what comes from there. False: none comes to this side.
-bool sample_by_radiance(const Scene& scene, const Emitter& sky, float place, float v, const glm::vec3& normal,
-                        const glm::vec3& geometric, EmitterSample& sample) {
-  const std::uint32_t word = place < 1.0F ? static_cast<std::uint32_t>(place * 0x1p32F) : 0xFFFF'FFFFU;
+bool sample_by_radiance(const Scene& scene, const Emitter& sky, float place, float v, const glm::vec3& point,
+                        const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
+  // The sun's words are the last.
+  const std::uint32_t begin =
+      sky.both_sides == protocol::kSkySun ? scene.sky[protocol::kSkyCells - 1U].chosen_to + 1U : 0U;
+  const std::uint32_t most = 0xFFFF'FFFFU - begin;
+  const float upto = place * static_cast<float>(most);
+  const std::uint32_t word = begin + (upto < static_cast<float>(most) ? static_cast<std::uint32_t>(upto) : most);
   const protocol::SkySample from = protocol::sample_sky(scene.layout.sky_frame, scene.sky, word, v);
   sample.direction = to_vector(from.direction);
   sample.polygon = sky.polygon;
   const float leaving = glm::dot(sample.direction, normal);
   if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
-  sample.irradiance_over_pi = to_vector(from.radiance_by_solid_angle) * (leaving * sky.area_over_chance);
+  if (sky.both_sides == protocol::kSkySun && !leads_through_any(scene, point, sample.direction)) return false;
+  // Of the sun alone the chance within all of the sky does not count.
+  const float share = sky.both_sides == protocol::kSkySun ? static_cast<float>(most) * 0x1p-32F : 1.0F;
+  sample.irradiance_over_pi = to_vector(from.radiance_by_solid_angle) * (leaving * sky.area_over_chance * share);
   return true;
 }
 
@@ -63,8 +94,11 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
                      const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
   float place = 0.0F;
   const Emitter& emitter = choose(scene, numbers.x, place);
-  if (emitter.polygon == protocol::kSkyTarget) {
-    return sample_by_radiance(scene, emitter, place, protocol::uniform_float(numbers.y), normal, geometric, sample);
+  const bool of_sky = emitter.polygon == protocol::kSkyTarget;
+  const bool through = of_sky && emitter.both_sides == protocol::kSkyThroughOpening;
+  if (of_sky && !through) {
+    return sample_by_radiance(scene, emitter, place, protocol::uniform_float(numbers.y), point, normal, geometric,
+                              sample);
   }
   const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
   const float square = glm::dot(way, way);
@@ -74,10 +108,13 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
   const float leaving = glm::dot(sample.direction, normal);
   if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
   float arriving = -glm::dot(sample.direction, unit_normal(emitter.corner));
-  if (emitter.both_sides != 0) arriving = std::fabs(arriving);
+  if (emitter.both_sides == 1U) arriving = std::fabs(arriving);
   if (!(arriving > 0.0F)) return false;
   const float seen = leaving * arriving * emitter.area_over_chance / square;
-  sample.irradiance_over_pi = to_vector(emitter.emission) * (seen < kMostSeen ? seen : kMostSeen);
+  const glm::vec3 radiance =
+      through ? to_vector(protocol::radiance_without_sun(scene.layout.sky_frame, scene.sky, to_array(sample.direction)))
+              : to_vector(emitter.emission);
+  sample.irradiance_over_pi = radiance * (seen < kMostSeen ? seen : kMostSeen);
   return true;
 }
 

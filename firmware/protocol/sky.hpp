@@ -25,6 +25,8 @@ static_assert(kSkyBands % 2U == 0 && kSkySectors % 4U == 0);
 inline constexpr std::uint32_t kSkyEntries = kSkyCells + 1U;
 /// `polygon` of the emitter that stands for sky and sun, and `target` of a shadow ray on its way there.
 inline constexpr std::uint32_t kSkyTarget = kNoPolygon;
+/// `both_sides` of such an emitter: all directions; the sun's; those to a half of an opening, without the sun's.
+inline constexpr std::uint32_t kSkyAround = 0, kSkySun = 2, kSkyThroughOpening = 3;
 
 struct SkyEntry {
   Vec3f radiance;           ///< in units of the scene's greatest; of the sun its mean over the disc
@@ -160,9 +162,9 @@ inline SkyBetween sky_between(float at, std::uint32_t begin, std::uint32_t end) 
   return {lower, lower + 1U, from_middle - static_cast<float>(lower)};
 }
 
-/// Radiance of sky and sun in a direction of unit length, between the middles of cells in proportion; not across the
-/// horizon.
-inline Vec3f sky_radiance(const SkyFrame& frame, std::span<const SkyEntry> sky, const Vec3f& direction) {
+/// Radiance of the sky without its sun in a direction of unit length, between the middles of cells in proportion; not
+/// across the horizon.
+inline Vec3f radiance_without_sun(const SkyFrame& frame, std::span<const SkyEntry> sky, const Vec3f& direction) {
   const float height = dot(direction, frame.up);
   const float x = dot(direction, frame.x);
   const float y = dot(direction, frame.y);
@@ -185,6 +187,12 @@ inline Vec3f sky_radiance(const SkyFrame& frame, std::span<const SkyEntry> sky, 
     const float high = at(band.upper, left) + (at(band.upper, right) - at(band.upper, left)) * across;
     radiance[c] = low + (high - low) * band.part;
   }
+  return radiance;
+}
+
+/// With the sun.
+inline Vec3f sky_radiance(const SkyFrame& frame, std::span<const SkyEntry> sky, const Vec3f& direction) {
+  Vec3f radiance = radiance_without_sun(frame, sky, direction);
   const float towards = dot(direction, frame.sun);
   const float along_x = dot(direction, frame.sun_x);
   const float along_y = dot(direction, frame.sun_y);

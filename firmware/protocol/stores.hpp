@@ -183,8 +183,8 @@ struct Emitter {
   Vec3f emission;            ///< radiance from the front, in units of the scene's greatest
   float area_over_chance;    ///< area / (pi * the chance that it is chosen)
   std::uint32_t chosen_to;   ///< chosen by 32 random bits up to this, and beyond the one before; the last: all ones
-  std::uint32_t polygon;     ///< global number; kSkyTarget: sky and sun, whose corners and emission are not used
-  std::uint32_t both_sides;  ///< 0 or 1: emits from the back, too
+  std::uint32_t polygon;     ///< global number; kSkyTarget: of sky and sun, whose emission is not used
+  std::uint32_t both_sides;  ///< 0 or 1: emits from the back, too; of the sky: kSkyAround and the like
 };
 static_assert(sizeof(Emitter) == 64);
 

@@ -67,11 +67,10 @@ std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, co
     flux.push_back(area * (radiance[0] + radiance[1] + radiance[2]));
     sum += flux.back();
   }
-  if (scene.sky) {
-    // The last one, with chances of its own (protocol::sample_sky).
-    all.push_back({{}, {}, static_cast<float>(1 / std::numbers::pi), 0, protocol::kSkyTarget, 0});
-    flux.push_back(sky_power(sky_inlets(scene, mesh.space), mesh.space, units));
-    sum += flux.back();
+  for (const SkyEmitter& sky : sky_emitters(scene, mesh.space, units)) {
+    all.push_back(sky.emitter);
+    flux.push_back(sky.power);
+    sum += sky.power;
   }
   // The chance that counts is the one that whole numbers of 2^-32 give it.
   constexpr std::uint64_t one = std::uint64_t{1} << 32U;

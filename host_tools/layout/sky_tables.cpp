@@ -118,10 +118,42 @@ SkyTables sky_tables(const Scene& scene, const LightUnits& units) {
   return tables;
 }
 
-double sky_power(const std::vector<SkyInlet>& inlets, const SceneSpace& space, const LightUnits& units) {
-  double power = 0;
-  for (const SkyInlet& inlet : inlets) power += inlet.flux[0] + inlet.flux[1] + inlet.flux[2];
-  return power * space.scale * space.scale / (std::numbers::pi * units.unit_radiance);
+std::vector<SkyEmitter> sky_emitters(const Scene& scene, const SceneSpace& space, const LightUnits& units) {
+  std::vector<SkyEmitter> emitters;
+  if (!scene.sky) return emitters;
+  const double to_power = space.scale * space.scale / (std::numbers::pi * units.unit_radiance);
+  const auto sum = [](const Vec3d& light) { return light[0] + light[1] + light[2]; };
+  const auto all_directions = static_cast<float>(1 / std::numbers::pi);
+  double sky_power = 0;
+  double sun_power = 0;
+  for (const SkyInlet& inlet : sky_inlets(scene, space)) {
+    const protocol::SkyOpening& opening = inlet.opening;
+    const Vec3d along = to_double(opening.along);
+    const Vec3d across = to_double(opening.across);
+    const double area = vec::length(vec::cross(along, across));
+    const double cosine = std::max(0.0, -vec::dot(scene.sky->sun, to_double(opening.inwards)));
+    const double sun = sum(scene.sky->sun_irradiance) * cosine * area / (space.scale * space.scale) * to_power;
+    const double sky = std::max(0.0, sum(inlet.flux) * to_power - sun);
+    sun_power += sun;
+    sky_power += sky;
+    if (scene.sky->openings.empty() || !(sky > 0)) continue;
+    const auto point = [&](double u, double v) {
+      return to_float(vec::add(to_double(opening.corner), vec::add(vec::scale(along, u), vec::scale(across, v))));
+    };
+    const auto half_area = static_cast<float>(area / 2 / std::numbers::pi);
+    for (const auto& corners :
+         {std::array{point(0, 0), point(1, 0), point(1, 1)}, std::array{point(0, 0), point(1, 1), point(0, 1)}})
+      emitters.push_back({{corners, {}, half_area, 0, protocol::kSkyTarget, protocol::kSkyThroughOpening}, sky / 2});
+  }
+  if (scene.sky->openings.empty()) {
+    emitters.push_back(
+        {{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkyAround}, sky_power + sun_power});
+  } else if (sun_power > 0) {
+    // Where it shines it is chosen by what it brings; where it does not, as in most of a room, the sky must not starve.
+    emitters.push_back({{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkySun},
+                        sky_power > 0 ? std::min(sun_power, sky_power) : sun_power});
+  }
+  return emitters;
 }
 
 }  // namespace torolux

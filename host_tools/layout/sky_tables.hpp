@@ -27,8 +27,14 @@ struct SkyTables {
 };
 SkyTables sky_tables(const Scene& scene, const LightUnits& units);
 
-/// All that comes in over pi [normalised area x unit of radiance, R + G + B]: by this, as by their area times radiance,
-/// shadow rays choose among emitters.
-double sky_power(const std::vector<SkyInlet>& inlets, const SceneSpace& space, const LightUnits& units);
+/// What shadow rays aim at, with the chance still to come.
+struct SkyEmitter {
+  protocol::Emitter emitter{};
+  double power = 0;  ///< what comes in over pi, of the sun not more than of the sky [normalised area x unit of
+                     ///< radiance, R + G + B]
+};
+/// All directions; or where the scene names openings, the sun, and the halves of each, so that no ray looks for the sky
+/// through walls.
+std::vector<SkyEmitter> sky_emitters(const Scene& scene, const SceneSpace& space, const LightUnits& units);
 
 }  // namespace torolux

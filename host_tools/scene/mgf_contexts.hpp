@@ -2,6 +2,7 @@
 // MGF's named contexts: c, m or v in, the one that is current out.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <vector>
