@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
