@@ -10,7 +10,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/sky.hpp"
-#include "host_tools/scene/colour.hpp"
+#include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/scene_file.hpp"
 #include "host_tools/scene/sky_models.hpp"
 #include "host_tools/scene/vec.hpp"
