@@ -20,7 +20,8 @@ constexpr std::uint32_t kPoints = 8;
 
 /// at: 0..1 within the cell, up and along. Unit length, in the sky's frame.
 Vec3d direction_in(std::size_t cell, double up, double along) {
-  const double height = (static_cast<double>(cell / kSkySectors) + up) * (2.0 / kSkyBands) - 1;
+  const std::size_t band = cell / kSkySectors;
+  const double height = (static_cast<double>(band) + up) * (2.0 / kSkyBands) - 1;
   const double turn = (static_cast<double>(cell % kSkySectors) + along) * (4.0 / kSkySectors);
   const double quarter = std::floor(turn);
   // The angle of the place on the square |x| + |y| = 1.

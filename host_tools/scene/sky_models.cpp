@@ -91,8 +91,8 @@ SkyModel preetham_sky(double turbidity, const Vec3d& sun) {
     if (!(way[2] > 0)) return Vec3d{0, 0, 0};
     const double to_sun = angle_between(way, sun);
     const auto at = [&](const Perez& model, double value) { return value * model(way[2], to_sun) / model(1, angle); };
-    const double luminance = at(bright, zenith) / kLumenPerWatt;
-    return luminance > 0 ? linear_colour({at(x, zenith_x), at(y, zenith_y)}, luminance).rgb : Vec3d{0, 0, 0};
+    const double brightness = at(bright, zenith) / kLumenPerWatt;
+    return brightness > 0 ? linear_colour({at(x, zenith_x), at(y, zenith_y)}, brightness).rgb : Vec3d{0, 0, 0};
   };
 }
 
