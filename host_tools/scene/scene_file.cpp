@@ -191,7 +191,7 @@ SceneFile read_scene_file(std::string_view text, const std::string& file) {
   for (const toml::table* light : table.tables("light"))
     scene.lights.push_back(read_light({*light, file, "[[light]]"}));
   read_shapes(table, file, scene);
-  if (const toml::table* sky = table.table("sky")) scene.sky = read_sky({*sky, file, "[sky]"});
+  if (const toml::table* sky = table.table("sky")) scene.sky = read_sky({*sky, file, "[sky]"}, scene.sky_image);
   if (const toml::table* camera = table.table("camera")) {
     TomlTable entry(*camera, file, "[camera]");
     scene.camera = read_camera(entry, "[camera]");

@@ -12,6 +12,7 @@
 #include "host_tools/scene/files.hpp"
 #include "host_tools/scene/scene.hpp"
 #include "host_tools/scene/shape_entries.hpp"
+#include "host_tools/scene/sky_image.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -52,6 +53,7 @@ struct SceneFile {
   std::vector<ShapeEntry> shapes;
   std::vector<LampEntry> lamps;
   std::optional<Sky> sky;
+  std::optional<SkyImageEntry> sky_image;  ///< to be loaded into it
   std::optional<Camera> camera;
   SceneDefaults defaults;
 };

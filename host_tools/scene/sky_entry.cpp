@@ -64,8 +64,16 @@ SkyModel read_model(TomlTable& table, const Sky& sky, bool sun_given) {
     const double turbidity = table.number("turbidity", 1.9, 10).value_or(kTurbidity);
     return preetham_sky(turbidity, high_sun(table, sky, sun_given, model));
   }
-  refuse(table.place("model"),
-         "[sky] 'model': " + no_such_name(model, "model of a sky", {"uniform", "overcast", "clear", "preetham"}));
+  refuse(table.place("model"), "[sky] 'model': " + no_such_name(model, "model of a sky",
+                                                                {"uniform", "overcast", "clear", "preetham", "image"}));
+}
+
+/// Of a picture, which says what the ground sends, too.
+SkyImageEntry read_image(TomlTable& table) {
+  if (table.triple("ground", 0, 1, true))
+    refuse(table.place("ground"), "[sky] 'ground' goes with a model: a picture shows what is below the horizon");
+  return {table.required(table.text("file"), "file"), table.triple("scale", 0, kMost, true).value_or(Vec3d{1, 1, 1}),
+          table.place("file")};
 }
 
 /// Light that comes up from far ground, which is level, diffuse and lit by all of the sky.
@@ -84,20 +92,24 @@ SkyQuad read_opening(TomlTable table) {
 
 }  // namespace
 
-Sky read_sky(TomlTable table) {
+Sky read_sky(TomlTable table, std::optional<SkyImageEntry>& image) {
   Sky sky;
   read_frame(table, sky);
   const toml::table* sun = table.table("sun");
   if (sun != nullptr) read_sun({*sun, table.place().file, "[sky.sun]"}, sky);
-  sky.radiance = sky_table(read_model(table, sky, sun != nullptr));
-  light_ground(table.triple("ground", 0, 1, true).value_or(Vec3d{kGround, kGround, kGround}), sky);
+  if (table.text("model") == "image") {
+    image = read_image(table);
+  } else {
+    sky.radiance = sky_table(read_model(table, sky, sun != nullptr));
+    light_ground(table.triple("ground", 0, 1, true).value_or(Vec3d{kGround, kGround, kGround}), sky);
+  }
   for (const toml::table* opening : table.tables("opening"))
     sky.openings.push_back(read_opening({*opening, table.place().file, "[[sky.opening]]"}));
   if (sky.openings.size() > protocol::kMostSkyOpenings)
     refuse(table.place("opening"), "[sky] has " + std::to_string(sky.openings.size()) + " openings; at most " +
                                        std::to_string(protocol::kMostSkyOpenings) + " are possible");
   table.finish();
-  if (!(greatest_sky_radiance(sky) > 0))
+  if (!image && !(greatest_sky_radiance(sky) > 0))
     refuse(table.place(), "[sky] has no light: give it a 'model', a 'radiance', or a [sky.sun]");
   return sky;
 }

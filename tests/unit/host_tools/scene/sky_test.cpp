@@ -6,14 +6,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/sky.hpp"
 #include "host_tools/colour/colour.hpp"
+#include "host_tools/picture/formats.hpp"
+#include "host_tools/scene/load_scene.hpp"
 #include "host_tools/scene/scene_file.hpp"
+#include "host_tools/scene/sky_image.hpp"
 #include "host_tools/scene/sky_models.hpp"
 #include "host_tools/scene/vec.hpp"
+#include "tests/support/memory_files.hpp"
 
 namespace torolux {
 namespace {
@@ -88,6 +94,74 @@ TEST(Sky, PreethamsHasHisZenith) {
   EXPECT_GT(away[2], 1.5 * away[0]) << "blue";
   EXPECT_LT(about[2] / about[0], away[2] / away[0]);
   EXPECT_GT(luminance(about), 3 * luminance(away));
+}
+
+// A lamp of one pixel among black ones: not a bit of its light is lost, though a cell is larger; its middle is north
+// and a quarter to the right is east.
+TEST(Sky, APicturesLightIsAllThere) {
+  Picture picture{256, 128, {}};
+  picture.pixels.resize(std::size_t{256} * 128);
+  const std::uint32_t row = 40;
+  picture.pixels[row * 256 + 192] = {1000, 500, 250};
+  Sky sky = sky_of("radiance = 1\n");
+  sky.radiance = sky_image_table(picture, {1, 2, 4});
+  const double elevation = (0.5 - (row + 0.5) / 128) * kPi;
+  const double solid_angle = 2 * kPi / 256 * 2 * std::sin(kPi / 256) * std::cos(elevation);
+  const Vec3d sum = sky_from_everywhere(sky);
+  // By points: 512 rows and 1,024 columns, whose own solid angles are off by no more than a few in 10,000 there.
+  EXPECT_NEAR(sum[0], 1000 * solid_angle, 2e-3 * 1000 * solid_angle);
+  EXPECT_NEAR(sum[1], sum[0], 1e-9);
+  EXPECT_NEAR(sum[2], sum[0], 1e-9);
+  const Vec3d towards = sky_direction(sky, elevation * 180 / kPi, 90 + 360 * 0.5 / 256);
+  EXPECT_NEAR(sky_irradiance(sky, towards)[0], sum[0], 5e-3 * sum[0]) << "all of it from there: a cell is 5 degrees";
+}
+
+TEST(Sky, APictureOfOneColourIsTheUniformSky) {
+  for (const auto& [width, height] : {std::pair{1U, 1U}, {3U, 2U}, {2000U, 1000U}}) {
+    Picture picture{width, height, {}};
+    picture.pixels.assign(std::size_t{width} * height, {1, 2, 3});
+    for (const Vec3d& radiance : sky_image_table(picture, {1, 1, 1})) {
+      ASSERT_NEAR(radiance[0], 1, 1e-9);
+      ASSERT_NEAR(radiance[2], 3, 1e-9);
+    }
+  }
+}
+
+/// A scene.toml with a sky of this table, and the files beside it.
+Sky sky_with_files(const std::string& table, const std::map<std::string, std::string>& others) {
+  std::map<std::string, std::string> files{{"s/scene.toml", "[room]\nsize = [1, 1, 1]\n[sky]\n" + table}};
+  for (const auto& [name, text] : others) files["s/" + name] = text;
+  MemoryFiles memory(files);
+  return load_scene_from(memory, "s/scene.toml", {}).sky.value();
+}
+
+TEST(Sky, APictureIsReadFromBesideTheScene) {
+  const Picture picture{2, 1, {{1, 1, 1}, {3, 3, 3}}};
+  const auto text = [](const std::vector<std::byte>& bytes) {
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  for (const auto& [name, bytes] :
+       {std::pair{std::string("day.exr"), encode_exr(picture)}, {std::string("day.pfm"), encode_pfm(picture)}}) {
+    const Sky sky = sky_with_files("model = \"image\"\nfile = \"" + name + "\"\nscale = 2\n", {{name, text(bytes)}});
+    EXPECT_NEAR(sky_irradiance(sky, sky.east)[0], 6 * kPi, 0.02 * kPi) << "its right half is the east";
+    EXPECT_NEAR(sky_irradiance(sky, vec::scale(sky.east, -1))[0], 2 * kPi, 0.02 * kPi);
+  }
+  const auto refused = [&](const std::string& table, const std::map<std::string, std::string>& files) {
+    try {
+      sky_with_files(table, files);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto names = [](const std::string& text, const char* what) { return text.find(what) != std::string::npos; };
+  EXPECT_TRUE(names(refused("model = \"image\"\n", {}), "file"));
+  EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"no.exr\"\n", {}), "no.exr"));
+  EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"day.hdr\"\n", {{"day.hdr", ""}}), ".exr"));
+  EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"a.exr\"\nground = 0.1\n", {}), "ground"));
+  EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"a.exr\"\n", {{"a.exr", "no picture"}}), "a.exr"));
+  const Picture black{2, 1, {{0, 0, 0}, {-1, 0, 0}}};
+  EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"a.exr\"\n", {{"a.exr", text(encode_exr(black))}}), "black"));
 }
 
 TEST(Sky, OpeningsAreRectangles) {
