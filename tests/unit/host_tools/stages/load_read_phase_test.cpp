@@ -34,7 +34,7 @@ class LoadReadTest : public testing::Test {
 
   /// What a PE answers to `report`.
   static protocol::Tally tally_of(PeNumber pe) {
-    return {{pe, 1, 0}, {3, pe, 0}, {2, 0, 0}, {0, 0, pe * 10}, {7, 7, 7}, 1000U + pe};
+    return {{pe, 1, 0}, {3, pe, 0}, {2, 0, 0}, {0, 0, pe * 10}, {7, 7, 7}, {0, 5, 0}, 1000U + pe};
   }
 
   /// The PE's bytes from `address` on.
