@@ -293,6 +293,7 @@ TEST_F(LoadReadTest, TalliesAreAddedUp) {
   EXPECT_EQ(tally.escaped, (protocol::Flux{12, 0, 0}));
   EXPECT_EQ(tally.cut_off, (protocol::Flux{0, 0, 150}));
   EXPECT_EQ(tally.back_side, (protocol::Flux{42, 42, 42}));
+  EXPECT_EQ(tally.sky_rest, (protocol::Flux{0, 30, 0}));
   EXPECT_EQ(tally.rays, 6015U);
 }
 
