@@ -18,7 +18,7 @@ void expect_xy(const Chromaticity& colour, double x, double y, double tolerance)
 
 // CIE 15 gives these sums of its table at 5 nm. A wrong digit anywhere shows.
 TEST(Colour, ObserverAddsUpAsPublished) {
-  Vec3d sum{0, 0, 0};
+  Triple sum{0, 0, 0};
   for (const auto& row : kObserver)
     for (std::size_t c = 0; c < 3; ++c) sum[c] += row[c];
   EXPECT_NEAR(sum[0], 21.3715, 1e-4);
@@ -27,7 +27,7 @@ TEST(Colour, ObserverAddsUpAsPublished) {
 }
 
 TEST(Colour, EqualEnergyIsTheMiddle) {
-  const Vec3d white = tristimulus(380, 780, std::array{1.0, 1.0});
+  const Triple white = tristimulus(380, 780, std::array{1.0, 1.0});
   for (const double value : white) EXPECT_NEAR(value, 1, 1e-12);
   expect_xy(chromaticity(white), 1.0 / 3, 1.0 / 3, 1e-12);
 }
@@ -70,7 +70,7 @@ TEST(Colour, LuminanceIsKept) {
 // (by the inverse of its matrix, worked out elsewhere); what lies beyond is clipped, and says so.
 TEST(Colour, PrimariesAndWhatLiesBeyond) {
   const std::array<Chromaticity, 3> primaries{{{0.6461102, 0.3283682}, {0.3237422, 0.5850644}, {0.1525724, 0.0616849}}};
-  constexpr Vec3d luminances{0.2126, 0.7152, 0.0722};
+  constexpr Triple luminances{0.2126, 0.7152, 0.0722};
   for (std::size_t i = 0; i < 3; ++i) {
     const LinearColour primary = linear_colour(primaries[i], luminances[i]);
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(primary.rgb[c], c == i ? 1 : 0, 1e-5);
