@@ -154,7 +154,9 @@ TEST(Sky, APictureIsReadFromBesideTheScene) {
     }
     return std::string();
   };
-  const auto names = [](const std::string& text, const char* what) { return text.find(what) != std::string::npos; };
+  const auto names = [](const std::string& message, const char* what) {
+    return message.find(what) != std::string::npos;
+  };
   EXPECT_TRUE(names(refused("model = \"image\"\n", {}), "file"));
   EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"no.exr\"\n", {}), "no.exr"));
   EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"day.hdr\"\n", {{"day.hdr", ""}}), ".exr"));
