@@ -84,10 +84,15 @@ void take_suns(const std::vector<ImportedSun>& suns, std::optional<Sky>& sky, No
   }
 }
 
+double sky_sector_begin(std::size_t sector) {
+  constexpr std::size_t kQuarter = kSkySectors / 4;
+  const double part = static_cast<double>(sector % kQuarter) / kQuarter;
+  return static_cast<double>(sector / kQuarter) * (std::numbers::pi / 2) + std::atan2(part, 1 - part);
+}
+
 double sky_cell_solid_angle(std::size_t cell) {
-  const auto angle = [](double part) { return std::atan2(part, 1 - part); };
-  const double begin = static_cast<double>(cell % (kSkySectors / 4)) * (4.0 / kSkySectors);
-  return (angle(begin + 4.0 / kSkySectors) - angle(begin)) * (2.0 / kSkyBands);
+  const std::size_t sector = cell % kSkySectors;
+  return (sky_sector_begin(sector + 1) - sky_sector_begin(sector)) * (2.0 / kSkyBands);
 }
 
 Vec3d sky_irradiance(const Sky& sky, const Vec3d& normal) {

@@ -25,6 +25,9 @@ void take_suns(const std::vector<ImportedSun>& suns, std::optional<Sky>& sky, No
 /// the sky's frame: east, north, up.
 std::vector<Vec3d> sky_table(const std::function<Vec3d(const Vec3d&)>& radiance);
 
+/// The angle from the frame's x to its y at which a sector begins; kSkySectors: 2 pi [radian].
+double sky_sector_begin(std::size_t sector);
+
 /// [sr]
 double sky_cell_solid_angle(std::size_t cell);
 

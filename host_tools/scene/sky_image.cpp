@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each pixel's light is added to the cell in which it lies, so that none is lost however small what shines is; pixels
-// larger than cells are cut first.
+// Each pixel's light is shared out to the cells that it covers, by their common solid angle: height by turn, exactly
+// (Lambert's cylinder). So none is lost however small what shines is.
 #include "host_tools/scene/sky_image.hpp"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "emulator/errors.hpp"
 #include "firmware/protocol/sky.hpp"
 #include "host_tools/picture/formats.hpp"
+#include "host_tools/scene/sky.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -20,24 +21,35 @@ using protocol::kSkyBands;
 using protocol::kSkyCells;
 using protocol::kSkySectors;
 
-/// Parts around the horizon and from pole to pole, at least: many to a cell, so that its mean does not show where
-/// pixels begin.
-constexpr std::uint32_t kLeastColumns = 16 * kSkySectors, kLeastRows = 16 * kSkyBands;
+/// A band or a sector, and how much of it a row or a column of pixels covers [height, radian].
+struct Share {
+  std::size_t part;
+  double size;
+};
 
-/// Into how many parts a pixel is cut.
-std::uint32_t parts_of(std::uint32_t pixels, std::uint32_t least) {
-  return (least + pixels - 1U) / pixels;
+void add_overlap(std::size_t part, double begin, double end, double from, double to, std::vector<Share>& shares) {
+  const double size = std::min(end, to) - std::max(begin, from);
+  if (size > 0) shares.push_back({part, size});
 }
 
-/// Of a place from left to right, 0..1.
-std::uint32_t sector_at(double across) {
-  const double azimuth = (across - 0.5) * 2 * std::numbers::pi;
-  const float turn = protocol::sky_turn(static_cast<float>(std::sin(azimuth)), static_cast<float>(std::cos(azimuth)));
-  return std::min(static_cast<std::uint32_t>(turn * (float{kSkySectors} / 4.0F)), kSkySectors - 1U);
+/// begin, end: heights, -1..1.
+std::vector<Share> bands_of(double begin, double end) {
+  std::vector<Share> shares;
+  for (std::size_t band = 0; band < kSkyBands; ++band) {
+    const auto border = [](std::size_t i) { return static_cast<double>(i) * (2.0 / kSkyBands) - 1; };
+    add_overlap(band, begin, end, border(band), border(band + 1), shares);
+  }
+  return shares;
 }
 
-std::uint32_t band_at(double height) {
-  return std::min(static_cast<std::uint32_t>((height + 1) * (kSkyBands / 2)), kSkyBands - 1U);
+/// begin, end: angles from east to north, -pi/2 to 3/2 pi.
+std::vector<Share> sectors_of(double begin, double end) {
+  std::vector<Share> shares;
+  for (std::size_t sector = 0; sector < kSkySectors; ++sector) {
+    for (const double round : {0.0, 2 * std::numbers::pi})
+      add_overlap(sector, begin + round, end + round, sky_sector_begin(sector), sky_sector_begin(sector + 1), shares);
+  }
+  return shares;
 }
 
 Vec3d light_of(const std::array<float, 3>& pixel) {
@@ -49,29 +61,29 @@ Vec3d light_of(const std::array<float, 3>& pixel) {
 }  // namespace
 
 std::vector<Vec3d> sky_image_table(const Picture& picture, const Vec3d& scale) {
-  const std::uint32_t across = parts_of(picture.width, kLeastColumns);
-  const std::uint32_t down = parts_of(picture.height, kLeastRows);
-  const std::uint32_t columns = picture.width * across;
-  const std::uint32_t rows = picture.height * down;
-  std::vector<std::uint32_t> sector_of(columns);
-  for (std::uint32_t x = 0; x < columns; ++x) sector_of[x] = sector_at((x + 0.5) / columns);
-
-  std::vector<Vec3d> light(kSkyCells, Vec3d{0, 0, 0});
-  std::vector<double> solid_angle(kSkyCells, 0);
-  for (std::uint32_t y = 0; y < rows; ++y) {
-    const double elevation = (0.5 - (y + 0.5) / rows) * std::numbers::pi;
-    const std::size_t band = std::size_t{band_at(std::sin(elevation))} * kSkySectors;
-    const double weight = std::cos(elevation);
-    const auto row = std::span(picture.pixels).subspan(std::size_t{y / down} * picture.width, picture.width);
-    for (std::uint32_t x = 0; x < columns; ++x) {
-      const std::size_t cell = band + sector_of[x];
-      light[cell] = vec::add(light[cell], vec::scale(light_of(row[x / across]), weight));
-      solid_angle[cell] += weight;
+  std::vector<std::vector<Share>> sectors;
+  for (std::uint32_t x = 0; x < picture.width; ++x) {
+    const auto angle = [&](double at) { return (1.5 - 2 * at / picture.width) * std::numbers::pi; };
+    sectors.push_back(sectors_of(angle(x + 1.0), angle(x)));
+  }
+  std::vector<Vec3d> table(kSkyCells, Vec3d{0, 0, 0});
+  for (std::uint32_t y = 0; y < picture.height; ++y) {
+    const auto height = [&](double at) { return std::sin((0.5 - at / picture.height) * std::numbers::pi); };
+    const std::vector<Share> bands = bands_of(height(y + 1.0), height(y));
+    const auto row = std::span(picture.pixels).subspan(std::size_t{y} * picture.width, picture.width);
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+      const Vec3d light = vec::times(light_of(row[x]), scale);
+      for (const Share& band : bands) {
+        for (const Share& sector : sectors[x]) {
+          Vec3d& cell = table[band.part * kSkySectors + sector.part];
+          cell = vec::add(cell, vec::scale(light, band.size * sector.size));
+        }
+      }
     }
   }
-  for (std::size_t cell = 0; cell < light.size(); ++cell)
-    light[cell] = vec::scale(vec::times(light[cell], scale), 1 / solid_angle[cell]);
-  return light;
+  for (std::size_t cell = 0; cell < table.size(); ++cell)
+    table[cell] = vec::scale(table[cell], 1 / sky_cell_solid_angle(cell));
+  return table;
 }
 
 std::vector<Vec3d> load_sky_image(const SkyImageEntry& entry, const std::filesystem::path& folder, SceneFiles& files) {

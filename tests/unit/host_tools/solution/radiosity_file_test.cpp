@@ -131,6 +131,7 @@ void change(const Option& option, AllSettings& settings) {
                  [&](const option::Length& kind) { kind.member.in(settings) = 0.7; },
                  [&](const option::Choice& kind) { kind.member.put(settings, kind.member.of(settings) == 0 ? 1 : 0); },
                  [&](const option::Flag& kind) { kind.member.in(settings) = !kind.member.of(settings); },
+                 [&](const option::White& kind) { kind.member.in(settings).kind = WhiteBalance::Kind::automatic; },
                  [&](const option::Layers& kind) { kind.member.in(settings) = 1; },
                  [](const auto&) {},
              },
