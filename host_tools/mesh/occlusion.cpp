@@ -141,6 +141,7 @@ void Occlusion::find_near(const Mesh& mesh) {
   std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(occluders_[i].box.low[0], i); });
   // The greatest end of all up to here: where it lies before a triangle, so do all of them.
   std::vector<double> end;
+  end.reserve(order.size());
   for (const std::uint32_t i : order)
     end.push_back(std::max(end.empty() ? -HUGE_VAL : end.back(), occluders_[i].box.high[0]));
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
