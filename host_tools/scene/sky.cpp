@@ -86,8 +86,9 @@ void take_suns(const std::vector<ImportedSun>& suns, std::optional<Sky>& sky, No
 
 double sky_sector_begin(std::size_t sector) {
   constexpr std::size_t kQuarter = kSkySectors / 4;
+  const std::size_t quarter = sector / kQuarter;
   const double part = static_cast<double>(sector % kQuarter) / kQuarter;
-  return static_cast<double>(sector / kQuarter) * (std::numbers::pi / 2) + std::atan2(part, 1 - part);
+  return static_cast<double>(quarter) * (std::numbers::pi / 2) + std::atan2(part, 1 - part);
 }
 
 double sky_cell_solid_angle(std::size_t cell) {
