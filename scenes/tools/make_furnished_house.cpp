@@ -199,6 +199,7 @@ void write_scene() {
 
 /// What `write` prints goes to a file.
 bool write_file(const std::filesystem::path& path, void (*write)()) {
+  // stdout itself is opened anew: nothing is owned here. NOLINTNEXTLINE(cppcoreguidelines-owning-memory)
   if (std::freopen(path.c_str(), "w", stdout) == nullptr) {
     std::perror(path.c_str());
     return false;
