@@ -3,13 +3,13 @@
 // small boxes, most of them low in one corner. The scene by which the machine's scaling is measured (docs/scaling.md);
 // the same bytes every time.
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
 
+#include "scenes/tools/made_scene.hpp"
 #include "scenes/tools/obj_writer.hpp"
 
 namespace {
 
+using scene_tools::hash;
 using scene_tools::ObjWriter;
 using scene_tools::Point;
 
@@ -24,15 +24,6 @@ constexpr Point kCorner{2, 1, 2};
 constexpr double kCrowding = 1.3;
 /// Between a box and the room's walls, so that no faces lie in one plane.
 constexpr double kClearance = 0.08;
-
-/// 32 bits to 32 bits, each of which depends on all (Wellons 2018, "lowbias32").
-std::uint32_t hash(std::uint32_t x) {
-  x ^= x >> 16U;
-  x *= 0x7FEB'352DU;
-  x ^= x >> 15U;
-  x *= 0x846C'A68BU;
-  return x ^ x >> 16U;
-}
 
 /// 0 to 1, the same for the same numbers.
 double chance(std::uint32_t box, std::uint32_t attempt, std::uint32_t what) {
@@ -132,30 +123,8 @@ void write_scene() {
       "[camera]\neye = [3.6, 1.9, 3.9]\nlook_at = [0.55, 0.45, 0.6]\nfov = 50.0\n");
 }
 
-/// What `write` prints goes to a file.
-bool write_file(const std::filesystem::path& path, void (*write)()) {
-  if (std::freopen(path.c_str(), "w", stdout) == nullptr) {
-    std::perror(path.c_str());
-    return false;
-  }
-  write();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
-  std::perror(path.c_str());
-  return false;
-}
-
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 2) {
-    std::fprintf(stderr, "make_cluttered_room FOLDER: writes scene.toml, cluttered_room.obj and .mtl there\n");
-    return EXIT_FAILURE;
-  }
-  const std::filesystem::path folder = words[1];
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const bool done = write_file(folder / "cluttered_room.obj", write_mesh) &&
-                    write_file(folder / "cluttered_room.mtl", write_materials) &&
-                    write_file(folder / "scene.toml", write_scene);
-  return done ? EXIT_SUCCESS : EXIT_FAILURE;
+  return scene_tools::make_scene(count, words, "cluttered_room", {write_mesh, write_materials, write_scene});
 }

@@ -2,13 +2,13 @@
 // A folder enters; leaves in it: scene.toml, OBJ and MTL of a house of twelve rooms with doorways between them, each
 // with a lamp, a table, chairs, vases and a shelf of books: half a million triangles. The same bytes every time.
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
 
+#include "scenes/tools/made_scene.hpp"
 #include "scenes/tools/obj_writer.hpp"
 
 namespace {
 
+using scene_tools::hash;
 using scene_tools::ObjWriter;
 using scene_tools::Point;
 using Profile = std::vector<std::array<double, 2>>;
@@ -20,15 +20,6 @@ constexpr double kHeight = 2.8;
 constexpr double kHalfWall = 0.06;
 constexpr double kDoorWidth = 1.0;
 constexpr double kDoorHeight = 2.1;
-
-/// 32 bits to 32 bits, each of which depends on all (Wellons 2018, "lowbias32").
-std::uint32_t hash(std::uint32_t x) {
-  x ^= x >> 16U;
-  x *= 0x7FEB'352DU;
-  x ^= x >> 15U;
-  x *= 0x846C'A68BU;
-  return x ^ x >> 16U;
-}
 
 /// 0 to 1, the same for the same numbers.
 double chance(std::uint32_t what, std::uint32_t which) {
@@ -197,31 +188,8 @@ void write_scene() {
   std::printf("[camera]\neye = [9.6, 1.6, 9.6]\nlook_at = [6.5, 0.7, 6.4]\nfov = 60.0\n");
 }
 
-/// What `write` prints goes to a file.
-bool write_file(const std::filesystem::path& path, void (*write)()) {
-  // stdout itself is opened anew: nothing is owned here. NOLINTNEXTLINE(cppcoreguidelines-owning-memory)
-  if (std::freopen(path.c_str(), "w", stdout) == nullptr) {
-    std::perror(path.c_str());
-    return false;
-  }
-  write();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
-  std::perror(path.c_str());
-  return false;
-}
-
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 2) {
-    std::fprintf(stderr, "make_furnished_house FOLDER: writes scene.toml, furnished_house.obj and .mtl there\n");
-    return EXIT_FAILURE;
-  }
-  const std::filesystem::path folder = words[1];
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const bool done = write_file(folder / "furnished_house.obj", write_mesh) &&
-                    write_file(folder / "furnished_house.mtl", write_materials) &&
-                    write_file(folder / "scene.toml", write_scene);
-  return done ? EXIT_SUCCESS : EXIT_FAILURE;
+  return scene_tools::make_scene(count, words, "furnished_house", {write_mesh, write_materials, write_scene});
 }
