@@ -32,19 +32,24 @@ double luminance(const std::array<float, 3>& colour) {
   return 0.2126 * double{colour[0]} + 0.7152 * double{colour[1]} + 0.0722 * double{colour[2]};
 }
 
-double middle_luminance(const Picture& picture) {
+std::vector<double> measured_luminances(const Picture& picture) {
   std::vector<double> values;
   values.reserve(picture.pixels.size());
   for (const auto& pixel : picture.pixels) {
     const double value = luminance(pixel);
     if (std::isfinite(value) && value > 0) values.push_back(value);
   }
-  if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  const std::size_t tenth = values.size() / 10;
+  const auto tenth = static_cast<std::ptrdiff_t>(values.size() / 10);
+  return {values.begin() + tenth, values.end() - tenth};
+}
+
+double middle_luminance(const Picture& picture) {
+  const std::vector<double> values = measured_luminances(picture);
+  if (values.empty()) return 0;
   double sum = 0;
-  for (std::size_t i = tenth; i < values.size() - tenth; ++i) sum += std::log2(values[i]);
-  return std::exp2(sum / static_cast<double>(values.size() - 2 * tenth));
+  for (const double value : values) sum += std::log2(value);
+  return std::exp2(sum / static_cast<double>(values.size()));
 }
 
 double exposure_factor(const Picture& picture, double exposure_ev) {

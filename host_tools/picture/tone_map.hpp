@@ -22,8 +22,11 @@ inline constexpr double kWhite = 16;
 /// Rec. 709, of a linear colour.
 double luminance(const std::array<float, 3>& colour);
 
-/// Middle luminance: the geometric mean over the pixels that are not black, the darkest and the brightest tenth of them
-/// left out, so that lamps in view do not make the room dark. [W/(m^2 sr)]; 0 for a black picture.
+/// By which a picture is measured, ascending: those of the pixels that are not black, the darkest and the brightest
+/// tenth of them left out, so that lamps in view do not make the room dark [W/(m^2 sr)]. None for a black picture.
+std::vector<double> measured_luminances(const Picture& picture);
+
+/// Middle luminance: the geometric mean of these [W/(m^2 sr)]; 0 for a black picture.
 double middle_luminance(const Picture& picture);
 
 /// The factor from radiance to linear display values before the curve. exposure_ev: in EV.

@@ -15,23 +15,13 @@ namespace {
 /// Of a channel, of the greatest one: a picture of one pure colour is no light of that colour.
 constexpr double kLeastChannel = 0.05;
 
-/// Luminances above 0 from the lowest to the highest that count.
-std::array<double, 2> counted(const Picture& picture) {
-  std::vector<double> values;
-  for (const auto& pixel : picture.pixels) {
-    const double value = luminance(pixel);
-    if (std::isfinite(value) && value > 0) values.push_back(value);
-  }
-  if (values.empty()) return {1, 0};
-  std::ranges::sort(values);
-  const std::size_t tenth = values.size() / 10;
-  return {values[tenth], values[values.size() - 1 - tenth]};
-}
-
 }  // namespace
 
 std::array<double, 3> light_colour(const Picture& picture) {
-  const auto [lowest, highest] = counted(picture);
+  const std::vector<double> measured = measured_luminances(picture);
+  if (measured.empty()) return {1, 1, 1};
+  const double lowest = measured.front();
+  const double highest = measured.back();
   std::array<double, 3> sum{};
   for (const auto& pixel : picture.pixels) {
     const double bright = luminance(pixel);
