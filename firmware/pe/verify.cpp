@@ -113,7 +113,6 @@ class Verifier {
     }
   }
 
-  /// Whatever the random bits are, one of them is chosen.
   /// All of it or nothing; so a drawn word finds an entry.
   void check_sky() {
     const auto entries = static_cast<std::uint32_t>(scene_.sky.size());
@@ -138,6 +137,7 @@ class Verifier {
     }
   }
 
+  /// Whatever the random bits are, one of them is chosen.
   void check_emitters() {
     std::uint32_t before = 0;
     for (const protocol::Emitter& emitter : scene_.emitters) {
