@@ -27,9 +27,9 @@ Triangulation::Triangulation() {
   triangles_.push_back({{0, 1, 2}, {kNone, kNone, kNone}});
 }
 
-std::optional<Triangulation> Triangulation::make(std::span<const PlanePoint> points, const Border& border) {
+std::optional<Triangulation> Triangulation::make(std::span<const LatticePoint> points, const Border& border) {
   Triangulation result;
-  for (const PlanePoint& point : points)
+  for (const LatticePoint& point : points)
     if (!result.add(point)) return std::nullopt;
   for (const auto& [a, b] : border)
     if (!result.fix(a + kAround, b + kAround)) return std::nullopt;
@@ -48,7 +48,7 @@ std::vector<std::array<std::uint32_t, 3>> Triangulation::triangles() const {
   return inside;
 }
 
-std::array<PlanePoint, 3> Triangulation::corners(const Triangle& t) const {
+std::array<LatticePoint, 3> Triangulation::corners(const Triangle& t) const {
   return {points_[t.corner[0]], points_[t.corner[1]], points_[t.corner[2]]};
 }
 
@@ -71,7 +71,7 @@ void Triangulation::replace_neighbour(std::uint32_t triangle, std::uint32_t old,
   if (triangle != kNone) triangles_[triangle].beside[index_towards(triangle, old)] = now;
 }
 
-bool Triangulation::outside_edge(std::uint32_t triangle, std::uint32_t i, PlanePoint p) const {
+bool Triangulation::outside_edge(std::uint32_t triangle, std::uint32_t i, LatticePoint p) const {
   const auto& corner = triangles_[triangle].corner;
   return plane::turn(points_[corner[next(i)]], points_[corner[previous(i)]], p) < 0;
 }
@@ -108,8 +108,8 @@ void Triangulation::flip(std::uint32_t t, std::uint32_t edge) {
 
 bool Triangulation::flips_well(std::uint32_t t, std::uint32_t i) const {
   const std::uint32_t u = triangles_[t].beside[i];
-  const PlanePoint p = points_[triangles_[t].corner[i]];
-  const PlanePoint q = points_[triangles_[u].corner[index_towards(u, t)]];
+  const LatticePoint p = points_[triangles_[t].corner[i]];
+  const LatticePoint q = points_[triangles_[u].corner[index_towards(u, t)]];
   return plane::turn(p, points_[triangles_[t].corner[next(i)]], q) > 0 &&
          plane::turn(q, points_[triangles_[t].corner[previous(i)]], p) > 0;
 }
@@ -139,7 +139,7 @@ void Triangulation::make_delaunay(std::vector<EdgePlace> doubtful) {
   }
 }
 
-bool Triangulation::add(PlanePoint point) {
+bool Triangulation::add(LatticePoint point) {
   std::uint32_t t = last_;
   for (std::uint32_t i = 0; i < 3;) {
     if (outside_edge(t, i, point)) {
@@ -210,8 +210,8 @@ void Triangulation::settle(std::uint32_t point) {
 /// Absent: an edge that is fixed, or a point, lies in the way.
 std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> Triangulation::crossed_by(std::uint32_t a,
                                                                                               std::uint32_t b) const {
-  const PlanePoint from = points_[a];
-  const PlanePoint to = points_[b];
+  const LatticePoint from = points_[a];
+  const LatticePoint to = points_[b];
   std::uint32_t t = at_[a];
   std::uint32_t i = index_of(t, a);
   for (const std::uint32_t first = t;;) {  // the triangle at a through which the way to b leads

@@ -12,9 +12,9 @@
 
 namespace torolux {
 
-struct PlanePoint {
+struct LatticePoint {
   std::int32_t x = 0, y = 0;  ///< at most kMostOfPlane in magnitude
-  bool operator==(const PlanePoint&) const = default;
+  bool operator==(const LatticePoint&) const = default;
 };
 inline constexpr std::int32_t kMostOfPlane = 1 << 24;
 
@@ -24,10 +24,10 @@ class Triangulation {
 
   /// border: edges between points, by number, each with the region on its left; in any order. Absent: two points are
   /// one, edges cross or go through a point, or they bound no region.
-  static std::optional<Triangulation> make(std::span<const PlanePoint> points, const Border& border);
+  static std::optional<Triangulation> make(std::span<const LatticePoint> points, const Border& border);
 
   /// Of the border.
-  std::span<const PlanePoint> points() const { return std::span(points_).subspan(kAround); }
+  std::span<const LatticePoint> points() const { return std::span(points_).subspan(kAround); }
   /// Of the region, counter-clockwise.
   std::vector<std::array<std::uint32_t, 3>> triangles() const;
 
@@ -51,12 +51,12 @@ class Triangulation {
   };
 
   Triangulation();
-  std::array<PlanePoint, 3> corners(const Triangle& triangle) const;
+  std::array<LatticePoint, 3> corners(const Triangle& triangle) const;
   std::uint32_t index_of(std::uint32_t triangle, std::uint32_t corner) const;
   std::uint32_t index_towards(std::uint32_t triangle, std::uint32_t neighbour) const;
   void set(std::uint32_t triangle, const Triangle& value);
   void replace_neighbour(std::uint32_t triangle, std::uint32_t old, std::uint32_t now);
-  bool outside_edge(std::uint32_t triangle, std::uint32_t i, PlanePoint p) const;
+  bool outside_edge(std::uint32_t triangle, std::uint32_t i, LatticePoint p) const;
   /// The edge from a to b, from the triangle on its left.
   std::optional<EdgePlace> find_edge(std::uint32_t a, std::uint32_t b) const;
 
@@ -66,7 +66,7 @@ class Triangulation {
   bool is_delaunay(std::uint32_t triangle, std::uint32_t i) const;
   void make_delaunay(std::vector<EdgePlace> doubtful);
 
-  bool add(PlanePoint point);
+  bool add(LatticePoint point);
   void split_triangle(std::uint32_t triangle, std::uint32_t point);
   void split_edge(std::uint32_t triangle, std::uint32_t i, std::uint32_t point);
   void settle(std::uint32_t point);
@@ -76,7 +76,7 @@ class Triangulation {
                                                                                  std::uint32_t b) const;
   bool fill(const Border& border);
 
-  std::vector<PlanePoint> points_;
+  std::vector<LatticePoint> points_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> at_;  // by point, a triangle that has it as a corner
   std::uint32_t last_ = 0;         // where the last point was added

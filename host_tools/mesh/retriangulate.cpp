@@ -36,7 +36,7 @@ class Plane {
     unit_ = vec::length(box.extent()) * 0.51 / kMostOfPlane;
   }
 
-  PlanePoint to_plane(const Vec3d& point) const {
+  LatticePoint to_plane(const Vec3d& point) const {
     const Vec3d from = vec::subtract(point, origin_);
     const auto whole = [this](double x) {
       return static_cast<std::int32_t>(std::lround(std::clamp<double>(x / unit_, -kMostOfPlane, kMostOfPlane)));
@@ -88,7 +88,7 @@ class Retriangulation {
     positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
     // In an order of their own, as it decides between diagonals of a rectangle.
     std::ranges::stable_sort(positions, {}, [&](std::uint32_t p) { return scene_.positions[p]; });
-    std::vector<PlanePoint> points;
+    std::vector<LatticePoint> points;
     std::unordered_map<std::uint32_t, std::uint32_t> point_of;
     for (const std::uint32_t p : positions) {
       point_of.emplace(p, static_cast<std::uint32_t>(points.size()));

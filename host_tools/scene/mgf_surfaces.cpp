@@ -190,7 +190,7 @@ Shape MgfSurfaces::ring_or_torus(const MgfStatement& statement, const MgfPlaceme
                                 : "the inner radius is 0 or more, and below the outer one");
   const Vec3d point = placement.point(centre.point);
   const Vec3d normal = placement.direction(centre.normal);
-  if (torus) return Torus{point, normal, inner, outer};
+  if (torus) return RingTorus{point, normal, inner, outer};
   return Ring{point, normal, inner, outer};
 }
 

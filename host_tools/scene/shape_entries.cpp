@@ -176,7 +176,7 @@ ShapeEntry read_torus(TomlTable table) {
   const double tube = radius(table, "tube");
   if (!(tube < middle)) refuse(table.place("tube"), "[[torus]] 'tube' is a radius below 'radius', that of its middle");
   table.finish();
-  entry.parts.emplace_back(Torus{centre, axis, middle - tube, middle + tube});
+  entry.parts.emplace_back(RingTorus{centre, axis, middle - tube, middle + tube});
   return entry;
 }
 

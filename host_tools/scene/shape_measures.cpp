@@ -30,7 +30,7 @@ struct CountTriangles {
     static_cast<void>(box);
     return 12;
   }
-  std::size_t operator()(const Torus& torus) const {
+  std::size_t operator()(const RingTorus& torus) const {
     const double outer = std::abs(torus.outer);
     return std::size_t{2} * roundness.edges(outer) * roundness.edges(0.5 * (outer - std::abs(torus.inner)));
   }
@@ -58,7 +58,7 @@ struct TrueArea {
   double operator()(const Ring& ring) const {
     return std::numbers::pi * (ring.outer * ring.outer - ring.inner * ring.inner);
   }
-  double operator()(const Torus& torus) const {
+  double operator()(const RingTorus& torus) const {
     return std::numbers::pi * std::numbers::pi * (torus.outer * torus.outer - torus.inner * torus.inner);
   }
 };
@@ -103,7 +103,7 @@ struct BoundsOf {
     include_circle(box, ring.centre, ring.normal, ring.outer);
     return box;
   }
-  vec::Box operator()(const Torus& torus) const {
+  vec::Box operator()(const RingTorus& torus) const {
     const double tube = 0.5 * (std::abs(torus.outer) - std::abs(torus.inner));
     vec::Box middle;
     include_circle(middle, torus.centre, torus.normal, std::abs(torus.outer) - tube);

@@ -129,7 +129,7 @@ class Tessellation {
     return std::move(mesh_);
   }
 
-  ShapeMesh operator()(const Torus& torus) {
+  ShapeMesh operator()(const RingTorus& torus) {
     inwards_ = torus.outer < 0;
     const double outer = std::abs(torus.outer);
     const double tube = 0.5 * (outer - std::abs(torus.inner));

@@ -32,7 +32,7 @@ struct Ring {
 };
 /// Turned about `normal`; inner and outer are its least and greatest distance from that axis. Fronts outwards, inwards
 /// where both are negative. |inner| < |outer|, of one sign.
-struct Torus {
+struct RingTorus {
   Vec3d centre, normal;
   double inner, outer;
 };
@@ -45,7 +45,7 @@ struct Box {
   Vec3d corner;
   std::array<Vec3d, 3> edges;
 };
-using Shape = std::variant<Sphere, Cone, Ring, Torus, Quad, Box>;
+using Shape = std::variant<Sphere, Cone, Ring, RingTorus, Quad, Box>;
 
 /// Of the two faces across an edge the one at the corner, or at the edge's other end (upper). Its front looks outwards.
 Quad face(const Box& box, std::size_t axis, bool upper);

@@ -27,7 +27,7 @@ TEST(RandomTraffic, EveryRecordComesHomeTheSameWay) {
     for (int attempt = 0; attempt < 2; ++attempt) {
       setup.threads = attempt == 0 ? 0 : 1;
       CountingHost host(records);
-      const Outcome outcome = run(setup, host, wanderers(per_pe, life, slots));
+      const MachineOutcome outcome = run(setup, host, wanderers(per_pe, life, slots));
       ASSERT_EQ(host.home(), records);
       std::uint64_t sent = 0;
       std::uint64_t delivered = 0;

@@ -59,7 +59,7 @@ TEST(Broadcast, IsOneMessageMadeOneTransferAndHeardByAllAtOnce) {
     broadcast_number(port, 0);
     EXPECT_EQ(port.queued(4), 1U);
   };
-  const Outcome outcome = run(setup, host, tell_times(1, std::vector<Cycles>(kPes)), short_hints());
+  const MachineOutcome outcome = run(setup, host, tell_times(1, std::vector<Cycles>(kPes)), short_hints());
   for (const auto& times : told(outcome.heard, kPes)) EXPECT_EQ(times, std::vector<Cycles>{51 + 4 + 18 + 14});
   const BusFigures& bus = outcome.raw.bus;
   const BusTraffic& kind = bus.kinds[static_cast<std::size_t>(BusKind::broadcast)];
@@ -114,7 +114,7 @@ TEST(Broadcast, WaitsForEarlierSendsAndLaterOnesWaitForIt) {
     EXPECT_EQ(port.queued(0), 2U);
     EXPECT_EQ(port.queued(1), 3U);
   };
-  const Outcome outcome = run(
+  const MachineOutcome outcome = run(
       setup, host,
       [](Niu& niu, NativeClock& clock) {
         const bool first = niu.pe() == 0;
@@ -237,7 +237,7 @@ TEST(Broadcast, IsWholeWhereTheRingToTheProcessorIsFull) {
     }
     broadcast_number(port, 77);
   };
-  const Outcome outcome = run(small_machine(1, 1), host, [](Niu& niu, NativeClock& clock) {
+  const MachineOutcome outcome = run(small_machine(1, 1), host, [](Niu& niu, NativeClock& clock) {
     set_test_slots(niu, 16 * kPackets);
     clock.spend(1'000'000);
     niu.clock();

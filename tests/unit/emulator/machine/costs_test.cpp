@@ -78,7 +78,7 @@ std::vector<Cycles> receive_times(const MachineSetup& setup, unsigned messages, 
     const std::vector<std::byte> contents(bytes);
     for (unsigned i = 0; i < messages; ++i) port.send_message(0, kGo, contents);
   };
-  const Outcome outcome = run(
+  const MachineOutcome outcome = run(
       setup, host,
       [&](Niu& niu, NativeClock& clock) {
         for (unsigned i = 0; i < messages; ++i) {
@@ -135,7 +135,7 @@ TEST(Costs, TheHostAsksForRecordSlots) {
       const std::array<TestRecord, 2> records{};
       port.send_records(0, std::as_bytes(std::span(records)), sizeof(TestRecord));
     };
-    const Outcome outcome = run(
+    const MachineOutcome outcome = run(
         setup, host,
         [](Niu& niu, NativeClock& clock) {
           set_test_slots(niu, 16);
@@ -159,7 +159,7 @@ TEST(Costs, TheHostAsksForRecordSlots) {
 TEST(Costs, ASendersProcessorWaitsForTheCopyBeforeOnly) {
   // 16 records of 64 bytes: 128 cycles. The first HINT ends at once, the second when the first copy has ended.
   ListeningHost host(3);
-  const Outcome outcome = run(
+  const MachineOutcome outcome = run(
       small_machine(2, 1), host,
       [](Niu& niu, NativeClock& clock) {
         set_test_slots(niu, 64);
@@ -207,7 +207,7 @@ TEST(Costs, NoMoreReceiveBuffersThanThereAre) {
     setup.description.niu.receive_packets = buffers;
     setup.description.niu.bytes_per_cycle = 1;
     CountingHost host(9 * 60);
-    const Outcome outcome = run(setup, host, wanderers(60, 12, 64));
+    const MachineOutcome outcome = run(setup, host, wanderers(60, 12, 64));
     std::uint32_t most = 0;
     for (const PeFigures& pe : outcome.raw.pes) most = std::max(most, pe.receive_buffers_high_water);
     EXPECT_EQ(most, buffers);
@@ -235,7 +235,7 @@ TEST(Costs, RequestsOfOneCycleAreServedInTurn) {
   ListeningHost host(3 * kPes);
   MachineSetup setup = small_machine(kPes, 1);
   setup.description.ideal.host = true;
-  const Outcome outcome = run(
+  const MachineOutcome outcome = run(
       setup, host,
       [](Niu& niu, NativeClock& /*clock*/) {
         for (std::uint32_t i = 0; i < 3; ++i) niu.send(static_cast<MessageKind>(kText), i);

@@ -34,7 +34,7 @@ Cycles latency_to(const MachineSetup& setup, unsigned to) {
   };
   NativeOptions options;
   options.cycles_per_hint = 1;
-  const Outcome outcome = run(setup, host, program, options);
+  const MachineOutcome outcome = run(setup, host, program, options);
   // The sender's clock after its send, the receiver's after its receive; each HINT costs one cycle.
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
@@ -73,7 +73,7 @@ TEST(Machine, BusAndHostTimesAreExact) {
   ListeningHost host(1);
   NativeOptions options;
   options.cycles_per_hint = 1;
-  const Outcome outcome = run(
+  const MachineOutcome outcome = run(
       small_machine(1, 1), host,
       [](Niu& niu, NativeClock& /*clock*/) {
         niu.send(static_cast<protocol::MessageKind>(kText), std::uint32_t{42});
@@ -93,7 +93,7 @@ TEST(Machine, PacketsOfAPairArriveInOrder) {
   setup.local_memory_bytes = 512U * 1024U;
   setup.description.jitter = {.seed = 1, .cycles = 30};
   setup.description.torus.link_error_rate = 0.1;
-  const Outcome outcome = run(setup, host, [](Niu& niu, NativeClock& /*clock*/) {
+  const MachineOutcome outcome = run(setup, host, [](Niu& niu, NativeClock& /*clock*/) {
     set_test_slots(niu, niu.pe() == 0 ? 15 * kPackets : 0);
     std::vector<std::uint32_t> next(16, 0);
     for (std::uint32_t i = 0; i < kPackets * (niu.pe() == 0 ? 15 : 1); ++i) {
@@ -120,7 +120,7 @@ TEST(Machine, PacketsOfAPairArriveInOrder) {
 TEST(Machine, EveryRecordComesHome) {
   for (const auto& [columns, rows] : {std::pair(1U, 1U), {1U, 5U}, {2U, 3U}, {4U, 4U}}) {
     CountingHost host(std::uint64_t{columns} * rows * 100);
-    const Outcome outcome = run(small_machine(columns, rows), host, wanderers(100, 20, 4096 / 8));
+    const MachineOutcome outcome = run(small_machine(columns, rows), host, wanderers(100, 20, 4096 / 8));
     std::uint64_t sent = 0;
     std::uint64_t delivered = 0;
     for (const PeFigures& pe : outcome.raw.pes) {
@@ -137,7 +137,7 @@ TEST(Machine, EveryRecordComesHome) {
 TEST(Machine, DivertedRecordsAllComeBack) {
   MachineSetup setup = small_machine(3, 3);
   CountingHost host(9 * 150);
-  const Outcome outcome = run(setup, host, wanderers(150, 12, 2));
+  const MachineOutcome outcome = run(setup, host, wanderers(150, 12, 2));
   std::uint64_t diverted = 0;
   for (const PeFigures& pe : outcome.raw.pes) {
     diverted += pe.records_diverted;
@@ -238,7 +238,7 @@ TEST(Machine, HostSendsInOrderAndHoldsBackWhatHasNoRoom) {
     }
     EXPECT_EQ(port.queued(0), 2U * kCount);
   };
-  const Outcome outcome = run(small_machine(2, 1), host, [](Niu& niu, NativeClock& clock) {
+  const MachineOutcome outcome = run(small_machine(2, 1), host, [](Niu& niu, NativeClock& clock) {
     set_test_slots(niu, 7);
     std::uint32_t messages = 0;
     std::uint32_t records = 0;

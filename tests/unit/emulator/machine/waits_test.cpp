@@ -15,7 +15,7 @@ TEST(Waits, AddUpWithBusyCycles) {
   host.at_start = [](HostPort& port) { port.send_message(1, kGo, {}); };
   NativeOptions options;
   options.cycles_per_hint = 10;
-  const Outcome outcome = run(
+  const MachineOutcome outcome = run(
       small_machine(2, 1), host,
       [](Niu& niu, NativeClock& clock) {
         if (niu.pe() == 0) return;
@@ -57,7 +57,7 @@ TEST(Waits, AreChargedToTheirReasons) {
     niu.enter_phase<protocol::Phase::shade>();
     clock.spend(100);
   };
-  const Outcome outcome = run(setup, host, program, options);
+  const MachineOutcome outcome = run(setup, host, program, options);
   const PeFigures& busy = outcome.raw.pes[0];
   for (const WaitReason reason : {WaitReason::arrivals, WaitReason::torus_place, WaitReason::bus_place}) {
     EXPECT_GT(waited_for(busy, reason), 0U) << static_cast<int>(reason);

@@ -16,14 +16,14 @@
 
 namespace torolux::test {
 
-struct Outcome {
+struct MachineOutcome {
   std::vector<Heard> heard;
   std::string figures;
   MachineFigures raw;
 };
 
-inline Outcome run(const MachineSetup& setup, ListeningHost& host, const NativeProgram& program,
-                   const NativeOptions& options = {}) {
+inline MachineOutcome run(const MachineSetup& setup, ListeningHost& host, const NativeProgram& program,
+                          const NativeOptions& options = {}) {
   register_native_engine(program, options);
   const Image image = empty_image();
   Machine machine(setup, image);
@@ -115,7 +115,7 @@ inline void expect_same_runs(const MachineSetup& setup, const NativeProgram& pro
     };
     CountingHost host(records);
     if (prepare) prepare(host);
-    const Outcome outcome = run(setup, host, program, options);
+    const MachineOutcome outcome = run(setup, host, program, options);
     std::string all = outcome.figures;
     for (const Heard& heard : outcome.heard) {
       all += std::to_string(heard.time) + ":" + std::to_string(heard.source) + " ";

@@ -147,7 +147,7 @@ TEST(Points, SameRecordsWhoeverMakesThem) {
       }
     }
     EXPECT_EQ(pieces, to.size());
-    Outcome out;
+    RoomOutcome out;
     gather(lamp.machine, out);
     for (const auto& [pe, part] : done) {
       EXPECT_EQ(part.points, std::count(to.begin(), to.end(), pe));
@@ -156,9 +156,9 @@ TEST(Points, SameRecordsWhoeverMakesThem) {
     }
     return out;
   };
-  const Outcome alone = shot_by({0, 0, 0, 0}, 1);
+  const RoomOutcome alone = shot_by({0, 0, 0, 0}, 1);
   EXPECT_GT(alone.records, 500U);
-  const auto expect_same = [&alone](const Outcome& other) {
+  const auto expect_same = [&alone](const RoomOutcome& other) {
     EXPECT_EQ(other.flux, alone.flux);
     EXPECT_EQ(other.specular, alone.specular);
     EXPECT_EQ(other.glossy, alone.glossy);

@@ -49,7 +49,7 @@ inline void light_lamp(PeStores& stores) {
   }
 }
 
-struct Outcome {
+struct RoomOutcome {
   /// By global patch and side: incident flux and elements' flux, direct apart.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<protocol::Flux>> flux;
   protocol::Flux specular{}, glossy{}, escaped{}, cut_off{}, back{};
@@ -61,7 +61,7 @@ inline void add_to(protocol::Flux& sum, const protocol::Flux& f) {
   for (std::size_t c = 0; c < 3; ++c) sum[c] += f[c];
 }
 
-inline void gather(FakeMachine& machine, Outcome& out) {
+inline void gather(FakeMachine& machine, RoomOutcome& out) {
   for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
     const auto tally = machine.tally(p);
     add_to(out.specular, tally.absorbed_specular);
@@ -91,15 +91,15 @@ inline void gather(FakeMachine& machine, Outcome& out) {
 }
 
 /// Shoots the best side of the whole machine `shots` times, as a host would, one at a time.
-Outcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits,
-                bool points_travel = true, std::uint32_t parts = 1) {
+RoomOutcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits,
+                    bool points_travel = true, std::uint32_t parts = 1) {
   FakeMachine machine(scene.pes);
   machine.points_travel = points_travel;
   machine.shoot_in_parts = parts;
   machine.load(scene, protocol::Stage::radiosity, niu_slots, 1, light_lamp);
   for (std::uint16_t p = 0; p < scene.pes; ++p) machine.message(p, protocol::MessageKind::begin);
   machine.run();
-  Outcome out;
+  RoomOutcome out;
   for (std::uint32_t shot = 0; shot < shots; ++shot) {
     std::uint16_t where = 0;
     protocol::Candidate best{};

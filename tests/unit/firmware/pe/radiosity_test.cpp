@@ -18,7 +18,7 @@ using protocol::ShotKind;
 using protocol::Stage;
 
 /// Everything that shots carried or glossy lobes sent on has landed somewhere. R + G + B.
-void expect_balance(const Outcome& out) {
+void expect_balance(const RoomOutcome& out) {
   std::int64_t ended = 0;
   const auto count = [&](const Flux& f) { ended += f[0] + f[1] + f[2]; };
   for (const auto& [place, list] : out.flux) count(list[0]);
@@ -27,7 +27,7 @@ void expect_balance(const Outcome& out) {
 }
 
 TEST(Radiosity, FluxIsNeitherLostNorMade) {
-  const Outcome out = radiate(room_with_balls(4, {4, 4, 4}), 12, 64, 100);
+  const RoomOutcome out = radiate(room_with_balls(4, {4, 4, 4}), 12, 64, 100);
   expect_balance(out);
   EXPECT_EQ(out.escaped, Flux{});
   EXPECT_EQ(out.back, Flux{});
@@ -41,7 +41,7 @@ TEST(Radiosity, WhatLeavesOrFallsOnMissingSidesIsCounted) {
   scene.bounces = 2;
   for (std::size_t i = 0; i < 8; ++i) scene.polygons[i].sides = protocol::kBackPresent;  // the floor, from inside
   scene.polygons.erase(scene.polygons.begin() + 8, scene.polygons.begin() + 12);
-  const Outcome out = radiate(scene, 4, 64, 50);
+  const RoomOutcome out = radiate(scene, 4, 64, 50);
   expect_balance(out);
   EXPECT_GT(out.escaped[0], 0);
   EXPECT_GT(out.back[0], 0);
@@ -50,7 +50,7 @@ TEST(Radiosity, WhatLeavesOrFallsOnMissingSidesIsCounted) {
 
 // Sums are integers, rays do not change at hand-over: the machine makes no difference, to the bit.
 TEST(Radiosity, SameSumsWhateverTheMachine) {
-  const Outcome one = radiate(room_with_balls(1, {1, 1, 1}), 10, 64, 1'000'000);
+  const RoomOutcome one = radiate(room_with_balls(1, {1, 1, 1}), 10, 64, 1'000'000);
   struct Machine {
     std::uint32_t pes;
     std::array<std::uint32_t, 3> cells;
@@ -69,7 +69,7 @@ TEST(Radiosity, SameSumsWhateverTheMachine) {
     scene.stop_everywhere = m.stop_everywhere;
     scene.copy_all = m.copy_all;
     scene.open_batches = m.open_batches;
-    const Outcome other = radiate(scene, 10, m.slots, m.credits, m.points_travel, m.parts);
+    const RoomOutcome other = radiate(scene, 10, m.slots, m.credits, m.points_travel, m.parts);
     EXPECT_EQ(other.flux, one.flux) << m.pes << " PEs";
     EXPECT_EQ(other.specular, one.specular);
     EXPECT_EQ(other.glossy, one.glossy);
@@ -83,8 +83,8 @@ TEST(Radiosity, AGlossyFloorReceivesWhatADiffuseOneDoes) {
   glossy.polygons.erase(glossy.polygons.begin() + 50, glossy.polygons.end());  // without the balls
   TestScene diffuse = glossy;
   diffuse.materials[4] = diffuse_material(0.2F);
-  const Outcome with = radiate(glossy, 5, 64, 200);  // the lamp has five patches: emission only
-  const Outcome without = radiate(diffuse, 5, 64, 200);
+  const RoomOutcome with = radiate(glossy, 5, 64, 200);  // the lamp has five patches: emission only
+  const RoomOutcome without = radiate(diffuse, 5, 64, 200);
   std::int64_t on_floor = 0;
   for (const auto& [place, list] : without.flux) {
     const std::vector<Flux>& other = with.flux.at(place);
@@ -103,7 +103,7 @@ TEST(Radiosity, AGlossyFloorReceivesWhatADiffuseOneDoes) {
 // Direct flux: only what came straight from the lamp. Behind a mirror or glass the mark is gone.
 TEST(Radiosity, DirectFluxIsKeptApart) {
   TestScene scene = room_with_balls(3, {3, 3, 3});
-  const Outcome lamp = radiate(scene, 5, 64, 200);  // the lamp has five patches: emission only
+  const RoomOutcome lamp = radiate(scene, 5, 64, 200);  // the lamp has five patches: emission only
   std::int64_t direct = 0;
   std::int64_t all = 0;
   for (const auto& [place, list] : lamp.flux) {
@@ -117,7 +117,7 @@ TEST(Radiosity, DirectFluxIsKeptApart) {
   EXPECT_LT(direct, all);
   scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
   scene.materials[4] = diffuse_material(0.2F);
-  const Outcome bare = radiate(scene, 5, 64, 200);
+  const RoomOutcome bare = radiate(scene, 5, 64, 200);
   for (const auto& [place, list] : bare.flux) {
     for (std::size_t e = 1; e + 1 < list.size(); e += 2) EXPECT_EQ(list[e], list[e + 1]);
   }
@@ -132,7 +132,7 @@ TEST(Radiosity, LightThroughAPaneIsDirect) {
   glazed.materials.push_back(pane_material(1.5F, 0.5F));
   add_wall(glazed, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
   for (std::size_t i = 50; i < glazed.polygons.size(); ++i) glazed.polygons[i].sides = 0;
-  const auto on_floor = [](const Outcome& outcome, std::size_t which) {
+  const auto on_floor = [](const RoomOutcome& outcome, std::size_t which) {
     double sum = 0;
     for (const auto& [place, list] : outcome.flux) {
       if (place.first >= 8 + 3 * 3) continue;  // eight polygons, three of them of four patches
@@ -140,8 +140,8 @@ TEST(Radiosity, LightThroughAPaneIsDirect) {
     }
     return sum;
   };
-  const Outcome without = radiate(bare, 5, 64, 200);
-  const Outcome with = radiate(glazed, 5, 64, 200);
+  const RoomOutcome without = radiate(bare, 5, 64, 200);
+  const RoomOutcome with = radiate(glazed, 5, 64, 200);
   expect_balance(with);
   // Most of it comes at less than 45 degrees: 0.96^2 * 0.5 there, 0.45 at 45 degrees. Chance: 2,000 records.
   EXPECT_NEAR(on_floor(with, 2) / on_floor(without, 2), 0.45, 0.02);

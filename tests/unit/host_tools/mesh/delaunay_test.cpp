@@ -15,7 +15,7 @@
 namespace torolux::test {
 namespace {
 
-using Points = std::vector<PlanePoint>;
+using Points = std::vector<LatticePoint>;
 
 Triangulation::Border loop(std::uint32_t first, std::uint32_t count) {
   Triangulation::Border border;
@@ -23,7 +23,7 @@ Triangulation::Border loop(std::uint32_t first, std::uint32_t count) {
   return border;
 }
 
-std::array<PlanePoint, 3> corners_of(const Triangulation& t, const std::array<std::uint32_t, 3>& triangle) {
+std::array<LatticePoint, 3> corners_of(const Triangulation& t, const std::array<std::uint32_t, 3>& triangle) {
   return {t.points()[triangle[0]], t.points()[triangle[1]], t.points()[triangle[2]]};
 }
 

@@ -79,13 +79,13 @@ TEST(Shapes, TrianglesOfASphereAreAlike) {
 TEST(Shapes, NegativeRadiiLookInwards) {
   EXPECT_LT(volume({tessellated(Sphere{{0, 0, 0}, -1}, kFine)}), -4);
   expect_normals_at_fronts(tessellated(Sphere{{0, 0, 0}, -1}, kFine), 0.999);
-  const Torus torus{{0, 0, 0}, {0, 1, 0}, -1, -2};
+  const RingTorus torus{{0, 0, 0}, {0, 1, 0}, -1, -2};
   EXPECT_LT(volume({tessellated(torus, kFine)}), -1);
   expect_normals_at_fronts(tessellated(torus, kFine), 0.99);
 }
 
 TEST(Shapes, Torus) {
-  const Torus torus{{0, 5, 0}, {0, 3, 0}, 1, 2};
+  const RingTorus torus{{0, 5, 0}, {0, 3, 0}, 1, 2};
   const ShapeMesh mesh = tessellated(torus, kFine);
   EXPECT_TRUE(closed({mesh}));
   expect_normals_at_fronts(mesh, 0.99);
@@ -129,7 +129,7 @@ TEST(Shapes, RingWithAHoleLooksAlongItsNormal) {
 TEST(Shapes, BoundsHoldWhatIsMade) {
   const Vec3d axis{1, 2, 3};
   for (const Shape& shape : {Shape(Sphere{{1, 0, 0}, -2}), Shape(Cone{{0, 0, 0}, 1, axis, 2}),
-                             Shape(Ring{{1, 1, 1}, axis, 0, 3}), Shape(Torus{{0, 1, 0}, axis, 1, 2})}) {
+                             Shape(Ring{{1, 1, 1}, axis, 0, 3}), Shape(RingTorus{{0, 1, 0}, axis, 1, 2})}) {
     const vec::Box box = bounds(shape);
     vec::Box made;
     for (const Vec3d& p : tessellated(shape, kFine).positions) made.include(p);
