@@ -226,7 +226,7 @@ TEST(Gather, AProcessorThatGoesOnByItselfIsNotThoughtToSleep) {
   auto& window = *reinterpret_cast<protocol::NiuWindow*>(local.data());
   NiuProcessorSide processor(channel, local, 0, NiuProcessorSide::Waiting::returns);
   constexpr auto kReceive = static_cast<std::int32_t>(protocol::Hint::receive);
-  ASSERT_EQ(processor.hint(kReceive, 10, 0).outcome, NiuProcessorSide::MachineOutcome::retry);
+  ASSERT_EQ(processor.hint(kReceive, 10, 0).outcome, NiuProcessorSide::Outcome::retry);
   network.refresh(events, pool, times);
   const BlockIndex block = pool.take();
   pool[block].message_kind = kGo;
