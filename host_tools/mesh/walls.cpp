@@ -20,6 +20,9 @@ constexpr double kClose = 1e-3;
 /// A way ends so far behind the point where it leads, of its length, so that a wall there counts.
 constexpr double kBehind = 0.05;
 
+/// With so many, a triangle's walls are looked up by where they are.
+constexpr std::size_t kManyWalls = 16;
+
 using Corners = std::array<Vec3d, 3>;
 
 /// A triangle's plane with its weights as coordinates.
@@ -168,6 +171,12 @@ Walls::Walls(const Mesh& mesh, const std::vector<bool>& wanted) : of_side_(mesh.
       for (std::size_t k = next; k < asked.size() && close(i, asked[k]); ++k) look_at(i, asked[k]);
     }
   }
+  for (std::uint32_t t = 0; t < of_side_.size(); ++t) index(t);
+}
+
+void Walls::index(std::uint32_t triangle) {
+  const auto& [front, back] = of_side_[triangle];
+  if (front.size() + back.size() >= kManyWalls) index_.emplace(triangle, WallIndex({front, back}));
 }
 
 bool Walls::pass_inside(std::uint32_t triangle, std::uint32_t code, double inside) const {
@@ -184,6 +193,7 @@ bool Walls::pass_inside(std::uint32_t triangle, std::uint32_t code, double insid
     c = {c.b1 + (centre.b1 - c.b1) * inside, c.b2 + (centre.b2 - c.b2) * inside};
   }
   const auto passes = [&](const WallSegment& wall) { return passes_through(wall, corner); };
+  if (const auto many = index_.find(triangle); many != index_.end()) return many->second.any_near(corner, passes);
   return std::any_of(of_side_[triangle][0].begin(), of_side_[triangle][0].end(), passes) ||
          std::any_of(of_side_[triangle][1].begin(), of_side_[triangle][1].end(), passes);
 }

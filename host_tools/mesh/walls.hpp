@@ -6,21 +6,15 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
+#include "host_tools/mesh/wall_index.hpp"
 #include "host_tools/scene/scene.hpp"
 
 namespace torolux {
 
 struct Mesh;
-
-/// Weights of a triangle's corners 1 and 2.
-struct PlanePoint {
-  double b1 = 0, b2 = 0;
-};
-struct WallSegment {
-  PlanePoint from, to;
-};
 
 class Walls {
  public:
@@ -41,8 +35,10 @@ class Walls {
 
  private:
   bool pass_inside(std::uint32_t triangle, std::uint32_t code, double inside) const;
+  void index(std::uint32_t triangle);
 
   std::vector<std::array<std::vector<WallSegment>, 2>> of_side_;  ///< by triangle
+  std::unordered_map<std::uint32_t, WallIndex> index_;            ///< of triangles with many walls
 };
 
 }  // namespace torolux
