@@ -97,8 +97,26 @@ std::uint32_t SceneBuilder::add_texture_points(const ImportedMesh& mesh, const I
   return first;
 }
 
-void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
+void SceneBuilder::add_mesh(const ImportedMesh& mesh, std::span<const MeshEntry> instances,
                             const std::vector<MaterialOverride>& overrides) {
+  const std::size_t first = materials_.size();
+  for (const MeshEntry& entry : instances) {
+    const std::size_t own = materials_.size();
+    add_instance(mesh, entry, overrides, [&](const ImportedMaterial& material) {
+      const std::uint32_t added = add_material(material.material, material.texture, material.place);
+      // Each PE holds all materials: instances share theirs.
+      const auto earlier = std::span(materials_).subspan(first, own - first);
+      const auto same = std::ranges::find(earlier, materials_.back());
+      if (same == earlier.end()) return added;
+      materials_.pop_back();
+      return static_cast<std::uint32_t>(first + static_cast<std::size_t>(same - earlier.begin()));
+    });
+  }
+}
+
+void SceneBuilder::add_instance(const ImportedMesh& mesh, const MeshEntry& entry,
+                                const std::vector<MaterialOverride>& overrides,
+                                const std::function<std::uint32_t(const ImportedMaterial&)>& number_of) {
   constexpr std::uint32_t not_yet = 0xFFFF'FFFFU;
   std::vector<std::uint32_t> number(mesh.materials.size(), not_yet);
   std::vector<TextureUse> textures(mesh.materials.size());
@@ -120,9 +138,9 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, const MeshEntry& entry,
     CutOut& cut = cuts[read.material];
     if (number[read.material] == not_yet) {
       const ImportedMaterial material = resolve_material(mesh, read.material, entry, overrides, missing_, notices_);
-      number[read.material] = add_material(material.material, material.texture, material.place);
+      number[read.material] = number_of(material);
       textures[read.material] = material.texture;
-      cut = cut_out_of(material, materials_.back());
+      cut = cut_out_of(material, materials_[number[read.material]]);
     }
     check_corners(read, materials_[number[read.material]], cut.mask.has_value(), place);
     SceneTriangle triangle{read.position, read.normal, number[read.material]};

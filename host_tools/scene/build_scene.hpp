@@ -3,7 +3,9 @@
 // duplicates left out, reflectances below one.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/scene_file.hpp"
@@ -18,9 +20,10 @@ class SceneBuilder {
   SceneBuilder(SceneFiles& files, MissingMaterials missing, Notices& notices)
       : notices_(notices), missing_(missing), textures_(files, missing, notices) {}
 
-  /// Overrides by name apply to all meshes. Throws InputError: a material that neither the mesh nor an override
-  /// defines.
-  void add_mesh(const ImportedMesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides);
+  /// Once for each instance; they share materials. Overrides by name apply to all meshes. Throws InputError: a material
+  /// that neither the mesh nor an override defines.
+  void add_mesh(const ImportedMesh& mesh, std::span<const MeshEntry> instances,
+                const std::vector<MaterialOverride>& overrides);
   /// Four corners, counter-clockwise seen from the front.
   void add_rectangle(const std::array<Vec3d, 4>& corners, const SceneMaterial& material, const Place& place);
 
@@ -36,6 +39,9 @@ class SceneBuilder {
   void finish(Scene& scene, const Place& place);
 
  private:
+  /// number_of: adds a material, or finds it among those that are there.
+  void add_instance(const ImportedMesh& mesh, const MeshEntry& entry, const std::vector<MaterialOverride>& overrides,
+                    const std::function<std::uint32_t(const ImportedMaterial&)>& number_of);
   std::uint32_t add_material(SceneMaterial material, const TextureUse& texture, const Place& place);
   std::uint32_t add_texture_points(const ImportedMesh& mesh, const ImportedTriangle& triangle, const TextureUse& use,
                                    const Place& place);

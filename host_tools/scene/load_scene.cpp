@@ -66,9 +66,7 @@ std::filesystem::path scene_path(const std::filesystem::path& path, SceneFiles& 
 
 SceneFile scene_file_for_mesh(const std::filesystem::path& path) {
   SceneFile file;
-  MeshEntry entry;
-  entry.file = path.filename().string();
-  file.meshes.push_back(entry);
+  file.meshes.push_back({path.filename().string(), {MeshEntry{}}, {}});
   return file;
 }
 
@@ -86,17 +84,19 @@ struct Brought {
 Brought add_meshes(const SceneFile& file, const std::filesystem::path& scene, SceneFiles& files,
                    const SceneOptions& options, SceneBuilder& builder, Notices& notices) {
   Brought brought;
-  for (const MeshEntry& entry : file.meshes) {
-    const std::filesystem::path mesh = scene.parent_path() / entry.file;
-    const Place asked_at = entry.place.file.empty() ? Place{scene.string(), 0} : entry.place;
+  for (const MeshFile& named : file.meshes) {
+    const std::filesystem::path mesh = scene.parent_path() / named.file;
+    const Place asked_at = named.place.file.empty() ? Place{scene.string(), 0} : named.place;
     if (!is_mesh(mesh))
-      refuse(asked_at, "'" + entry.file + "' is not an .obj, .gltf, .glb or .mgf; no other mesh is read");
+      refuse(asked_at, "'" + named.file + "' is not an .obj, .gltf, .glb or .mgf; no other mesh is read");
     const ImportedMesh imported = import_mesh(mesh, files, asked_at, options, notices);
-    builder.add_mesh(imported, entry, file.materials);
-    add_cameras(imported, entry, brought.cameras);
-    for (ImportedSun sun : imported.suns) {
-      sun.direction = MeshTransform(entry).direction(sun.direction);
-      brought.suns.push_back(std::move(sun));
+    builder.add_mesh(imported, named.instances, file.materials);
+    for (const MeshEntry& entry : named.instances) {
+      add_cameras(imported, entry, brought.cameras);
+      for (ImportedSun sun : imported.suns) {
+        sun.direction = MeshTransform(entry).direction(sun.direction);
+        brought.suns.push_back(std::move(sun));
+      }
     }
   }
   return brought;

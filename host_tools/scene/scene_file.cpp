@@ -19,27 +19,42 @@ namespace {
 
 constexpr double kMost = kMostCoordinate;
 
-MeshEntry read_mesh(TomlTable table) {
-  MeshEntry entry;
+/// How the mesh, or an instance of it, is placed and made; what `table` does not say stays.
+void read_placing(TomlTable& table, MeshEntry& entry) {
   entry.place = table.place();
-  entry.file = table.required(table.text("file"), "file");
-  if (entry.file.empty()) refuse(table.place("file"), "[[mesh]] 'file' is empty");
   if (const auto scale = table.triple("scale", -kMost, kMost, true)) entry.scale = *scale;
   for (const double s : entry.scale)
-    if (!(std::abs(s) > 1e-15)) refuse(table.place("scale"), "[[mesh]] 'scale' is zero: nothing would be left");
+    if (!(std::abs(s) > 1e-15)) refuse(table.place("scale"), table.title() + " 'scale' is zero: nothing would be left");
   if (const auto rotate = table.triple("rotate", -36000, 36000, false)) entry.rotate = *rotate;
   if (const auto translate = table.triple("translate", -kMost, kMost, false)) entry.translate = *translate;
-  entry.flip = table.flag("flip").value_or(false);
-  entry.material = table.text("material");
+  if (const auto flip = table.flag("flip")) entry.flip = *flip;
+  if (const auto material = table.text("material")) entry.material = material;
   if (const toml::table* names = table.table("materials")) {
+    entry.materials.clear();
     for (const auto& [key, node] : *names) {
       const auto to = node.value<std::string>();
-      if (!node.is_string() || !to) refuse(table.place("materials"), "[[mesh]] 'materials' must map names to names");
+      if (!node.is_string() || !to)
+        refuse(table.place("materials"), table.title() + " 'materials' must map names to names");
       entry.materials.emplace_back(std::string(key.str()), *to);
     }
   }
+}
+
+MeshFile read_mesh(TomlTable table) {
+  MeshFile mesh;
+  mesh.place = table.place();
+  mesh.file = table.required(table.text("file"), "file");
+  if (mesh.file.empty()) refuse(table.place("file"), "[[mesh]] 'file' is empty");
+  MeshEntry whole;
+  read_placing(table, whole);
+  for (const toml::table* instance : table.tables("instance")) {
+    TomlTable keys(*instance, mesh.place.file, "[[mesh.instance]]");
+    read_placing(keys, mesh.instances.emplace_back(whole));
+    keys.finish();
+  }
+  if (mesh.instances.empty()) mesh.instances.push_back(whole);
   table.finish();
-  return entry;
+  return mesh;
 }
 
 MaterialOverride read_material(const std::string& name, TomlTable table) {

@@ -17,14 +17,21 @@
 
 namespace torolux {
 
+/// How a mesh is placed and made, once.
 struct MeshEntry {
-  std::string file;  ///< relative to the scene.toml
   Vec3d scale{1, 1, 1};
   Vec3d rotate{0, 0, 0};  ///< degrees about x, then y, then z
   Vec3d translate{0, 0, 0};
   bool flip = false;                                           ///< fronts become backs
   std::optional<std::string> material;                         ///< for all its faces
   std::vector<std::pair<std::string, std::string>> materials;  ///< instead of the first name, the second
+  Place place;
+};
+
+/// A file that is read once, and placed once or more often.
+struct MeshFile {
+  std::string file;  ///< relative to the scene.toml
+  std::vector<MeshEntry> instances;
   Place place;
 };
 
@@ -46,7 +53,7 @@ struct LightEntry {
 
 struct SceneFile {
   std::optional<std::string> name;
-  std::vector<MeshEntry> meshes;
+  std::vector<MeshFile> meshes;
   std::vector<MaterialOverride> materials;
   std::vector<LightEntry> lights;
   std::optional<RoomEntry> room;

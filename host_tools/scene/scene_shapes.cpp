@@ -3,6 +3,7 @@
 #include "host_tools/scene/scene_shapes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "emulator/nearest_name.hpp"
@@ -138,7 +139,7 @@ void add_shapes(const SceneFile& file, const Place& whole, SceneBuilder& builder
   ShapeCollector collector(file, whole);
   if (file.room) collector.add(*file.room);
   for (const ShapeEntry& entry : file.shapes) collector.add(entry);
-  builder.add_mesh(collector.mesh(), MeshEntry{}, file.materials);
+  builder.add_mesh(collector.mesh(), std::array{MeshEntry{}}, file.materials);
 }
 
 Camera room_camera(const RoomEntry& room) {

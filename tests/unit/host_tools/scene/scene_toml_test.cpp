@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves what scene.toml does to meshes, materials, lights and camera, and that every mistake is refused with its line.
+#include <set>
+
 #include "host_tools/scene/camera.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
@@ -47,6 +49,32 @@ TEST(SceneToml, MirroredScaleKeepsTheFrontOutwards) {
 TEST(SceneToml, SeveralMeshes) {
   const Scene scene = with(kMesh + kMesh + "translate = [0, 0, 1]\n");
   EXPECT_EQ(scene.triangles.size(), 2U);
+}
+
+TEST(SceneToml, InstancesAreTheMeshPlacedAnew) {
+  const std::string instances =
+      "scale = 2\ntranslate = [0, 0, 1]\n"
+      "[[mesh.instance]]\n"
+      "[[mesh.instance]]\ntranslate = [0, 0, 7]\nmaterial = 'red'\n"
+      "[[mesh.instance]]\nscale = 3\ntranslate = [0, 0, 2]\nflip = true\n[material.red]\ndiffuse = 0.5\n";
+  const Scene scene = with(kMesh + instances);
+  ASSERT_EQ(scene.triangles.size(), 3U) << "as many as there are instances";
+  const auto corners = [&](std::size_t t) {
+    return std::set<Vec3d>{corner(scene, t, 0), corner(scene, t, 1), corner(scene, t, 2)};
+  };
+  EXPECT_EQ(corners(0), (std::set<Vec3d>{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}})) << "what it does not say, the mesh says";
+  EXPECT_EQ(corners(1), (std::set<Vec3d>{{0, 0, 7}, {2, 0, 7}, {2, 2, 7}})) << "what it says is in the mesh's place";
+  EXPECT_EQ(corners(2), (std::set<Vec3d>{{0, 0, 2}, {3, 0, 2}, {3, 3, 2}}));
+  EXPECT_EQ(front(scene, 1), (Vec3d{0, 0, 1}));
+  EXPECT_EQ(front(scene, 2), (Vec3d{0, 0, -1}));
+  EXPECT_EQ(scene.materials.size(), 2U) << "instances share them";
+  EXPECT_EQ(scene.materials[scene.triangles[1].material].name, "red");
+  EXPECT_NE(scene.materials[scene.triangles[0].material].name, "red");
+
+  EXPECT_THAT(refused(kMesh + "[[mesh.instance]]\nfile = 'b.obj'\n"),
+              StartsWith("s.toml:4: [[mesh.instance]] has no key 'file'"));
+  EXPECT_THAT(refused(kMesh + "[[mesh.instance]]\nscale = 0\n"),
+              StartsWith("s.toml:4: [[mesh.instance]] 'scale' is zero"));
 }
 
 TEST(SceneToml, MaterialOverridesByName) {
