@@ -2,6 +2,7 @@
 // Meshes enter, as numbers; the bytes of a small .gltf or .glb leave.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
@@ -25,6 +26,16 @@ class GltfWriter {
          {"componentType", component_type},
          {"count", values.size() / components},
          {"type", type}});
+    // glTF asks for the bounds of positions, and allows those of all.
+    if (values.size() < components) return json["accessors"].size() - 1;
+    std::vector<Component> least(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components));
+    std::vector<Component> most = least;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      least[i % components] = std::min(least[i % components], values[i]);
+      most[i % components] = std::max(most[i % components], values[i]);
+    }
+    json["accessors"].back()["min"] = least;
+    json["accessors"].back()["max"] = most;
     return json["accessors"].size() - 1;
   }
   std::size_t floats(const std::vector<float>& values, std::string_view type) { return accessor(values, type, 5126); }

@@ -57,6 +57,7 @@ std::string mgf_colour(const Vec3d& rgb, const char* entity, double units) {
 
 std::string as_glb(const Scene& scene) {
   GltfWriter file;
+  file.json["extensionsUsed"] = {"KHR_materials_emissive_strength"};
   for (const SceneMaterial& material : scene.materials) file.json["materials"].push_back(gltf_material(material));
   std::vector<float> positions;
   Json primitives;
