@@ -48,10 +48,10 @@ bool step_lamp_pixel(const Scene& scene, Expansion& expansion) {
   // Pixels share out the lamp's light, and a shot's points each pixel's part, as those of a hemi-cube do.
   const std::uint32_t shift = protocol::pixel_key(expansion.point.key, expansion.pixel);
   const auto within = static_cast<std::uint32_t>((std::uint64_t{expansion.within.x ^ shift} * share) >> 32U);
-  expansion.direction = to_vector(protocol::sample_lamp(
-      scene.lamps[expansion.lamp.lamp], expansion.lamp.side, scene.lamp_values, scene.lamp_chances,
-      expansion.pixel * share + within,
-      protocol::uniform_float(expansion.within.y ^ protocol::hash_combine(shift, 1))));
+  expansion.direction =
+      to_vector(protocol::sample_lamp(scene.lamps[expansion.lamp.lamp], expansion.lamp.side, scene.lamp_values,
+                                      scene.lamp_chances, expansion.pixel * share + within,
+                                      protocol::uniform_float(expansion.within.y ^ protocol::hash_combine(shift, 1))));
   return true;
 }
 

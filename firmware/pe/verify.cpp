@@ -144,8 +144,8 @@ class Verifier {
   }
   void check(const protocol::LampSide& side) {
     if (side.bands == 0) return;
-    const bool fits = side.bands <= protocol::kMostLampBands && side.sectors >= 1U &&
-                      side.sectors <= protocol::kMostLampSectors;
+    const bool fits =
+        side.bands <= protocol::kMostLampBands && side.sectors >= 1U && side.sectors <= protocol::kMostLampSectors;
     require(fits, StoreIndex::lamp_size, side.bands, side.sectors);
     range(StoreIndex::lamp_table, side.heights, side.bands + 1U, scene_.lamp_values.size());
     range(StoreIndex::lamp_table, side.values, (side.bands + 1U) * side.sectors, scene_.lamp_values.size());

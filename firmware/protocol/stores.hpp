@@ -72,7 +72,8 @@ struct Material {
   std::array<Fraction, 3> specular_fraction;  ///< the same as `specular` (glossy: over `lobe_chance`, at most 2) and
                                               ///< `transmittance`: flux is exact
   std::array<Fraction, 3> transmittance_fraction;
-  std::uint32_t lamp = kNoLamp;  ///< index: its emission depends on the direction (lamp.hpp); else the same to all sides
+  std::uint32_t lamp =
+      kNoLamp;  ///< index: its emission depends on the direction (lamp.hpp); else the same to all sides
   std::uint32_t unused = 0;
 };
 static_assert(sizeof(Material) == 128);
@@ -183,11 +184,11 @@ static_assert(sizeof(KeptSurface) == 8);
 /// Something that emits, for shadow rays. All PEs have all emitters, or none where no shadow rays are asked for.
 struct Emitter {
   std::array<Vec3f, 3> corner;
-  Vec3f emission;            ///< radiance from the front, in units of the scene's greatest
-  float area_over_chance;    ///< area / (pi * the chance that it is chosen)
-  std::uint32_t chosen_to;   ///< chosen by 32 random bits up to this, and beyond the one before; the last: all ones
-  std::uint32_t polygon;     ///< global number; kSkyTarget: of sky and sun, whose emission is not used
-  std::uint32_t both_sides;  ///< 0 or 1: emits from the back, too; of the sky: kSkyAround and the like
+  Vec3f emission;                ///< radiance from the front, in units of the scene's greatest
+  float area_over_chance;        ///< area / (pi * the chance that it is chosen)
+  std::uint32_t chosen_to;       ///< chosen by 32 random bits up to this, and beyond the one before; the last: all ones
+  std::uint32_t polygon;         ///< global number; kSkyTarget: of sky and sun, whose emission is not used
+  std::uint32_t both_sides;      ///< 0 or 1: emits from the back, too; of the sky: kSkyAround and the like
   std::uint32_t lamp = kNoLamp;  ///< index: it emits by this table alone, whatever `both_sides` is
 };
 static_assert(sizeof(Emitter) == 68);

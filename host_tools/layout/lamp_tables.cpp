@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include "host_tools/layout/chances.hpp"
+#include "host_tools/mesh/normalise.hpp"
 #include "host_tools/scene/lamp_web.hpp"
-#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {

@@ -38,8 +38,7 @@ class IesReader {
     const std::vector<double> gamma = angles(gammas_, "vertical");
     const Place first_turn = place();
     const std::vector<double> turn = angles(turns_, "horizontal");
-    if (gamma.back() > 180)
-      refuse(place(), "a vertical angle above 180 degrees; type C has 0 (straight down) to 180");
+    if (gamma.back() > 180) refuse(place(), "a vertical angle above 180 degrees; type C has 0 (straight down) to 180");
     read_web(gamma, turn);
     if (next_word()) notices_.note("numbers after the last intensity are passed over", place());
     close_turns(turn, first_turn);

@@ -19,7 +19,11 @@ namespace {
 class MgfReader {
  public:
   MgfReader(ImportedMesh& mesh, SceneFiles& files, Notices& notices)
-      : mesh_(mesh), files_(files), notices_(notices), materials_(mesh, notices), surfaces_(mesh, materials_, vertices_, notices) {}
+      : mesh_(mesh),
+        files_(files),
+        notices_(notices),
+        materials_(mesh, notices),
+        surfaces_(mesh, materials_, vertices_, notices) {}
 
   void run(const std::filesystem::path& path, const Place& asked_at) {
     run_file(path, asked_at);

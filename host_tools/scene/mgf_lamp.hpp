@@ -14,7 +14,8 @@ namespace torolux {
 /// ies FILE [-m FACTOR] [TRANSFORM]
 class MgfLamp {
  public:
-  /// folder: where the file may lie. Throws InputError: no file, a factor that is not above 0, or what read_ies refuses.
+  /// folder: where the file may lie. Throws InputError: no file, a factor that is not above 0, or what read_ies
+  /// refuses.
   MgfLamp(const MgfStatement& statement, const std::filesystem::path& folder, SceneFiles& files, Notices& notices);
 
   /// Number of the argument with which its transform begins.

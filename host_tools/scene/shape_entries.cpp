@@ -82,8 +82,7 @@ Vec3d lamp_colour(TomlTable& table) {
 void check_light(const TomlTable& table, const LampEntry& lamp) {
   if (lamp.ies && lamp.radiance)
     refuse(table.place("radiance"), "[[lamp]] 'ies' says how it shines; only 'lumen' may stand beside it");
-  if (!lamp.ies && lamp.along)
-    refuse(table.place("along"), "[[lamp]] 'along' turns a measured lamp; it needs 'ies'");
+  if (!lamp.ies && lamp.along) refuse(table.place("along"), "[[lamp]] 'along' turns a measured lamp; it needs 'ies'");
   if (lamp.along) check_direction(table, "along", *lamp.along);
   if (!lamp.ies && lamp.lumen.has_value() == lamp.radiance.has_value())
     refuse(lamp.place, "[[lamp]] needs either 'lumen' or 'radiance', or 'ies'");

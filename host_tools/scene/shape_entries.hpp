@@ -47,7 +47,7 @@ struct LampEntry {
   std::optional<Shape> shape;  ///< where it is not hung
   Vec3d colour{1, 1, 1};       ///< linear, of luminance 1
   std::optional<double> lumen;
-  std::optional<Vec3d> radiance;  ///< [W/(m^2 sr)]; this or lumen is there, or it is measured
+  std::optional<Vec3d> radiance;   ///< [W/(m^2 sr)]; this or lumen is there, or it is measured
   std::optional<std::string> ies;  ///< file of a measured lamp
   std::optional<Vec3d> along;      ///< of a measured lamp: to where its turn begins
   std::optional<Vec3d> centre;     ///< of a measured lamp as large as its file says, where it is not hung

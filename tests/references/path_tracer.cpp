@@ -169,13 +169,13 @@ class Path {
     const double density = emitter.density * distance2 / std::fabs(cos_emitter);
     const double share = finding_ == LightFinding::both ? power(density, reflection.density(out)) : 1;
     light_ += weight_ * through * radiance_scale_ * reflection.value(out) *
-              world_.emission_at({target.triangle, 0, 0, cos_emitter > 0, target.point}, -out) * (cosine / density * share);
+              world_.emission_at({target.triangle, 0, 0, cos_emitter > 0, target.point}, -out) *
+              (cosine / density * share);
   }
 
   /// What the emitter that the path has come upon adds.
   void meet_emitter(const Hit& hit) {
-    const Colour emission =
-        scattered_ ? world_.emission_at(hit, -direction_) : world_.emission_seen(hit, -direction_);
+    const Colour emission = scattered_ ? world_.emission_at(hit, -direction_) : world_.emission_seen(hit, -direction_);
     if ((emission == 0).all()) return;
     if (caustics_ == Caustics::from_light && sees_diffuse_ && density_ == 0) return;
     double share = 1;
