@@ -9,8 +9,9 @@
 namespace torolux {
 namespace {
 
-/// Of a disc.
-constexpr std::uint32_t kEdges = 24;
+/// Of a disc; of one so small [m] that nobody sees its corners.
+constexpr std::uint32_t kEdges = 24, kEdgesOfSmall = 12;
+constexpr double kSmall = 0.05;
 
 }  // namespace
 
@@ -28,7 +29,7 @@ MeasuredLamp load_measured_lamp(const std::string& name, std::span<const std::fi
 
 ShapeMesh opening_of(const MeasuredLamp& measured, const SceneLamp& lamp, const Vec3d& centre, double scale) {
   if (measured.round) {
-    const std::uint32_t edges = Roundness{0, kEdges, kEdges}.edges(1);
+    const std::uint32_t edges = measured.length < kSmall ? kEdgesOfSmall : kEdges;
     return tessellated(Ring{centre, lamp.nadir, 0, scale * measured.length / 2}, {0, edges, edges});
   }
   const Vec3d along = vec::scale(lamp.x, scale * measured.length / 2);

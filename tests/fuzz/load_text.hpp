@@ -18,6 +18,7 @@ enum class SceneText { obj, mtl, mgf, scene_toml, texture, gltf, ies };
 
 inline std::map<std::string, std::string> scene_with(SceneText kind, const std::string& text) {
   const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n";
+  const std::string lamp = "TILT=NONE\n1 1000 1 2 1 1 1 0 0 0\n1 1 1\n0 90\n0\n100 50\n";
   const std::string library = "newmtl white\nKd .5 .5 .5\nnewmtl light\nKe 1 1 1\nnewmtl glass\nillum 7\nNi 1.5\n";
   switch (kind) {
     case SceneText::obj:
@@ -28,7 +29,7 @@ inline std::map<std::string, std::string> scene_with(SceneText kind, const std::
     case SceneText::mgf:
       return {{"fuzz.mgf", text},
               {"a.inc", "v a =\np 0 0 0\nn 0 0 1\nv b =\np 1 0 0\nv c =\np 1 1 0\nm light =\ned 100\nf a b c\n"},
-              {"a.ies", "TILT=NONE\n1 1000 1 2 1 1 1 0 0 0\n1 1 1\n0 90\n0\n100 50\n"}};
+              {"a.ies", lamp}};
     case SceneText::ies:
       return {{"a.mgf", "v a =\np 0 0 0\nv b =\np 1 0 0\nv c =\np 1 1 0\nm white =\nrd 0.5\nf a b c\nies fuzz.ies\n"},
               {"fuzz.ies", text}};
@@ -43,7 +44,8 @@ inline std::map<std::string, std::string> scene_with(SceneText kind, const std::
   }
   return {{"fuzz.toml", text},
           {"a.obj", "mtllib a.mtl\n" + quad + "usemtl white\nf 1 2 3\nusemtl light\nf 1 3 4\n"},
-          {"a.mtl", library}};
+          {"a.mtl", library},
+          {"a.ies", lamp}};
 }
 
 /// true: loaded. Ends the program where a message does not begin with one of the files.
