@@ -64,7 +64,8 @@ class IesReader {
     while (!rest_.empty()) {
       const std::string_view line = next_line();
       if (line_ == 1) later_ = line.find("LM-63-") != std::string_view::npos;
-      if (line.starts_with("TILT=")) return trimmed(line.substr(5));
+      const std::string_view value = trimmed(line.substr(std::min<std::size_t>(4, line.size())));
+      if (equal_but_for_case(line.substr(0, 4), "TILT") && value.starts_with('=')) return trimmed(value.substr(1));
     }
     refuse({file_, 0}, "no line begins with TILT=: this is not a measured lamp (IESNA LM-63)");
   }
@@ -108,8 +109,8 @@ class IesReader {
 
   /// Factors by which a lamp shines in a tilted luminaire. How it is tilted is not known here: it hangs as measured.
   void read_tilt(std::string_view tilt) {
-    if (tilt == "NONE") return;
-    if (tilt != "INCLUDE") {
+    if (equal_but_for_case(tilt, "NONE")) return;
+    if (!equal_but_for_case(tilt, "INCLUDE")) {
       notices_.note("factors for tilted lamps in another file are not read: the lamp hangs as it was measured", place(),
                     in_quotes(tilt));
       return;

@@ -56,7 +56,7 @@ double worst(const Scene& scene) {
 
 const std::string kWide =
     "1 1000 1 7 3 1 2 0 0 0\n1 1 1\n0 15 30 45 60 90 150\n0 90 180\n"
-    "100 200 300 250 100 20 0\n100 150 120 80 40 20 10\n100 90 60 30 10 5 30\n";
+    "100 200 300 250 100 20 0\n100 150 120 80 40 20 0\n100 90 60 30 10 35 0\n";
 const std::string kSpot = "1 1000 1 5 1 1 2 0 0 0\n1 1 1\n0 2 4 6 90\n0\n1000 900 100 0 0\n";
 
 TEST(LampTables, AreNearTheWeb) {

@@ -83,7 +83,7 @@ TEST(Ies, Symmetries) {
 
 TEST(Ies, FactorsAndTilt) {
   const std::string numbers = "1 -1 2 2 1 1 2 0 0 0\n0.5 3 10\n0 90\n0\n100, 100\n";
-  EXPECT_NEAR(candela(lamp("an old file\nTILT=NONE\n" + numbers), 45, 0), 300, 1e-9);
+  EXPECT_NEAR(candela(lamp("an old file\nTilt = none\n" + numbers), 45, 0), 300, 1e-9);
   EXPECT_NEAR(candela(lamp(kHead + numbers), 45, 0), 100, 1e-9) << "for future use since 1995";
   Notices notices;
   const MeasuredLamp tilted =
