@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "firmware/pe/lamps.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/random.hpp"
 
@@ -107,6 +108,12 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
   sample.polygon = emitter.polygon;
   const float leaving = glm::dot(sample.direction, normal);
   if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
+  if (emitter.lamp != protocol::kNoLamp) {
+    const float near = leaving * emitter.area_over_chance / square;
+    sample.irradiance_over_pi =
+        lamp_light(scene, emitter.lamp, -sample.direction) * to_vector(emitter.emission) * std::min(near, kMostSeen);
+    return true;
+  }
   float arriving = -glm::dot(sample.direction, unit_normal(emitter.corner));
   if (emitter.both_sides == 1U) arriving = std::fabs(arriving);
   if (!(arriving > 0.0F)) return false;

@@ -2,6 +2,7 @@
 // Points become records, one for each hemi-cube pixel. Enters: points and credits; leaves: records, each of which is
 // followed at once.
 #include "firmware/pe/hemicube.hpp"
+#include "firmware/pe/lamps.hpp"
 #include "firmware/pe/pe.hpp"
 #include "firmware/pe/sky.hpp"
 #include "firmware/protocol/fault_fields.hpp"
@@ -42,22 +43,27 @@ bool step_pixel(const Scene& scene, Expansion& expansion) {
   return any != 0;
 }
 
+bool step(Pe& pe, Expansion& expansion) {
+  if (is_of_sky(expansion.point)) return step_sky_pixel(pe, expansion);
+  if (is_of_lamp(expansion.point)) return step_lamp_pixel(pe.scene, expansion);
+  return step_pixel(pe.scene, expansion);
+}
+
 /// Moves on to the next pixel that gets any flux. False: the point is done.
 bool next_pixel(Pe& pe, Expansion& expansion) {
-  const bool of_sky = is_of_sky(expansion.point);
   while (expansion.next_pixel < expansion.end_pixel) {
-    if (of_sky ? step_sky_pixel(pe, expansion) : step_pixel(pe.scene, expansion)) return true;
+    if (step(pe, expansion)) return true;
   }
   return false;
 }
 
 /// To the first of the pixels that are meant: those before have their shares, too, whoever makes records of them.
-void begin_pixels(const Scene& scene, Expansion& expansion) {
-  const std::uint32_t pixels = protocol::hemicube_pixels(scene.hemicube_grid.n);
+void begin_pixels(Pe& pe, Expansion& expansion) {
+  const std::uint32_t pixels = protocol::hemicube_pixels(pe.scene.hemicube_grid.n);
   const std::uint32_t part = (expansion.point.flags & protocol::kPartMask) >> protocol::kPartShift;
   expansion.end_pixel = part == 0 ? pixels : pixels * part / protocol::kPointParts;
   const std::uint32_t begin = part == 0 ? 0U : pixels * (part - 1U) / protocol::kPointParts;
-  while (expansion.next_pixel < begin) step_pixel(scene, expansion);
+  while (expansion.next_pixel < begin) step(pe, expansion);
 }
 
 /// The next of the points that wait, until one has a record to make. False: there is none.
@@ -75,8 +81,12 @@ bool begin_point(Pe& pe) {
     if (is_of_sky(point)) {
       begin_sky_pixels(pe, expansion);
     } else {
-      expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
-      begin_pixels(pe.scene, expansion);
+      if (is_of_lamp(point)) {
+        expansion.lamp = *lamp_of(pe.scene, point);
+      } else {
+        expansion.frame = spun(frame_about(to_vector(point.normal)), protocol::uniform(point.key, Dimension::spin));
+      }
+      begin_pixels(pe, expansion);
     }
     expansion.active = next_pixel(pe, expansion);
     if (expansion.active) return true;
@@ -103,11 +113,12 @@ glm::vec3 direction_of(const Pe& pe, std::uint32_t shift) {
 void create_record(Pe& pe, Niu& niu) {
   const Expansion& expansion = pe.expansion;
   const bool of_sky = is_of_sky(expansion.point);
+  const bool drawn = of_sky || is_of_lamp(expansion.point);
   const std::uint32_t shift = protocol::pixel_key(expansion.point.key, expansion.pixel);
   const Slot slot = pe.slots.take(niu);
   auto& record = pe.slots.at<protocol::RadiosityRecord>(slot);
   record.origin = of_sky ? to_array(sky_origin(pe.scene, expansion)) : expansion.point.origin;
-  record.direction = to_array(of_sky ? expansion.sky_direction : direction_of(pe, shift));
+  record.direction = to_array(drawn ? expansion.direction : direction_of(pe, shift));
   record.flux = expansion.pixel_flux;
   record.place = of_sky ? cell_of(pe.scene.layout, to_vector(record.origin)) : expansion.point.place;
   record.polygon = of_sky ? protocol::kNoPolygon : expansion.point.polygon;
@@ -137,6 +148,9 @@ void take_point(Pe& pe, Niu& niu, const PointRecord& point) {
   const bool enters = !is_of_sky(point) || (point.polygon < pe.scene.sky_openings.size() && !pe.scene.sky.empty());
   if (!enters) {
     niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::opening), point.polygon);
+  }
+  if (is_of_lamp(point) && !lamp_of(pe.scene, point)) {
+    niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::point_lamp), point.flags);
   }
   points.place[(points.first + points.waiting) % protocol::kPointPlaces] = point;
   ++points.waiting;

@@ -5,6 +5,7 @@
 #include "firmware/pe/follow.hpp"
 #include "firmware/pe/glossy.hpp"
 #include "firmware/pe/intersect.hpp"
+#include "firmware/pe/lamps.hpp"
 #include "firmware/pe/layers.hpp"
 #include "firmware/pe/sky.hpp"
 #include "firmware/pe/specular.hpp"
@@ -42,7 +43,11 @@ void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, cons
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
   const Material& material = pe.scene.materials[polygon.material];
   glm::vec3 radiance = diffuse_reflectance(pe.scene, polygon, hit) * irradiance_over_pi;
-  if (hit.front || material.emits_from_back != 0) radiance += to_vector(material.emission);
+  if (material.lamp != protocol::kNoLamp) {
+    radiance += to_vector(material.emission) * lamp_seen(pe.scene, material.lamp, -to_vector(record.direction));
+  } else if (hit.front || material.emits_from_back != 0) {
+    radiance += to_vector(material.emission);
+  }
   pe.results.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
 }
 

@@ -23,6 +23,8 @@ struct Scene {
   std::span<const protocol::Vec3f> normals;
   std::span<const std::uint32_t> nodes;
   std::span<const protocol::SkyEntry> sky;
+  std::span<const protocol::Lamp> lamps;
+  std::span<const float> lamp_values;
   // Radiosity stage.
   std::span<const protocol::PatchReference> patch_references;
   std::span<const protocol::PatchPart> patch_parts;
@@ -33,6 +35,7 @@ struct Scene {
   std::span<const protocol::HemicubeEntry> hemicube;
   HemicubeGrid hemicube_grid;
   std::span<const protocol::SkyOpening> sky_openings;
+  std::span<const std::uint32_t> lamp_chances;
   // Ray tracing stage.
   std::span<const protocol::CornerIrradiance> irradiance;
   std::span<const protocol::KeptSurface> kept;
@@ -54,6 +57,8 @@ struct Scene {
     normals = memory.store<const protocol::Vec3f>(layout.normals);
     nodes = memory.store<const std::uint32_t>(layout.nodes);
     sky = memory.store<const protocol::SkyEntry>(layout.sky);
+    lamps = memory.store<const protocol::Lamp>(layout.lamps);
+    lamp_values = memory.store<const float>(layout.lamp_values);
     patch_references = memory.store<const protocol::PatchReference>(layout.patch_references);
     patch_parts = memory.store<const protocol::PatchPart>(layout.patch_parts);
     patches = memory.store<const protocol::Patch>(layout.patches);
@@ -62,6 +67,7 @@ struct Scene {
     facets = memory.store<const protocol::Facet>(layout.facets);
     hemicube = memory.store<const protocol::HemicubeEntry>(layout.hemicube);
     sky_openings = memory.store<const protocol::SkyOpening>(layout.sky_openings);
+    lamp_chances = memory.store<const std::uint32_t>(layout.lamp_chances);
     irradiance = memory.store<const protocol::CornerIrradiance>(layout.irradiance);
     kept = memory.store<const protocol::KeptSurface>(layout.kept);
     textures = memory.store<const protocol::Texture>(layout.textures);

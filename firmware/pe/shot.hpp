@@ -49,7 +49,8 @@ struct Expansion {
   std::uint32_t end_pixel = 0;  ///< behind the last one that is meant
   std::uint32_t pixel = 0;      ///< the next record's
   protocol::Flux pixel_flux{};
-  glm::vec3 sky_direction{};  ///< of a point of sky and sun: in which the pixel's light goes, unit length
+  glm::vec3 direction{};       ///< of a point of sky and sun or a lamp: in which the pixel's light goes, unit length
+  protocol::LampPoint lamp{};  ///< of a lamp's point
   std::uint32_t next_pixel = 0;
   protocol::StratifiedPair within{};  ///< where in the pixels the point goes through them; each has a shift of its own
   std::array<std::uint32_t, 3> rest{};  ///< of the flux: less than a quantum, for the next pixel (next_part)

@@ -3,6 +3,7 @@
 // path of its grid; the row is cut into equal parts, and each point lies somewhere in its own.
 #include "firmware/pe/shot_points.hpp"
 
+#include "firmware/pe/lamps.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/random.hpp"
@@ -142,6 +143,9 @@ protocol::PointRecord make_point(const Scene& scene, Shot& shot) {
   point.number_low = static_cast<std::uint8_t>(shot.point);
   point.number_high = static_cast<std::uint8_t>(shot.point >> 8U);
   point.flags = shot.command.kind == protocol::ShotKind::emitted ? protocol::kDirect : std::uint8_t{0};
+  const std::uint32_t lamp = scene.materials[polygon.material].lamp;
+  if (shot.command.kind == protocol::ShotKind::emitted && lamp != protocol::kNoLamp)
+    name_lamp(lamp, shot.command.side, point);
   ++shot.point;
   return point;
 }

@@ -64,7 +64,7 @@ bool step_sky_pixel(Pe& pe, Expansion& expansion) {
   const protocol::SkyOpening& opening = scene.sky_openings[expansion.point.polygon];
   const float cosine = -protocol::dot(sample.direction, opening.inwards);
   if (!(cosine > 0.0F)) return false;
-  expansion.sky_direction = -to_vector(sample.direction);
+  expansion.direction = -to_vector(sample.direction);
   const float share = cosine / static_cast<float>(pixels);
   std::int64_t any = 0;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -28,6 +28,8 @@ class Verifier {
     check_textures();
     check_emitters();
     check_sky();
+    for (const protocol::Lamp& lamp : scene_.lamps)
+      for (const protocol::LampSide& side : lamp.side) check(side);
     if (scene_.layout.stage != Stage::radiosity) return;
     for (const protocol::PatchPart& part : scene_.patch_parts) check(part);
     for (const protocol::Patch& patch : scene_.patches) check(patch);
@@ -137,11 +139,33 @@ class Verifier {
     }
   }
 
+  void lamp_below(std::uint32_t lamp) {
+    if (lamp != protocol::kNoLamp) below(StoreIndex::lamp, lamp, scene_.lamps.size());
+  }
+  void check(const protocol::LampSide& side) {
+    if (side.bands == 0) return;
+    const bool fits =
+        side.bands <= protocol::kMostLampBands && side.sectors >= 1U && side.sectors <= protocol::kMostLampSectors;
+    require(fits, StoreIndex::lamp_size, side.bands, side.sectors);
+    range(StoreIndex::lamp_table, side.heights, side.bands + 1U, scene_.lamp_values.size());
+    range(StoreIndex::lamp_table, side.values, (side.bands + 1U) * side.sectors, scene_.lamp_values.size());
+    if (scene_.layout.stage != Stage::radiosity) return;
+    const std::uint32_t cells = side.bands * side.sectors;
+    range(StoreIndex::lamp_table, side.chances, cells, scene_.lamp_chances.size());
+    std::uint32_t before = 0;
+    for (const std::uint32_t chosen_to : scene_.lamp_chances.subspan(side.chances, cells)) {
+      require(chosen_to >= before, StoreIndex::lamp_chance, chosen_to, before);
+      before = chosen_to;
+    }
+    require(before == 0xFFFF'FFFFU, StoreIndex::lamp_chance, before, 0xFFFF'FFFFU);
+  }
+
   /// Whatever the random bits are, one of them is chosen.
   void check_emitters() {
     std::uint32_t before = 0;
     for (const protocol::Emitter& emitter : scene_.emitters) {
       check_corners(emitter.corner, StoreIndex::emitter_corner, emitter.polygon);
+      lamp_below(emitter.lamp);
       require(emitter.chosen_to >= before, StoreIndex::emitter_chance, emitter.chosen_to, before);
       before = emitter.chosen_to;
     }
@@ -236,6 +260,7 @@ class Verifier {
     const bool spreads =
         material.kind != protocol::MaterialKind::glossy || (material.lobe_power > 0.0F && material.lobe_power <= 1.0F);
     require(spreads, StoreIndex::lobe, 0, 1);
+    lamp_below(material.lamp);
     if (scene_.layout.stage == Stage::ray_tracing && material.texture != protocol::kNoTexture) {
       below(StoreIndex::texture, material.texture, scene_.textures.size());
     }

@@ -74,6 +74,10 @@ enum class StoreIndex : std::uint32_t {
   sky_entries,
   sky_chance,
   sky_opening,
+  lamp,
+  lamp_size,
+  lamp_table,
+  lamp_chance,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreIndex::count)> kStoreIndexWords = {
@@ -136,6 +140,10 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreInde
     "entries of the sky = %: none or %",
     "chance of a part of the sky = %, at least %",
     "corner of an opening outside the unit cube, of opening %",
+    "lamp of a material or an emitter = %, limit %",
+    "table of a lamp: % bands by % sectors",
+    "first entry of a lamp's table = %, with its size beyond the limit %",
+    "chance of a part of a lamp = %, at least %",
 };
 
 /// FaultCode::bad_record: which field; no third detail.
@@ -153,6 +161,7 @@ enum class RecordField : std::uint32_t {
   point_places,
   point_part,
   opening,
+  point_lamp,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(RecordField::count)> kRecordFieldWords = {
@@ -169,6 +178,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(RecordFie
     "points waiting at this PE = %",
     "part of a point = %",
     "opening through which sky comes = %, which is not there",
+    "lamp of a point: flags %, which is not there or dark on that side",
 };
 
 /// FaultCode::bad_layout: a StoreName, with its address and count, or one of the layout's other fields.
@@ -218,6 +228,9 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(LayoutFie
     "emitters: address %, count %",
     "sky: address %, count %",
     "openings: address %, count %",
+    "lamps: address %, count %",
+    "values of lamps: address %, count %",
+    "chances of lamps: address %, count %",
     "stage = %",
     "cells along an axis = %: at least 1 and at most %",
     "own record slots = %, of % in all",

@@ -46,6 +46,8 @@ inline constexpr std::uint8_t kPartMask = 0xF0;
 inline constexpr std::uint32_t kPointParts = 8;
 /// Of a point: it is of sky and sun, through an opening (sky.hpp).
 inline constexpr std::uint8_t kSky = 2;
+/// Of a point of emitted light: a measured lamp's (lamp.hpp); with kBackSide, of its back.
+inline constexpr std::uint8_t kLamp = 8;
 
 /// Radiosity stage: one hemi-cube pixel's flux.
 struct RadiosityRecord {
@@ -67,7 +69,8 @@ static_assert(sizeof(RadiosityRecord) == 64);
 /// RadiosityRecord does, and has its kind and flags where that has them.
 struct PointRecord {
   Vec3f origin;
-  Vec3f normal;  ///< unit length, of the side that shoots
+  Vec3f normal;  ///< unit length, of the side that shoots; kLamp: the lamp's number, 0 and 0, as it has a frame of its
+                 ///< own
   Flux flux;  ///< to be divided among the hemi-cube's pixels; kSky: its part of what the opening would let in from all
               ///< directions were its cosine to each 1
   std::uint32_t place;    ///< cell code of the subspace that holds `origin`

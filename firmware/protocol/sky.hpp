@@ -14,6 +14,7 @@
 #include <span>
 
 #include "firmware/protocol/records.hpp"
+#include "firmware/protocol/vector_sums.hpp"
 
 namespace torolux::protocol {
 
@@ -81,14 +82,6 @@ struct SkySample {
   Vec3f direction;                ///< unit length, towards the sky
   Vec3f radiance_by_solid_angle;  ///< radiance over the density of directions [unit of radiance x sr]
 };
-
-constexpr float dot(const Vec3f& a, const Vec3f& b) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-constexpr Vec3f combined(const Vec3f& a, float by_a, const Vec3f& b, float by_b, const Vec3f& c, float by_c) {
-  return {(a[0] * by_a + b[0] * by_b) + c[0] * by_c, (a[1] * by_a + b[1] * by_b) + c[1] * by_c,
-          (a[2] * by_a + b[2] * by_b) + c[2] * by_c};
-}
 
 /// Of the sun's disc, evenly.
 /// u: of its area from the middle on, v: of the turn; 0..1. The turn's sine and cosine are those of an angle of at most

@@ -37,6 +37,9 @@ enum class StoreName : std::uint32_t {
   emitters,
   sky,
   sky_openings,
+  lamps,
+  lamp_values,
+  lamp_chances,
   count
 };
 inline constexpr std::uint32_t kStores = static_cast<std::uint32_t>(StoreName::count);
@@ -78,6 +81,9 @@ constexpr std::array<StoreExtent, kStores> store_extents(const StageLayout& l) {
       {l.emitters, sizeof(Emitter)},
       {l.sky, sizeof(SkyEntry)},
       {l.sky_openings, sizeof(SkyOpening)},
+      {l.lamps, sizeof(Lamp)},
+      {l.lamp_values, sizeof(float)},
+      {l.lamp_chances, sizeof(std::uint32_t)},
   }};
 }
 

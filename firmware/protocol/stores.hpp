@@ -10,6 +10,7 @@
 #include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/flux.hpp"
 #include "firmware/protocol/hemicube_bends.hpp"
+#include "firmware/protocol/lamp.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/polygon_boxes.hpp"
 #include "firmware/protocol/records.hpp"
@@ -71,8 +72,11 @@ struct Material {
   std::array<Fraction, 3> specular_fraction;  ///< the same as `specular` (glossy: over `lobe_chance`, at most 2) and
                                               ///< `transmittance`: flux is exact
   std::array<Fraction, 3> transmittance_fraction;
+  std::uint32_t lamp =
+      kNoLamp;  ///< index: its emission depends on the direction (lamp.hpp); else the same to all sides
+  std::uint32_t unused = 0;
 };
-static_assert(sizeof(Material) == 120);
+static_assert(sizeof(Material) == 128);
 
 // ---- Radiosity stage only ----
 
@@ -180,13 +184,14 @@ static_assert(sizeof(KeptSurface) == 8);
 /// Something that emits, for shadow rays. All PEs have all emitters, or none where no shadow rays are asked for.
 struct Emitter {
   std::array<Vec3f, 3> corner;
-  Vec3f emission;            ///< radiance from the front, in units of the scene's greatest
-  float area_over_chance;    ///< area / (pi * the chance that it is chosen)
-  std::uint32_t chosen_to;   ///< chosen by 32 random bits up to this, and beyond the one before; the last: all ones
-  std::uint32_t polygon;     ///< global number; kSkyTarget: of sky and sun, whose emission is not used
-  std::uint32_t both_sides;  ///< 0 or 1: emits from the back, too; of the sky: kSkyAround and the like
+  Vec3f emission;                ///< radiance from the front, in units of the scene's greatest
+  float area_over_chance;        ///< area / (pi * the chance that it is chosen)
+  std::uint32_t chosen_to;       ///< chosen by 32 random bits up to this, and beyond the one before; the last: all ones
+  std::uint32_t polygon;         ///< global number; kSkyTarget: of sky and sun, whose emission is not used
+  std::uint32_t both_sides;      ///< 0 or 1: emits from the back, too; of the sky: kSkyAround and the like
+  std::uint32_t lamp = kNoLamp;  ///< index: it emits by this table alone, whatever `both_sides` is
 };
-static_assert(sizeof(Emitter) == 64);
+static_assert(sizeof(Emitter) == 68);
 
 // ---- Layout ----
 
@@ -249,6 +254,9 @@ struct StageLayout {
   std::uint32_t bounces;                        ///< path segments after which light is cut off
   Store sky;                                    ///< SkyEntry[kSkyEntries], or empty: no sky
   SkyFrame sky_frame;
+  Store lamps;         ///< Lamp[]
+  Store lamp_values;   ///< float[]: heights and intensities of their sides
+  Store lamp_chances;  ///< uint32_t[]: radiosity stage only
   // Radiosity stage (counts 0 in the other).
   Store patch_references;         ///< PatchReference[]
   Store patch_parts;              ///< PatchPart[], of patches that this PE owns
@@ -276,6 +284,6 @@ struct StageLayout {
   float least_weight;  ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 476);
+static_assert(sizeof(StageLayout) == 500);
 
 }  // namespace torolux::protocol

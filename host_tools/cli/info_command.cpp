@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <numbers>
 
 #include "emulator/errors.hpp"
 #include "emulator/machine/network_memory.hpp"
@@ -14,6 +15,7 @@
 #include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/resolve.hpp"
 #include "host_tools/report/text.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
@@ -26,6 +28,14 @@ void line(const std::string& label, const std::string& text) {
 
 std::string triple(const std::array<double, 3>& v) {
   return significant(v[0], 6) + " " + significant(v[1], 6) + " " + significant(v[2], 6);
+}
+
+std::string light_of(const Scene& scene, const SceneMaterial& material) {
+  if (!emits(material)) return {};
+  if (material.lamp == kNoMeasuredLamp) return "; emits " + triple(material.emission) + " W/(m^2 sr)";
+  const double down = scene.lamps[material.lamp].share[0];
+  return "; measured lamp, " + triple(vec::scale(material.emission, std::numbers::pi)) + " W/m^2 of its opening, " +
+         significant(100 * down, 3) + " % from its front";
 }
 
 std::string describe(const SceneMaterial& material, const Scene& scene) {
@@ -43,7 +53,7 @@ std::string describe(const SceneMaterial& material, const Scene& scene) {
          (is_glossy(material)
               ? "; glossy, reflectance " + triple(material.specular) + ", exponent " + significant(material.exponent, 4)
               : "") +
-         (emits(material) ? "; emits " + triple(material.emission) + " W/(m^2 sr)" : "");
+         light_of(scene, material);
 }
 
 void print_bounds(const Scene& scene) {

@@ -7,8 +7,7 @@
 namespace torolux {
 
 Vec3d emitted_radiance(const Scene& scene, const MeshPatch& patch, std::uint32_t side, const LightUnits& units) {
-  if (side == 1 && !units.two_sided_lights) return {0, 0, 0};
-  return scene.materials[patch.material].emission;
+  return emission_of(scene, scene.materials[patch.material], side, units.two_sided_lights);
 }
 
 Vec3d reflectance_of(const MeshPatch& patch) {

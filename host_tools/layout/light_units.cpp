@@ -9,6 +9,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/layout/lamp_tables.hpp"
 #include "host_tools/layout/sky_tables.hpp"
 #include "host_tools/scene/sky.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -19,12 +20,16 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
   LightUnits units;
   units.two_sided_lights = two_sided_lights;
   units.unit_radiance = 0;
+  const std::vector<double> brightest = brightest_seen(scene);
   Vec3d emitted{0, 0, 0};
   for (const MeshTriangle& triangle : mesh.triangles) {
     const SceneMaterial& material = scene.materials[triangle.material];
     if (!emits(material)) continue;
-    for (const double radiance : material.emission) units.unit_radiance = std::max(units.unit_radiance, radiance);
-    const double area = triangle.area * (two_sided_lights ? 2 : 1);
+    const bool measured = material.lamp != kNoMeasuredLamp;
+    const double seen = measured ? brightest[material.lamp] : 1;
+    for (const double radiance : material.emission)
+      units.unit_radiance = std::max(units.unit_radiance, radiance * seen);
+    const double area = triangle.area * (two_sided_lights && !measured ? 2 : 1);
     emitted = vec::add(emitted, vec::scale(material.emission, std::numbers::pi * area));
   }
   if (scene.sky) units.unit_radiance = std::max(units.unit_radiance, greatest_sky_radiance(*scene.sky));
@@ -43,11 +48,10 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
 }
 
 protocol::Flux patch_emission(const Scene& scene, const MeshPatch& patch, std::uint32_t side, const LightUnits& units) {
-  const SceneMaterial& material = scene.materials[patch.material];
+  const Vec3d emission = emission_of(scene, scene.materials[patch.material], side, units.two_sided_lights);
   protocol::Flux flux{};
-  if (!emits(material) || (side == 1 && !units.two_sided_lights)) return flux;
   for (std::size_t c = 0; c < 3; ++c) {
-    flux[c] = std::llround(std::numbers::pi * material.emission[c] * patch.area / units.watts_per_quantum);
+    flux[c] = std::llround(std::numbers::pi * emission[c] * patch.area / units.watts_per_quantum);
   }
   return flux;
 }
@@ -63,7 +67,7 @@ std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, co
     const Vec3d radiance = vec::scale(material.emission, 1 / units.unit_radiance);
     const double area = triangle.area * mesh.space.scale * mesh.space.scale;
     all.push_back({triangle.corner, to_float(radiance), static_cast<float>(area / std::numbers::pi), 0, t,
-                   units.two_sided_lights ? 1U : 0U});
+                   units.two_sided_lights ? 1U : 0U, material.lamp});
     flux.push_back(area * (radiance[0] + radiance[1] + radiance[2]));
     sum += flux.back();
   }
@@ -93,6 +97,8 @@ std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, co
 
 namespace {
 
+static_assert(kNoMeasuredLamp == protocol::kNoLamp);
+
 /// What a sampled direction's share of the lobe weighs, but for its cosine; see firmware/pe/glossy.hpp.
 void set_lobe(const SceneMaterial& material, protocol::Material& machine) {
   machine.kind = protocol::MaterialKind::glossy;
@@ -121,6 +127,7 @@ protocol::Material machine_material(const SceneMaterial& material, const LightUn
       machine.kind = protocol::MaterialKind::diffuse;
       machine.diffuse = to_float(material.diffuse);
       machine.emission = to_float(vec::scale(material.emission, 1 / units.unit_radiance));
+      machine.lamp = material.lamp;
       machine.emits_from_back = units.two_sided_lights && emits(material) ? 1 : 0;
       if (is_glossy(material)) set_lobe(material, machine);
       break;

@@ -12,6 +12,7 @@
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/copies.hpp"
 #include "host_tools/layout/hemicube_weights.hpp"
+#include "host_tools/layout/lamp_tables.hpp"
 #include "host_tools/layout/sky_tables.hpp"
 
 namespace torolux {
@@ -47,6 +48,7 @@ class ImageWriter {
     if (common_.hemicube.count == 0)
       put_all<protocol::HemicubeEntry>(layout_.hemicube, make_hemicube_table(layout_.hemicube_size));
     write_sky();
+    write_lamps();
     return std::move(bytes_);
   }
 
@@ -58,6 +60,7 @@ class ImageWriter {
     if (common_.emitters.count == 0 && layout_.emitters.count > 0)
       put_all<protocol::Emitter>(layout_.emitters, emitters(scene_, mesh_, units_));
     write_sky();
+    write_lamps();
     if (common_.sample_places.count == 0 && layout_.sample_places.count > 0) {
       put_all<protocol::SamplePlace>(layout_.sample_places, camera.sample_places);
       put_all<float>(layout_.filter, camera.filter);
@@ -184,6 +187,14 @@ class ImageWriter {
     if (layout_.sky_openings.count == 0) return;
     const std::vector<SkyInlet> inlets = sky_inlets(scene_, mesh_.space);
     for (std::size_t i = 0; i < inlets.size(); ++i) put(layout_.sky_openings, i, inlets[i].opening);
+  }
+
+  void write_lamps() {
+    if (layout_.lamps.count == 0 || common_.lamps.count > 0) return;
+    const LampTables tables = lamp_tables(scene_);
+    put_all<protocol::Lamp>(layout_.lamps, tables.lamps);
+    put_all<float>(layout_.lamp_values, tables.values);
+    if (layout_.lamp_chances.count > 0) put_all<std::uint32_t>(layout_.lamp_chances, tables.chances);
   }
 
   void write_textures() {

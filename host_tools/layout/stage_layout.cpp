@@ -210,6 +210,10 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
   layout.sky = allocator.place("sky", Lessened::nothing, parameters.sky_entries, sizeof(protocol::SkyEntry));
   layout.sky_openings = allocator.place("openings", Lessened::nothing, openings, sizeof(protocol::SkyOpening));
   layout.sky_frame = parameters.sky_frame;
+  const std::uint32_t chances = stage == Stage::radiosity ? parameters.lamp_chances : 0;
+  layout.lamps = allocator.place("lamps", Lessened::nothing, parameters.lamps, sizeof(protocol::Lamp));
+  layout.lamp_values = allocator.place("lamp values", Lessened::nothing, parameters.lamp_values, sizeof(float));
+  layout.lamp_chances = allocator.place("lamp chances", Lessened::nothing, chances, sizeof(std::uint32_t));
   result.load_end = allocator.next();
   layout.open_batches = open_batches(placement.torus.pes());
   layout.own_slots = protocol::own_slots(stage, layout.open_batches);

@@ -28,6 +28,7 @@ struct StageParameters {
   std::uint32_t layers = 0;                         ///< as protocol::StageLayout
   std::uint32_t sky_entries = 0, sky_openings = 0;  ///< likewise
   protocol::SkyFrame sky_frame{};
+  std::uint32_t lamps = 0, lamp_values = 0, lamp_chances = 0;  ///< measured ones
   std::uint32_t pixel_samples = 0, filter_entries = 0;  ///< of the camera rays that PEs make; 0: the host makes them
 };
 

@@ -87,10 +87,11 @@ void choose_sides(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
   triangles.reserve(mesh.triangles.size());
   for (const MeshTriangle& triangle : mesh.triangles) {
     const SceneMaterial& material = scene.materials[triangle.material];
-    const std::uint8_t lit =
-        choice.two_sided_lights ? (kFrontPresent | kBackPresent) : static_cast<std::uint8_t>(kFrontPresent);
-    triangles.push_back(
-        {triangle.position, material.kind != SurfaceKind::glass, emits(material) ? lit : static_cast<std::uint8_t>(0)});
+    const auto lit = [&](std::size_t side, std::uint8_t bit) {
+      return emits_from(scene, material, side, choice.two_sided_lights) ? bit : std::uint8_t{0};
+    };
+    triangles.push_back({triangle.position, material.kind != SurfaceKind::glass,
+                         static_cast<std::uint8_t>(lit(0, kFrontPresent) | lit(1, kBackPresent))});
   }
   const std::vector<std::uint8_t> sides = lit_sides(positions, triangles, scene.sky.has_value());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -97,6 +97,31 @@ std::uint32_t SceneBuilder::add_texture_points(const ImportedMesh& mesh, const I
   return first;
 }
 
+namespace {
+
+SceneLamp placed_lamp(SceneLamp lamp, const MeshTransform& transform) {
+  const bool left_handed = vec::dot(vec::cross(lamp.x, lamp.y), lamp.nadir) > 0;
+  lamp.nadir = vec::unit(transform.normal(lamp.nadir));
+  const Vec3d along = transform.direction(lamp.x);
+  lamp.x = vec::unit(vec::subtract(along, vec::scale(lamp.nadir, vec::dot(along, lamp.nadir))));
+  lamp.y = vec::cross(lamp.x, lamp.nadir);
+  if (left_handed != transform.mirrors()) lamp.y = vec::scale(lamp.y, -1);
+  return lamp;
+}
+
+}  // namespace
+
+std::uint32_t SceneBuilder::add_lamp(const LampWeb& web, SceneLamp lamp) {
+  const auto number = [](auto& all, const auto& one) {
+    const auto same = std::ranges::find(all, one);
+    const auto place = static_cast<std::uint32_t>(same - all.begin());
+    if (same == all.end()) all.push_back(one);
+    return place;
+  };
+  lamp.web = number(webs_, web);
+  return number(lamps_, lamp);
+}
+
 void SceneBuilder::add_mesh(const ImportedMesh& mesh, std::span<const MeshEntry> instances,
                             const std::vector<MaterialOverride>& overrides) {
   const std::size_t first = materials_.size();
@@ -137,7 +162,11 @@ void SceneBuilder::add_instance(const ImportedMesh& mesh, const MeshEntry& entry
     const Place place = mesh.place_of(read);
     CutOut& cut = cuts[read.material];
     if (number[read.material] == not_yet) {
-      const ImportedMaterial material = resolve_material(mesh, read.material, entry, overrides, missing_, notices_);
+      ImportedMaterial material = resolve_material(mesh, read.material, entry, overrides, missing_, notices_);
+      if (material.material.lamp != kNoMeasuredLamp) {
+        const SceneLamp& lamp = mesh.lamps[material.material.lamp];
+        material.material.lamp = add_lamp(mesh.webs[lamp.web], placed_lamp(lamp, transform));
+      }
       number[read.material] = number_of(material);
       textures[read.material] = material.texture;
       cut = cut_out_of(material, materials_[number[read.material]]);
@@ -155,6 +184,11 @@ void SceneBuilder::add_instance(const ImportedMesh& mesh, const MeshEntry& entry
       if (cut.mask)
         refuse(place, "a cut-out with -clamp on whose texture points (vt) lie beyond its edge; take the option out");
       add_parts_at_edges(triangle, turn, place);
+      continue;
+    }
+    // A lamp's front stays where its nadir is.
+    if (materials_[triangle.material].lamp != kNoMeasuredLamp) {
+      add_turned(triangle, transform.mirrors(), place);
       continue;
     }
     if (!parts) add_turned(triangle, turn, place);

@@ -29,6 +29,9 @@ class SceneBuilder {
 
   void add_shape(const ShapeMesh& shape, const SceneMaterial& material, const Place& place);
 
+  /// lamp.web is set here. Returns what a material calls it.
+  std::uint32_t add_lamp(const LampWeb& web, SceneLamp lamp);
+
   /// Of all that was added so far.
   vec::Box bounds() const;
 
@@ -72,6 +75,8 @@ class SceneBuilder {
   std::vector<std::array<double, 2>> texture_points_;
   std::vector<SceneTriangle> triangles_;
   std::vector<SceneMaterial> materials_;
+  std::vector<LampWeb> webs_;
+  std::vector<SceneLamp> lamps_;
   std::vector<std::string> files_;
   struct Origin {
     std::uint32_t file, line;

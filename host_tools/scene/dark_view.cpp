@@ -91,7 +91,7 @@ class LightSearch {
       const auto hit = cast(origin, direction, without);
       if (!hit) return false;
       const SceneMaterial& material = material_of(hit->triangle);
-      if (emits(material) && (hit->front || two_sided_lights_)) return true;
+      if (emits_from(scene_, material, hit->front ? 0 : 1, two_sided_lights_)) return true;
       if (bounce == 0) {
         ++seen_[material.name];
         if (hit->front) sees_fronts_ = true;
@@ -135,7 +135,8 @@ class LightSearch {
       ++between_[material_of(hit->triangle).name];
       return false;
     }
-    if (two_sided_lights_ || vec::dot(way, front_normal(scene_, emitter)) < 0) return true;
+    const std::size_t side = vec::dot(way, front_normal(scene_, emitter)) < 0 ? 0 : 1;
+    if (emits_from(scene_, material_of(emitter), side, two_sided_lights_)) return true;
     ++away_[material_of(emitter).name];
     return false;
   }

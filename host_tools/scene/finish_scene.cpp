@@ -150,6 +150,8 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
   for (Vec3d& n : scene.normals) n = vec::unit(n);
   scene.materials = materials.take();
   scene.textures = textures_.take();
+  scene.webs = webs_;
+  scene.lamps = lamps_;
 }
 
 }  // namespace torolux

@@ -98,6 +98,8 @@ struct ImportedMesh {
   std::vector<std::pair<std::string, Place>> missing_libraries;
   std::vector<ImportedCamera> cameras;
   std::vector<ImportedSun> suns;
+  std::vector<LampWeb> webs;     ///< of measured lamps
+  std::vector<SceneLamp> lamps;  ///< that materials name, in the file's space
 
   Place place_of(const ImportedTriangle& triangle) const {
     return parts.empty() ? Place{file, triangle.line} : Place{parts[triangle.line], 0};

@@ -148,7 +148,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   const Brought brought = add_meshes(file, path, files, options, builder, notices);
   add_shapes(file, whole, builder);
   add_lights(file, builder);
-  add_lamps(file, builder);
+  add_lamps(file, path.parent_path(), files, builder, notices);
 
   Scene scene;
   scene.name = file.name.value_or(scene_name(path));

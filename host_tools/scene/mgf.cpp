@@ -19,7 +19,11 @@ namespace {
 class MgfReader {
  public:
   MgfReader(ImportedMesh& mesh, SceneFiles& files, Notices& notices)
-      : files_(files), notices_(notices), materials_(mesh, notices), surfaces_(mesh, materials_, vertices_, notices) {}
+      : mesh_(mesh),
+        files_(files),
+        notices_(notices),
+        materials_(mesh, notices),
+        surfaces_(mesh, materials_, vertices_, notices) {}
 
   void run(const std::filesystem::path& path, const Place& asked_at) {
     run_file(path, asked_at);
@@ -92,7 +96,7 @@ class MgfReader {
     } else if (keyword == "i") {
       include(statement);
     } else if (keyword == "ies") {
-      note_measured_lamp(statement, folder_of(statement), files_, notices_);
+      hang_lamp(statement);
     } else if (keyword != "o") {
       note_unknown(statement);
     }
@@ -117,12 +121,22 @@ class MgfReader {
     while (transforms_.next_copy());
   }
 
+  void hang_lamp(const MgfStatement& statement) {
+    const MgfLamp lamp(statement, folder_of(statement), files_, notices_);
+    const auto line = static_cast<std::uint32_t>(line_);
+    if (lamp.transform() == statement.count()) return lamp.hang(transforms_.current(), line, mesh_);
+    transforms_.open(statement, lamp.transform());
+    do lamp.hang(transforms_.current(), line, mesh_);
+    while (transforms_.next_copy());
+  }
+
   void note_unknown(const MgfStatement& statement) {
     notices_.note("an entity that MGF does not have is passed over", statement.place(), in_quotes(statement.keyword()));
   }
 
   static constexpr std::array<std::string_view, 1> kEnd{"xf"};
 
+  ImportedMesh& mesh_;
   SceneFiles& files_;
   Notices& notices_;
   MgfColours colours_;

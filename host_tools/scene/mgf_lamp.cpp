@@ -1,55 +1,79 @@
 // SPDX-License-Identifier: MIT
-// Tells of measured lamps.
+// Hangs measured lamps in the mesh. Lamps of one file that hang alike share a material.
 #include "host_tools/scene/mgf_lamp.hpp"
 
+#include <algorithm>
 #include <array>
-#include <optional>
-#include <sstream>
+#include <numbers>
 
-#include "host_tools/scene/find_file.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {
 namespace {
 
-/// Of all lamps in the luminaire. After the line TILT=NONE come their number and the lumens of each (below 0: they are
-/// not known); after TILT=INCLUDE stands first the lamp's position, a count, and as many angles and factors.
-std::optional<double> lumens_in(const std::string& text) {
-  const std::size_t tilt = text.find("TILT=");
-  if (tilt == std::string::npos) return std::nullopt;
-  const std::size_t end = text.find('\n', tilt);
-  if (end == std::string::npos) return std::nullopt;
-  std::istringstream numbers(text.substr(end));
-  double skipped = 0;
-  if (text.compare(tilt, 12, "TILT=INCLUDE") == 0) {
-    std::size_t angles = 0;
-    numbers >> skipped >> angles;
-    for (std::size_t i = 0; i < 2 * angles && numbers; ++i) numbers >> skipped;
-  }
-  double lamps = 0;
-  double lumens = 0;
-  numbers >> lamps >> lumens;
-  if (!numbers || !(lamps > 0) || !(lumens > 0)) return std::nullopt;
-  return lamps * lumens;
+/// The number of what equals `value`, put behind the others where nothing does.
+template <typename T>
+std::uint32_t number_of(std::vector<T>& all, const T& value) {
+  const auto same = std::ranges::find(all, value);
+  const auto number = static_cast<std::uint32_t>(same - all.begin());
+  if (same == all.end()) all.push_back(value);
+  return number;
 }
 
 }  // namespace
 
-void note_measured_lamp(const MgfStatement& statement, const std::filesystem::path& folder, SceneFiles& files,
-                        Notices& notices) {
+MgfLamp::MgfLamp(const MgfStatement& statement, const std::filesystem::path& folder, SceneFiles& files,
+                 Notices& notices)
+    : place_(statement.place()) {
   if (statement.count() == 0)
     statement.refuse_with("'ies' names no file; it is written ies FILE [-m FACTOR] [TRANSFORM]");
-  const std::string name(statement.word(0));
-  const std::array<std::filesystem::path, 1> folders{folder};
-  std::string told = in_quotes(name);
-  if (const auto found = find_file(name, folders, files, statement.place())) {
-    auto lumens = lumens_in(files.read(found->path, statement.place(), kMostTextBytes));
-    if (lumens && statement.count() > 2 && statement.word(1) == "-m") *lumens *= statement.number(2);
-    std::ostringstream figure;
-    if (lumens) figure << " of " << *lumens << " lumens";
-    told += figure.str();
+  name_ = statement.word(0);
+  double factor = 1;
+  if (statement.count() > 1 && statement.word(1) == "-m") {
+    if (statement.count() == 2) statement.refuse_with("-m is followed by a factor of the lamp's intensities");
+    factor = statement.number(2);
+    if (!(factor > 0 && factor <= 1e12)) statement.refuse_with("-m: a factor above 0 and at most 1e12 is allowed");
+    transform_ = 3;
   }
-  notices.note("a measured lamp (ies) is not rendered", statement.place(), told);
+  const std::array<std::filesystem::path, 1> folders{folder};
+  measured_ = load_measured_lamp(name_, folders, files, place_, notices);
+  const SceneLamp level = hung_lamp(measured_, {0, 0, -1}, std::nullopt);
+  const double area = opening_of(measured_, level, {0, 0, 0}, 1).area();
+  const double radiance = factor * (measured_.flux[0] + measured_.flux[1]) / (std::numbers::pi * area);
+  emission_ = {radiance, radiance, radiance};
+}
+
+void MgfLamp::hang(const MgfPlacement& placement, std::uint32_t line, ImportedMesh& mesh) const {
+  SceneLamp lamp = hung_lamp(measured_, {0, 0, -1}, std::nullopt);
+  lamp.x = placement.direction(lamp.x);
+  lamp.y = placement.direction(lamp.y);
+  lamp.nadir = placement.direction(lamp.nadir);
+  const ShapeMesh opening = opening_of(measured_, lamp, placement.point({0, 0, 0}), placement.scale);
+  if (mesh.triangles.size() + opening.triangles.size() > kMostTriangles)
+    refuse(place_, "more than " + std::to_string(kMostTriangles) +
+                       " triangles; make arrays (xf -a) smaller, or leave parts out");
+  lamp.web = number_of(mesh.webs, measured_.web);
+  const std::uint32_t material = material_of(lamp, {mesh.file, line}, mesh);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), opening.positions.begin(), opening.positions.end());
+  for (const ShapeMesh::Triangle& triangle : opening.triangles) {
+    ImportedTriangle out{triangle.position, {kNoNormal, kNoNormal, kNoNormal}, material, line};
+    for (std::uint32_t& p : out.position) p += first;
+    mesh.triangles.push_back(out);
+  }
+}
+
+std::uint32_t MgfLamp::material_of(const SceneLamp& lamp, const Place& place, ImportedMesh& mesh) const {
+  SceneMaterial material;
+  material.name = name_;
+  material.emission = emission_;
+  material.lamp = number_of(mesh.lamps, lamp);
+  const auto same = std::ranges::find(mesh.materials, material, &ImportedMaterial::material);
+  if (same == mesh.materials.end()) {
+    mesh.materials.push_back({material, true, place});
+    return static_cast<std::uint32_t>(mesh.materials.size() - 1);
+  }
+  return static_cast<std::uint32_t>(same - mesh.materials.begin());
 }
 
 }  // namespace torolux

@@ -26,6 +26,8 @@ struct SceneTexture {
 };
 inline constexpr std::uint32_t kNoImage = 0xFFFF'FFFFU;
 
+inline constexpr std::uint32_t kNoMeasuredLamp = 0xFFFF'FFFFU;
+
 struct SceneMaterial {
   std::string name;
   SurfaceKind kind = SurfaceKind::diffuse;
@@ -37,7 +39,9 @@ struct SceneMaterial {
   double refractive_index = 1.5;     ///< Ni of glass
   bool thin = false;                 ///< glass that is a pane of one sheet: light passes unbent, by both its faces
   bool thin_where_open = false;      ///< glass of which decide_panes is still to say where it is thin
-  Vec3d emission{0, 0, 0};           ///< Ke, radiance [W/(m^2 sr)] from the front
+  Vec3d emission{0, 0, 0};           ///< Ke, radiance [W/(m^2 sr)] from the front; of a measured lamp: its flux over
+                                     ///< pi and the area of its opening
+  std::uint32_t lamp = kNoMeasuredLamp;  ///< into Scene::lamps: how its emission depends on the direction
 
   bool operator==(const SceneMaterial&) const = default;
 };
@@ -80,6 +84,26 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// Measured intensity by direction: gamma is the angle from the lamp's nadir, the turn goes around it.
+struct LampWeb {
+  std::vector<double> gamma;  ///< degrees, 0..180, rising, at least two; 90 among them where it lies in their range.
+                              ///< Beyond them there is no light
+  std::vector<double> turn;   ///< degrees, rising from 0 to 360, where all is as at 0; or 0 alone: the same all around
+  std::vector<double> intensity;  ///< [W/sr], those of each turn together
+
+  bool operator==(const LampWeb&) const = default;
+};
+
+/// How a measured lamp hangs. x, y and nadir are of unit length and at right angles; y may be mirrored. The opening is
+/// flat, and its front looks along nadir.
+struct SceneLamp {
+  std::uint32_t web;            ///< into Scene::webs
+  Vec3d x, y, nadir;            ///< the turn begins at x and goes to y
+  std::array<double, 2> share;  ///< of its flux that leaves the front and the back; 1 together
+
+  bool operator==(const SceneLamp&) const = default;
+};
+
 /// A parallelogram through which light comes in along `along` x `across`.
 struct SkyQuad {
   Vec3d corner, along, across;
@@ -114,10 +138,24 @@ struct Scene {
   std::vector<SceneTriangle> triangles;
   std::vector<SceneMaterial> materials;
   std::vector<SceneTexture> textures;
+  std::vector<LampWeb> webs;
+  std::vector<SceneLamp> lamps;
   std::optional<Sky> sky;
   std::optional<Camera> camera;
   SceneDefaults defaults;
   std::vector<std::string> warnings;
 };
+
+/// Flux that leaves one side (0 front, 1 back) over pi and area [W/(m^2 sr)]: radiance, but of a measured lamp.
+inline Vec3d emission_of(const Scene& scene, const SceneMaterial& material, std::size_t side, bool two_sided_lights) {
+  if (!emits(material)) return {0, 0, 0};
+  if (material.lamp == kNoMeasuredLamp) return side == 0 || two_sided_lights ? material.emission : Vec3d{0, 0, 0};
+  Vec3d emission = material.emission;
+  for (double& channel : emission) channel *= scene.lamps[material.lamp].share[side];
+  return emission;
+}
+inline bool emits_from(const Scene& scene, const SceneMaterial& material, std::size_t side, bool two_sided_lights) {
+  return emission_of(scene, material, side, two_sided_lights) != Vec3d{0, 0, 0};
+}
 
 }  // namespace torolux

@@ -8,6 +8,7 @@
 
 #include "emulator/nearest_name.hpp"
 #include "host_tools/colour/colour.hpp"
+#include "host_tools/scene/measured_lamp.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {
@@ -154,7 +155,58 @@ Camera room_camera(const RoomEntry& room) {
   return camera;
 }
 
-void add_lamps(const SceneFile& file, SceneBuilder& builder) {
+namespace {
+
+/// What a measured lamp adds to: its opening, where it hangs and how it shines.
+struct HungMeasure {
+  ShapeMesh opening;
+  SceneLamp lamp;
+};
+
+/// Faces as its shape does; without one it is as large as its file says.
+HungMeasure hung_measure(const LampEntry& entry, const MeasuredLamp& measured, const vec::Box& room) {
+  std::optional<Shape> shape = entry.shape;
+  Vec3d centre = entry.centre.value_or(Vec3d{0, 0, 0});
+  Vec3d facing = entry.facing;
+  if (entry.hung) {
+    HungLamp at = *entry.hung;
+    const bool sized = at.radius > 0 || at.size[0] > 0;
+    if (!sized) at.radius = std::min(measured.length, measured.width) / 2;
+    shape = hung(at, room, entry.place);
+    if (!sized) {
+      centre = std::get<Ring>(*shape).centre;
+      facing = std::get<Ring>(*shape).normal;
+      shape.reset();
+    }
+  }
+  if (!shape) {
+    const SceneLamp lamp = hung_lamp(measured, facing, entry.along);
+    return {opening_of(measured, lamp, centre, 1), lamp};
+  }
+  if (const auto* quad = std::get_if<Quad>(&*shape)) {
+    const auto& corner = quad->corners;
+    facing = vec::cross(vec::subtract(corner[1], corner[0]), vec::subtract(corner[3], corner[0]));
+  } else {
+    facing = std::get<Ring>(*shape).normal;
+  }
+  return {tessellated(*shape, ShapeCollector::exactly(24)), hung_lamp(measured, facing, entry.along)};
+}
+
+void add_measured_lamp(const LampEntry& entry, const MeasuredLamp& measured, const vec::Box& room,
+                       SceneBuilder& builder) {
+  const HungMeasure made = hung_measure(entry, measured, room);
+  SceneMaterial material;
+  material.name = *entry.ies;
+  const double watts = entry.lumen ? *entry.lumen / kLumenPerWatt : measured.flux[0] + measured.flux[1];
+  material.emission = vec::scale(entry.colour, watts / (std::numbers::pi * made.opening.area()));
+  material.lamp = builder.add_lamp(measured.web, made.lamp);
+  builder.add_shape(made.opening, material, entry.place);
+}
+
+}  // namespace
+
+void add_lamps(const SceneFile& file, const std::filesystem::path& folder, SceneFiles& files, SceneBuilder& builder,
+               Notices& notices) {
   vec::Box room = builder.bounds();
   if (file.room) {
     room = {file.room->corner, vec::add(file.room->corner, file.room->size)};
@@ -163,6 +215,11 @@ void add_lamps(const SceneFile& file, SceneBuilder& builder) {
     const LampEntry& lamp = file.lamps[i];
     if (lamp.hung && !(vec::largest(room.extent()) > 0))
       refuse(lamp.place, "[[lamp]] with 'at' needs a [room], or something else to hang in");
+    if (lamp.ies) {
+      const std::array<std::filesystem::path, 1> folders{folder};
+      add_measured_lamp(lamp, load_measured_lamp(*lamp.ies, folders, files, lamp.place, notices), room, builder);
+      continue;
+    }
     const Shape shape = lamp.hung ? hung(*lamp.hung, room, lamp.place) : *lamp.shape;
     const ShapeMesh surface = tessellated(shape, ShapeCollector::exactly(24));
     SceneMaterial material;

@@ -14,7 +14,9 @@ void add_shapes(const SceneFile& file, const Place& whole, SceneBuilder& builder
 Camera room_camera(const RoomEntry& room);
 
 /// After all else: a lamp that is hung without a [room] hangs in the box around the scene. Throws InputError: a lamp
-/// larger than its wall, or nothing to hang it in.
-void add_lamps(const SceneFile& file, SceneBuilder& builder);
+/// larger than its wall, nothing to hang it in, or a measured lamp whose file is not there or is none. folder: where
+/// that may lie.
+void add_lamps(const SceneFile& file, const std::filesystem::path& folder, SceneFiles& files, SceneBuilder& builder,
+               Notices& notices);
 
 }  // namespace torolux

@@ -79,6 +79,15 @@ Vec3d lamp_colour(TomlTable& table) {
   return vec::scale(*colour, 1 / luminance(*colour));
 }
 
+void check_light(const TomlTable& table, const LampEntry& lamp) {
+  if (lamp.ies && lamp.radiance)
+    refuse(table.place("radiance"), "[[lamp]] 'ies' says how it shines; only 'lumen' may stand beside it");
+  if (!lamp.ies && lamp.along) refuse(table.place("along"), "[[lamp]] 'along' turns a measured lamp; it needs 'ies'");
+  if (lamp.along) check_direction(table, "along", *lamp.along);
+  if (!lamp.ies && lamp.lumen.has_value() == lamp.radiance.has_value())
+    refuse(lamp.place, "[[lamp]] needs either 'lumen' or 'radiance', or 'ies'");
+}
+
 }  // namespace
 
 RectangleKeys::RectangleKeys(TomlTable& table)
@@ -215,27 +224,33 @@ LampEntry read_lamp(TomlTable table) {
   const auto offset = table.pair("offset", -kMost, kMost);
   const auto radius = table.number("radius", kLeastLength, kMost);
   const RectangleKeys keys(table);
+  lamp.ies = table.text("ies");
+  lamp.along = table.triple("along", -kMost, kMost, false);
   table.finish();
-  if (lamp.lumen.has_value() == lamp.radiance.has_value())
-    refuse(lamp.place, "[[lamp]] needs either 'lumen' or 'radiance'");
+  check_light(table, lamp);
   if (lamp.radiance && !(vec::largest(*lamp.radiance) > 0)) refuse(lamp.place, "[[lamp]] 'radiance' is zero");
   if (offset && !at) refuse(table.place("offset"), "[[lamp]] 'offset' is from the middle of a wall; it needs 'at'");
   if (at) {
     const std::vector<std::string> names{"on the left wall",  "on the right wall", "on the floor",
                                          "under the ceiling", "on the back wall",  "on the front wall"};
-    if (keys.size().has_value() == radius.has_value() || keys.centre() || keys.facing())
+    const int sizes = (keys.size() ? 1 : 0) + (radius ? 1 : 0);
+    if (sizes > 1 || (sizes == 0 && !lamp.ies) || keys.centre() || keys.facing())
       refuse(lamp.place, "[[lamp]] with 'at' needs either 'size' or 'radius', and no place of its own");
     lamp.hung = {wall_of(table, "at", *at, names), keys.size().value_or(std::array{0.0, 0.0}), radius.value_or(0),
                  offset.value_or(std::array{0.0, 0.0})};
   } else if (radius) {
     if (!keys.centre()) refuse(lamp.place, "[[lamp]] with a 'radius' needs a 'centre', or 'at'");
     if (keys.size()) refuse(lamp.place, "[[lamp]] has both 'radius' and 'size'");
-    if (keys.facing()) {
-      check_direction(table, "facing", *keys.facing());
-      lamp.shape = Ring{*keys.centre(), *keys.facing(), 0, *radius};
+    if (keys.facing()) check_direction(table, "facing", *keys.facing());
+    if (keys.facing() || lamp.ies) {
+      lamp.shape = Ring{*keys.centre(), keys.facing().value_or(lamp.facing), 0, *radius};
     } else {
       lamp.shape = Sphere{*keys.centre(), *radius};
     }
+  } else if (lamp.ies && keys.centre() && !keys.size()) {
+    lamp.centre = keys.centre();
+    if (keys.facing()) check_direction(table, "facing", *keys.facing());
+    lamp.facing = keys.facing().value_or(lamp.facing);
   } else {
     lamp.shape = Quad{keys.corners(table)};
   }

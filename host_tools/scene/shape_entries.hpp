@@ -36,7 +36,8 @@ struct RoomEntry {
 /// A lamp at a wall of the room: a rectangle, or a disc.
 struct HungLamp {
   Wall wall;
-  std::array<double, 2> size{0, 0};    ///< along the wall: x or z, and z or y; 0 where it is a disc
+  std::array<double, 2> size{0, 0};    ///< along the wall: x or z, and z or y; 0 where it is a disc; a measured lamp
+                                       ///< with neither is as large as its file says
   double radius = 0;                   ///< of a disc
   std::array<double, 2> offset{0, 0};  ///< from the wall's centre
 };
@@ -46,7 +47,11 @@ struct LampEntry {
   std::optional<Shape> shape;  ///< where it is not hung
   Vec3d colour{1, 1, 1};       ///< linear, of luminance 1
   std::optional<double> lumen;
-  std::optional<Vec3d> radiance;  ///< [W/(m^2 sr)]; this or lumen is there
+  std::optional<Vec3d> radiance;   ///< [W/(m^2 sr)]; this or lumen is there, or it is measured
+  std::optional<std::string> ies;  ///< file of a measured lamp
+  std::optional<Vec3d> along;      ///< of a measured lamp: to where its turn begins
+  std::optional<Vec3d> centre;     ///< of a measured lamp as large as its file says, where it is not hung
+  Vec3d facing{0, -1, 0};          ///< likewise
   Place place;
 };
 

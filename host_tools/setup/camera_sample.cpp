@@ -125,7 +125,8 @@ class CameraFollower {
     const EmitterPoints::Point target = emitters_.point(chance);
     const Vec3d there = vec::subtract(target.place, from.ray.origin);
     if (!(vec::length(there) > 0) || !(vec::dot(there, normal) > 0)) return;
-    if (!choice_.two_sided_lights && !(vec::dot(there, normal_of(*target.triangle)) < 0)) return;
+    const std::size_t side = vec::dot(there, normal_of(*target.triangle)) < 0 ? 0 : 1;
+    if (!emits_from(scene_, scene_.materials[target.triangle->material], side, choice_.two_sided_lights)) return;
     PathCost::Cell cell = from.cell;
     const Meeting met = cost_.walk({from.ray.origin, vec::unit(there)}, cell);
     if (met.triangle == target.triangle) cost_.work().deposits += 1;

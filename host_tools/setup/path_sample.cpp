@@ -125,6 +125,14 @@ class Follower {
   double flux_ = 0;
 };
 
+/// Normal of the side from which light leaves; of a measured lamp one or the other by its flux.
+Vec3d side_that_shines(const Scene& scene, const MeshTriangle& triangle, Chance& chance) {
+  const Vec3d normal = normal_of(triangle);
+  const std::uint32_t lamp = scene.materials[triangle.material].lamp;
+  if (lamp == kNoMeasuredLamp || chance.uniform() < scene.lamps[lamp].share[0]) return normal;
+  return vec::scale(normal, -1);
+}
+
 }  // namespace
 
 LightSample sample_light(const Scene& scene, const Mesh& mesh, const Placement& placement, std::uint32_t bounces,
@@ -137,7 +145,7 @@ LightSample sample_light(const Scene& scene, const Mesh& mesh, const Placement& 
   Chance chance;
   for (std::uint32_t i = 0; i < count; ++i) {
     const EmitterPoints::Point point = emitters.point(chance);
-    std::optional<Start> at = Start{point.place, normal_of(*point.triangle), 1};
+    std::optional<Start> at = Start{point.place, side_that_shines(scene, *point.triangle, chance), 1};
     for (std::uint32_t reflection = 0; at && reflection <= kReflections; ++reflection) {
       at = (reflection == 0 ? emitted : reflected).follow(*at, chance);
     }

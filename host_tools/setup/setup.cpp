@@ -11,6 +11,7 @@
 #include "firmware/protocol/cells.hpp"
 #include "firmware/protocol/random.hpp"
 #include "host_tools/camera/pixel_samples.hpp"
+#include "host_tools/layout/lamp_tables.hpp"
 #include "host_tools/layout/sky_tables.hpp"
 #include "host_tools/settings/options.hpp"
 #include "host_tools/setup/placements.hpp"
@@ -57,7 +58,8 @@ constexpr double kFaintestRecord = 0.2;
 void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality, StageParameters& parameters) {
   auto emitting = static_cast<double>(parameters.sky_openings);
   for (const MeshPatch& patch : mesh.patches) {
-    if (emits(scene.materials[patch.material])) emitting += quality.two_sided_lights ? 2.0 : 1.0;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+      emitting += emits_from(scene, scene.materials[patch.material], side, quality.two_sided_lights) ? 1.0 : 0.0;
   }
   const double wanted = std::sqrt(quality.emission_records / (protocol::hemicube_pixels(quality.hemicube) * emitting));
   parameters.shot_points = quality.shot_points;
@@ -126,6 +128,10 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   setup.parameters.sky_frame = sky.frame;
   setup.parameters.sky_entries = static_cast<std::uint32_t>(sky.entries.size());
   setup.parameters.sky_openings = static_cast<std::uint32_t>(sky_inlets(scene, setup.mesh.space).size());
+  const LampTables lamps = lamp_tables(scene);
+  setup.parameters.lamps = static_cast<std::uint32_t>(lamps.lamps.size());
+  setup.parameters.lamp_values = static_cast<std::uint32_t>(lamps.values.size());
+  setup.parameters.lamp_chances = static_cast<std::uint32_t>(lamps.chances.size());
   choose_points(scene, setup.mesh, quality, setup.parameters);
   setup.parameters.pixel_scale = kPixelScale;
   setup.parameters.layers = quality.layers;

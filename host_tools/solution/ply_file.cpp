@@ -68,8 +68,8 @@ class PlyWriter {
 
   float radiosity(const MeshPatch& patch, std::uint32_t side, float irradiance_over_pi, std::size_t channel) const {
     const double reflected = std::ldexp(patch.reflectance[channel], -32) * static_cast<double>(irradiance_over_pi);
-    const bool emits_here = side == 0 || units_.two_sided_lights;
-    const double emitted = emits_here ? scene_.materials[patch.material].emission[channel] / units_.unit_radiance : 0;
+    const SceneMaterial& material = scene_.materials[patch.material];
+    const double emitted = emission_of(scene_, material, side, units_.two_sided_lights)[channel] / units_.unit_radiance;
     return static_cast<float>((reflected + emitted) * units_.unit_radiance * std::numbers::pi);
   }
 

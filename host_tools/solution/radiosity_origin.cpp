@@ -172,6 +172,16 @@ void add_sky(const Sky& sky, Hash& hash) {
     for (const Vec3d& v : {quad.corner, quad.along, quad.across}) hash.add(v);
 }
 
+void add_lamps(const Scene& scene, Hash& hash) {
+  for (const SceneLamp& lamp : scene.lamps) {
+    hash.add(std::uint64_t{lamp.web});
+    for (const Vec3d& axis : {lamp.x, lamp.y, lamp.nadir}) hash.add(axis);
+  }
+  for (const LampWeb& web : scene.webs)
+    for (const auto* values : {&web.gamma, &web.turn, &web.intensity})
+      for (const double value : *values) hash.add(value);
+}
+
 std::uint64_t hash_of_materials(const Scene& scene) {
   Hash materials;
   for (const SceneMaterial& material : scene.materials) {
@@ -183,6 +193,7 @@ std::uint64_t hash_of_materials(const Scene& scene) {
     materials.add(material.transmittance);
     materials.add(material.refractive_index);
     materials.add(material.emission);
+    if (material.lamp != kNoMeasuredLamp) materials.add(std::uint64_t{material.lamp});
   }
   for (const SceneTexture& texture : scene.textures) {
     materials.add((std::uint64_t{texture.width} << 32U) | texture.height);
@@ -190,6 +201,7 @@ std::uint64_t hash_of_materials(const Scene& scene) {
       materials.add((std::uint64_t{r} << 16U) | (std::uint64_t{g} << 8U) | b);
   }
   if (scene.sky) add_sky(*scene.sky, materials);
+  add_lamps(scene, materials);
   return materials.value();
 }
 

@@ -44,6 +44,10 @@ std::uint64_t hash_of(const Scene& scene, const View& view, const std::array<std
     hash.add(static_cast<std::uint64_t>(material.kind));
     for (const Vec3d& v : {material.diffuse, material.specular, material.transmittance, material.emission}) hash.add(v);
     hash.add(material.refractive_index);
+    if (material.lamp == kNoMeasuredLamp) continue;
+    const SceneLamp& lamp = scene.lamps[material.lamp];
+    for (const Vec3d& axis : {lamp.x, lamp.y, lamp.nadir}) hash.add(axis);
+    for (const double intensity : scene.webs[lamp.web].intensity) hash.add(intensity);
   }
   hash.add(view.camera.eye);
   hash.add(view.camera.look_at);

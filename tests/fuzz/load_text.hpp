@@ -14,10 +14,11 @@
 
 namespace torolux {
 
-enum class SceneText { obj, mtl, mgf, scene_toml, texture, gltf };
+enum class SceneText { obj, mtl, mgf, scene_toml, texture, gltf, ies };
 
 inline std::map<std::string, std::string> scene_with(SceneText kind, const std::string& text) {
   const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n";
+  const std::string lamp = "TILT=NONE\n1 1000 1 2 1 1 1 0 0 0\n1 1 1\n0 90\n0\n100 50\n";
   const std::string library = "newmtl white\nKd .5 .5 .5\nnewmtl light\nKe 1 1 1\nnewmtl glass\nillum 7\nNi 1.5\n";
   switch (kind) {
     case SceneText::obj:
@@ -28,7 +29,10 @@ inline std::map<std::string, std::string> scene_with(SceneText kind, const std::
     case SceneText::mgf:
       return {{"fuzz.mgf", text},
               {"a.inc", "v a =\np 0 0 0\nn 0 0 1\nv b =\np 1 0 0\nv c =\np 1 1 0\nm light =\ned 100\nf a b c\n"},
-              {"a.ies", "TILT=NONE\n1 1000 1 1 1 1 1 0 0 0\n"}};
+              {"a.ies", lamp}};
+    case SceneText::ies:
+      return {{"a.mgf", "v a =\np 0 0 0\nv b =\np 1 0 0\nv c =\np 1 1 0\nm white =\nrd 0.5\nf a b c\nies fuzz.ies\n"},
+              {"fuzz.ies", text}};
     case SceneText::texture:
       return {{"fuzz.obj", "mtllib a.mtl\n" + quad + "vt 0 0\nvt 2 0\nvt 2 2\nusemtl m\nf 1/1 2/2 3/3\n"},
               {"a.mtl", "newmtl m\nKd .5 .5 .5\nmap_Kd fuzz.png\n"},
@@ -40,7 +44,8 @@ inline std::map<std::string, std::string> scene_with(SceneText kind, const std::
   }
   return {{"fuzz.toml", text},
           {"a.obj", "mtllib a.mtl\n" + quad + "usemtl white\nf 1 2 3\nusemtl light\nf 1 3 4\n"},
-          {"a.mtl", library}};
+          {"a.mtl", library},
+          {"a.ies", lamp}};
 }
 
 /// true: loaded. Ends the program where a message does not begin with one of the files.
@@ -52,6 +57,7 @@ inline bool load_text(SceneText kind, const std::string& text, bool studio) {
     const char* const named = kind == SceneText::scene_toml ? "fuzz.toml"
                               : kind == SceneText::gltf     ? "fuzz.gltf"
                               : kind == SceneText::mgf      ? "fuzz.mgf"
+                              : kind == SceneText::ies      ? "a.mgf"
                                                             : "fuzz.obj";
     const Scene scene = load_scene_from(files, named, options);
     for (const SceneTriangle& triangle : scene.triangles)
@@ -61,7 +67,7 @@ inline bool load_text(SceneText kind, const std::string& text, bool studio) {
     return true;
   } catch (const InputError& error) {
     const std::string message = error.what();
-    for (const char* file : {"fuzz.", "a.obj", "a.mtl", "a.inc", "--studio"})
+    for (const char* file : {"fuzz.", "a.obj", "a.mtl", "a.mgf", "a.inc", "--studio"})
       if (message.starts_with(file)) return false;
     std::cerr << "a message without a place: " << message << '\n';
     std::abort();

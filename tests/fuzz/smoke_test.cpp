@@ -29,6 +29,9 @@ TEST(FuzzSmoke, Mtl) {
 TEST(FuzzSmoke, Mgf) {
   smoke(SceneText::mgf, "mgf", 2'000);
 }
+TEST(FuzzSmoke, Ies) {
+  smoke(SceneText::ies, "ies", 10'000);
+}
 TEST(FuzzSmoke, SceneToml) {
   smoke(SceneText::scene_toml, "scene_toml", 10'000);
 }

@@ -63,13 +63,14 @@ class LightPath {
     if (chosen == nullptr) return false;
     const auto [square, along] = samples_.pair(1);
     const double root = std::sqrt(square);
-    const bool front = !world_.emits_from_back() || side < 0.5;
+    const bool both = world_.shines_around(chosen->triangle);
+    const bool front = !both || side < 0.5;
     const Hit from = world_.at(chosen->triangle, root * (1 - along), root * along, front);
     const Triangle& triangle = world_.triangles()[chosen->triangle];
     const auto [height, turn] = samples_.pair(2);
     const Vec out = around(front ? triangle.normal : Vec(-triangle.normal), std::sqrt(1 - height), turn);
-    const double sides = world_.emits_from_back() ? 2 : 1;
-    weight_ = world_.emission_at(from) * (sides * std::numbers::pi * triangle.area * all / chosen->power);
+    const double sides = both ? 2 : 1;
+    weight_ = world_.emission_at(from, out) * (sides * std::numbers::pi * triangle.area * all / chosen->power);
     brightest_ = weight_.maxCoeff();
     go(from, out);
     return true;

@@ -144,6 +144,7 @@ class Path {
     weight_ *= reflection.value(out) * (cosine / density);
     go(hit, out);
     density_ = density;
+    scattered_ = true;
     return (weight_ > 0).any();
   }
 
@@ -161,19 +162,21 @@ class Path {
     const Vec out = way / std::sqrt(distance2);
     const double cos_emitter = -out.dot(triangle.normal);
     const double cosine = reflection.cosine(out);
-    if (cosine <= 0 || cos_emitter == 0 || (cos_emitter < 0 && !world_.emits_from_back())) return;
+    if (cosine <= 0 || cos_emitter == 0 || (cos_emitter < 0 && !world_.shines_around(emitter.triangle))) return;
     const Vec origin = world_.leave(hit, out);
     const Colour through = passed(world_, origin, target.point, hit.triangle, emitter.triangle);
     if ((through == 0).all()) return;
     const double density = emitter.density * distance2 / std::fabs(cos_emitter);
     const double share = finding_ == LightFinding::both ? power(density, reflection.density(out)) : 1;
     light_ += weight_ * through * radiance_scale_ * reflection.value(out) *
-              world_.emission_at({target.triangle, 0, 0, cos_emitter > 0, target.point}) * (cosine / density * share);
+              world_.emission_at({target.triangle, 0, 0, cos_emitter > 0, target.point}, -out) *
+              (cosine / density * share);
   }
 
   /// What the emitter that the path has come upon adds.
   void meet_emitter(const Hit& hit) {
-    if ((world_.emission_at(hit) == 0).all()) return;
+    const Colour emission = scattered_ ? world_.emission_at(hit, -direction_) : world_.emission_seen(hit, -direction_);
+    if ((emission == 0).all()) return;
     if (caustics_ == Caustics::from_light && sees_diffuse_ && density_ == 0) return;
     double share = 1;
     if (density_ > 0) {
@@ -184,7 +187,7 @@ class Path {
         share = power(density_, world_.light_density(vertex_, hit) * distance2 / cosine);
       }
     }
-    light_ += weight_ * radiance_scale_ * world_.emission_at(hit) * share;
+    light_ += weight_ * radiance_scale_ * emission * share;
   }
 
   static double power(double mine, double other) {
@@ -214,6 +217,7 @@ class Path {
   Caustics caustics_;
   Samples& samples_;
   std::optional<DistantLight> far_;
+  bool scattered_ = false;     // since it left the eye
   bool sees_diffuse_ = false;  // the camera, at the path's first turn
   Vec vertex_ = Vec::Zero();   // where the path was last turned
   Vec origin_ = Vec::Zero();   // the same, off the surface

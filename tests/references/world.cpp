@@ -19,6 +19,7 @@ Material read_material(const SceneMaterial& from) {
   material.diffuse = colour(from.diffuse);
   material.texture = from.texture;
   material.emission = colour(from.emission);
+  material.lamp = from.lamp;
   switch (from.kind) {
     case SurfaceKind::diffuse:
       if (!is_glossy(from)) break;
@@ -161,6 +162,7 @@ World::World(const Scene& scene, std::vector<Material> materials, bool two_sided
   caster_ = std::make_unique<RayCaster>(triangles_);
   // Some 30 units in the last place of the greatest coordinate.
   offset_ = 4e-6 * caster_->size;
+  for (const SceneLamp& lamp : scene.lamps) lamps_.emplace_back(scene.webs[lamp.web], lamp);
   collect_emitters();
 }
 
@@ -179,7 +181,8 @@ void World::collect_emitters() {
     const double power = materials_[triangle.material].emission.mean() * triangle.area;
     if (!(power > 0)) continue;
     emitter_of_[t] = static_cast<std::uint32_t>(emitters_.size());
-    emitters_.push_back({t, power, (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3});
+    const bool around = two_sided_lights_ || materials_[triangle.material].lamp != kNoMeasuredLamp;
+    emitters_.push_back({t, power, around, (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3});
   }
 }
 
@@ -187,7 +190,7 @@ void World::collect_emitters() {
 double World::expected_light(const Emitter& emitter, const Vec& point) const {
   const Triangle& triangle = triangles_[emitter.triangle];
   const Vec way = point - emitter.centre;
-  if (!two_sided_lights_ && way.dot(triangle.normal) <= 0) return 0;
+  if (!emitter.around && way.dot(triangle.normal) <= 0) return 0;
   return emitter.power / (way.squaredNorm() + triangle.area);
 }
 
@@ -218,12 +221,27 @@ Colour World::diffuse_at(const Hit& hit) const {
   return surface.diffuse * sum;
 }
 
-Colour World::emission_at(const Hit& hit) const {
-  return hit.front || two_sided_lights_ ? material(hit).emission : Colour::Zero();
+Colour World::emission(const Hit& hit, const Vec& out, double least_cosine) const {
+  const Material& surface = material(hit);
+  if (surface.lamp == kNoMeasuredLamp) return hit.front || two_sided_lights_ ? surface.emission : Colour::Zero();
+  const double cosine = std::fabs(out.dot(triangles_[hit.triangle].normal));
+  return surface.emission * (lamps_[surface.lamp].intensity(out) / std::max(cosine, least_cosine));
+}
+
+Colour World::emission_at(const Hit& hit, const Vec& out) const {
+  return emission(hit, out, 1e-9);
+}
+
+Colour World::emission_seen(const Hit& hit, const Vec& out) const {
+  return emission(hit, out, 0.125);
+}
+
+bool World::shines_around(std::uint32_t triangle) const {
+  return emitter_of_[triangle] != kNoTriangle && emitters_[emitter_of_[triangle]].around;
 }
 
 double World::light_density(const Vec& point, const Hit& hit) const {
-  if ((!hit.front && !two_sided_lights_) || emitter_of_[hit.triangle] == kNoTriangle) return 0;
+  if (emitter_of_[hit.triangle] == kNoTriangle || (!hit.front && !shines_around(hit.triangle))) return 0;
   double all = 0;
   for (const Emitter& emitter : emitters_) all += expected_light(emitter, point);
   if (!(all > 0)) return 0;

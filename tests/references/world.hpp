@@ -12,18 +12,10 @@
 #include <vector>
 
 #include "host_tools/scene/scene.hpp"
+#include "tests/references/measured_light.hpp"
+#include "tests/references/vectors.hpp"
 
 namespace torolux::references {
-
-using Vec = Eigen::Vector3d;
-using Colour = Eigen::Array3d;
-
-inline Vec vec(const Vec3d& v) {
-  return {v[0], v[1], v[2]};
-}
-inline Colour colour(const Vec3d& v) {
-  return {v[0], v[1], v[2]};
-}
 
 enum class Model : std::uint8_t { diffuse, mirror, glass, pane, glossy };
 
@@ -35,7 +27,8 @@ struct Material {
   double exponent = 0;                    ///< Ns of glossy, >= 0
   Colour transmittance = Colour::Ones();  ///< Tf of glass, at each crossing; of a pane, between its faces
   double refractive_index = 1.5;          ///< Ni of glass and pane, inside over outside
-  Colour emission = Colour::Zero();       ///< Ke, radiance [W/(m^2 sr)]
+  Colour emission = Colour::Zero();       ///< Ke, radiance [W/(m^2 sr)]; of a lamp its flux over pi and area
+  std::uint32_t lamp = kNoMeasuredLamp;   ///< that says how it depends on the direction
 };
 
 inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
@@ -60,6 +53,7 @@ struct Hit {
 struct Emitter {
   std::uint32_t triangle;
   double power;  ///< radiance * area, mean of the channels
+  bool around;   ///< shines from its back, too
   Vec centre;
 };
 
@@ -89,15 +83,18 @@ class World {
 
   /// Diffuse reflectance at a hit, the texture as its file has it, bilinear, in linear light.
   Colour diffuse_at(const Hit& hit) const;
-  /// Radiance emitted towards the side that was hit.
-  Colour emission_at(const Hit& hit) const;
+  /// Radiance emitted at a hit towards `out`, unit length, on the side that was hit.
+  Colour emission_at(const Hit& hit, const Vec& out) const;
+  /// The same as a camera sees it: a lamp seen edge on counts as turned by 7 degrees.
+  Colour emission_seen(const Hit& hit, const Vec& out) const;
+  /// From its back as well as from its front.
+  bool shines_around(std::uint32_t triangle) const;
   /// An emitter for the light at a point: near and strong ones more often, none whose back is towards it.
   /// uniform: in [0, 1).
   EmitterChoice pick_emitter(const Vec& point, double uniform) const;
   /// What pick_emitter(point) has for the triangle of a hit; 0 where it never takes that.
   double light_density(const Vec& point, const Hit& hit) const;
   const std::vector<Emitter>& emitters() const { return emitters_; }
-  bool emits_from_back() const { return two_sided_lights_; }
 
   /// The hit at (b1, b2) of a triangle.
   Hit at(std::uint32_t triangle, double b1, double b2, bool front) const;
@@ -119,11 +116,13 @@ class World {
  private:
   struct RayCaster;
   void collect_emitters();
+  Colour emission(const Hit& hit, const Vec& out, double least_cosine) const;
   double expected_light(const Emitter& emitter, const Vec& point) const;
 
   std::vector<Triangle> triangles_;
   std::vector<Material> materials_;
   std::vector<SceneTexture> textures_;
+  std::vector<MeasuredLight> lamps_;
   std::vector<Emitter> emitters_;
   std::vector<std::uint32_t> emitter_of_;  // by triangle; kNoTriangle: none
   std::optional<Sky> sky_;

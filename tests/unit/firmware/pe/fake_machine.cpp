@@ -265,6 +265,9 @@ void FakeMachine::load_stores(std::uint16_t pe, std::uint32_t niu_slots) {
   place(l.emitters, s.emitters);
   place(l.sky, s.sky);
   place(l.sky_openings, s.sky_openings);
+  place(l.lamps, s.lamps);
+  place(l.lamp_values, s.lamp_values);
+  place(l.lamp_chances, s.lamp_chances);
   l.record_slots = {next, l.own_slots + niu_slots};
   message(pe, MessageKind::configure, l);
   for (const auto& [address, bytes] : blocks) load_bytes(pe, address, bytes);

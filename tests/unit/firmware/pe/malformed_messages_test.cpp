@@ -196,9 +196,39 @@ TEST(Malformed, PointsThatDoNotHoldAreRefused) {
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = (protocol::kPointParts + 1U) << protocol::kPartShift; }),
             bad);
   EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flux[0] = (std::int64_t{1} << 56U) + 1; }), bad);
+  EXPECT_EQ(fault([](protocol::PointRecord& p) { p.flags = protocol::kLamp; }), bad) << "the scene has none";
   // As many as there are places, with the one whose records are being made.
   EXPECT_EQ(fault([](protocol::PointRecord&) {}, protocol::kPointPlaces), 0U);
   EXPECT_EQ(fault([](protocol::PointRecord&) {}, protocol::kPointPlaces + 1U), bad);
+}
+
+TEST(Malformed, PointsOfLampsThatAreNotThereOrDarkAreRefused) {
+  const auto fault = [](float lamp, std::uint8_t flags) {
+    FakeMachine machine(1);
+    machine.load(small_scene(), Stage::radiosity, 64, 1, [](PeStores& s) {
+      s.lamp_values = {1, 0, 1, 1};
+      s.lamp_chances = {0xFFFF'FFFF};
+      s.lamps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {{{1, 1, 0, 2, 0}, {}}}}};
+    });
+    machine.message(0, MessageKind::begin);
+    protocol::PointRecord p{};
+    p.kind = protocol::RecordKind::point;
+    p.origin = {0.5F, 0.5F, 0.1F};
+    p.normal = {lamp, 0, 0};
+    p.flux = {1'000, 1'000, 1'000};
+    p.flags = static_cast<std::uint8_t>(protocol::kLamp | flags);
+    return fault_of([&] {
+      send(machine, p);
+      machine.message(0, MessageKind::grant, protocol::Grant{1'000});
+      machine.run();
+    });
+  };
+  const std::uint32_t bad = code(FaultCode::bad_record);
+  EXPECT_EQ(fault(0, 0), 0U);
+  EXPECT_EQ(fault(0, protocol::kBackSide), bad);
+  EXPECT_EQ(fault(1, 0), bad);
+  EXPECT_EQ(fault(-1, 0), bad);
+  EXPECT_EQ(fault(std::numeric_limits<float>::quiet_NaN(), 0), bad);
 }
 
 TEST(Malformed, RaysThatNameWhatIsNotThereAreRefused) {

@@ -249,6 +249,40 @@ TEST(Malformed, SkiesThatDoNotHoldAreRefused) {
     EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
 }
 
+TEST(Malformed, LampsThatDoNotHoldAreRefused) {
+  const auto fault = [](const std::function<void(PeStores&)>& change) {
+    FakeMachine machine(1);
+    machine.load(small_scene(), Stage::radiosity, 64, 1, [&](PeStores& s) {
+      s.lamp_values = {1, 0.5F, 0, 2, 2, 1, 1, 0, 0};
+      s.lamp_chances = {0x4000'0000, 0x8000'0000, 0xC000'0000, 0xFFFF'FFFF};
+      s.lamps = {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {{{2, 2, 0, 3, 0}, {}}}}};
+      s.materials[0].lamp = 0;
+      change(s);
+    });
+    return fault_of([&] {
+      machine.message(0, MessageKind::begin);
+      machine.run();
+    });
+  };
+  EXPECT_EQ(fault([](PeStores&) {}), 0U);
+  const std::vector<std::function<void(PeStores&)>> changes = {
+      [](PeStores& s) { s.materials[0].lamp = 1; },
+      [](PeStores& s) { s.lamps[0].side[0].bands = protocol::kMostLampBands + 1; },
+      [](PeStores& s) { s.lamps[0].side[0].sectors = 0; },
+      [](PeStores& s) { s.lamps[0].side[0].sectors = 3; },
+      [](PeStores& s) { s.lamps[0].side[0].heights = 7; },
+      [](PeStores& s) { s.lamps[0].side[0].values = 4; },
+      [](PeStores& s) { s.lamps[0].side[0].chances = 0xFFFF'FFFFU; },
+      [](PeStores& s) {
+        s.lamps[0].side[1] = {1, 1, 0, 9, 0};
+      },
+      [](PeStores& s) { std::swap(s.lamp_chances[1], s.lamp_chances[2]); },
+      [](PeStores& s) { s.lamp_chances[3] -= 1; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
+}
+
 TEST(Malformed, TexturesThatLeaveTheirStoresAreRefused) {
   const auto fault = [](const std::function<void(PeStores&)>& change) {
     FakeMachine machine(1);

@@ -92,6 +92,9 @@ struct PeStores {
   std::vector<protocol::Emitter> emitters;  ///< ray tracing stage
   std::vector<protocol::SkyEntry> sky;      ///< none, as the openings
   std::vector<protocol::SkyOpening> sky_openings;
+  std::vector<protocol::Lamp> lamps;  ///< none, as their values and chances
+  std::vector<float> lamp_values;
+  std::vector<std::uint32_t> lamp_chances;
 
   /// Spans over these vectors, for handlers called directly.
   pe::Scene scene();

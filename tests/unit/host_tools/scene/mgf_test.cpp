@@ -276,12 +276,5 @@ TEST(Mgf, SceneTomlPlacesItAndGivesMaterials) {
   EXPECT_DOUBLE_EQ(bounds(scene).low[2], 7);
 }
 
-TEST(Mgf, MeasuredLampsAreToldWithTheirLumens) {
-  const std::string ies = "IESNA:LM-63-1995\n[TEST] x\nTILT=NONE\n2 1400 1 5 1 1 1 0 0 0\n1 1 60\n";
-  const Texts texts{{"a.mgf", kQuad + "f a b c d\nies lamp.ies -m 0.5 -t 0 0 3\nies lamp.ies\n"}, {"lamp.ies", ies}};
-  EXPECT_THAT(load_texts(texts, "a.mgf").warnings,
-              Contains("a.mgf:12: a measured lamp (ies) is not rendered: 'lamp.ies' of 1400 lumens (and 1 more)"));
-}
-
 }  // namespace
 }  // namespace torolux
