@@ -302,6 +302,8 @@ Scene retriangulated(const Scene& scene) {
   cut.triangles = scene.triangles;
   cut.materials = scene.materials;
   cut.sky = scene.sky;
+  cut.webs = scene.webs;
+  cut.lamps = scene.lamps;
   retriangulate(cut);
   return cut;
 }
