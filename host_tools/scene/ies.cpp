@@ -36,9 +36,9 @@ class IesReader {
     read_tilt(to_tilt());
     read_header();
     const std::vector<double> gamma = angles(gammas_, "vertical");
+    if (gamma.back() > 180) refuse(place(), "a vertical angle above 180 degrees; type C has 0 (straight down) to 180");
     const std::vector<double> turn = angles(turns_, "horizontal");
     const Place last_turn = place();
-    if (gamma.back() > 180) refuse(place(), "a vertical angle above 180 degrees; type C has 0 (straight down) to 180");
     read_web(gamma, turn);
     if (next_word()) notices_.note("numbers after the last intensity are passed over", place());
     close_turns(turn, last_turn);
