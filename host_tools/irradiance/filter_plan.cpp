@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "host_tools/mesh/edges.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -33,7 +32,7 @@ void FilterPlan::finish(const std::vector<bool>& kept, std::vector<Hanging> hang
   between_.assign(kept.size(), {0, 0});
   for (const Hanging& at : hanging_) between_[at.vertex] = {std::min(at.from, at.to), std::max(at.from, at.to)};
   find_bends();
-  find_regions(kept);
+  find_free(kept);
   places_ = {};
   between_ = {};
 }
@@ -108,34 +107,14 @@ void FilterPlan::add_bend(const Edge& a, const Edge& b) {
   bends_.push_back(bend);
 }
 
-void FilterPlan::find_regions(const std::vector<bool>& kept) {
-  area_.assign(kept.size(), 0);
-  std::vector<bool> fixed = kept;
-  DisjointSets sets(kept.size());
+void FilterPlan::find_free(const std::vector<bool>& kept) {
+  std::vector<bool> counts(kept.size(), false);
   for (const Triangle& triangle : triangles_) {
-    for (const std::uint32_t v : triangle.corner) {
-      area_[v] += triangle.area / 3;
-      sets.merge(triangle.corner[0], v);
-    }
+    for (const std::uint32_t v : triangle.corner) counts[v] = true;
   }
-  for (std::size_t i = hanging_.size(); i-- > 0;) {
-    const Hanging& at = hanging_[i];
-    fixed[at.vertex] = true;
-    if (!(area_[at.vertex] > 0)) continue;
-    sets.merge(at.vertex, at.from);
-    sets.merge(at.vertex, at.to);
-    area_[at.from] += area_[at.vertex] * (1 - at.along);
-    area_[at.to] += area_[at.vertex] * at.along;
-    area_[at.vertex] = 0;
-  }
-  std::vector<std::uint32_t> number(kept.size(), protocol::kNoSide);
-  for (const Triangle& triangle : triangles_) {
-    std::uint32_t& of_root = number[sets.root(triangle.corner[0])];
-    if (of_root == protocol::kNoSide) of_root = regions_++;
-    region_.push_back(of_root);
-  }
+  for (const Hanging& at : hanging_) counts[at.vertex] = false;
   for (std::uint32_t v = 0; v < kept.size(); ++v) {
-    if (!fixed[v] && area_[v] > 0) free_.push_back({v, number[sets.root(v)]});
+    if (counts[v] && !kept[v]) free_.push_back(v);
   }
 }
 

@@ -29,11 +29,6 @@ class FilterPlan {
     double curvature;                       ///< times the bend's square: its part of the integral of squared curvature
     std::array<std::uint32_t, 2> triangle;  ///< into triangles()
   };
-  /// A vertex whose light may change.
-  struct Free {
-    std::uint32_t vertex, region;
-  };
-
   /// A facet that is an element of its own. corner: its vertices; element: global.
   void add(const Mesh& mesh, std::uint32_t facet, std::uint32_t element, const std::array<std::uint32_t, 3>& corner);
   /// Once all have been added. kept: by vertex, whether it keeps the light that it has. hanging: larger elements come
@@ -43,12 +38,8 @@ class FilterPlan {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<Bend>& bends() const { return bends_; }
   const std::vector<Hanging>& hanging() const { return hanging_; }
-  const std::vector<Free>& free() const { return free_; }
-  /// By vertex: the area over which its value counts, hanging ones' shared out to the ends between which they lie.
-  const std::vector<double>& area() const { return area_; }
-  /// By triangle: what hangs together over vertices.
-  const std::vector<std::uint32_t>& region() const { return region_; }
-  std::uint32_t regions() const { return regions_; }
+  /// Vertices whose light may change.
+  const std::vector<std::uint32_t>& free() const { return free_; }
 
  private:
   struct Edge;
@@ -57,17 +48,14 @@ class FilterPlan {
   void find_bends();
   void find_part_of_longer(const std::vector<Edge>& edges, const Edge& edge);
   void add_bend(const Edge& a, const Edge& b);
-  void find_regions(const std::vector<bool>& kept);
+  void find_free(const std::vector<bool>& kept);
 
   std::vector<Triangle> triangles_;
   std::vector<std::array<Vec3d, 3>> places_;           ///< of their corners, until `finish` [user units]
   std::vector<std::array<std::uint32_t, 2>> between_;  ///< by vertex, until `finish`: where it hangs
   std::vector<Bend> bends_;
   std::vector<Hanging> hanging_;
-  std::vector<Free> free_;
-  std::vector<double> area_;
-  std::vector<std::uint32_t> region_;
-  std::uint32_t regions_ = 0;
+  std::vector<std::uint32_t> free_;
 };
 
 }  // namespace torolux

@@ -53,10 +53,10 @@ class LightFilter {
       find_scale();
       descend();
     }
-    for (const FilterPlan::Free& at : plan_.free()) {
-      for (double& light : values_[at.vertex]) light = std::max(0.0, light);
+    for (const std::uint32_t v : plan_.free()) {
+      for (double& light : values_[v]) light = std::max(0.0, light);
     }
-    hold_flux();
+    anchor(values_);
   }
 
  private:
@@ -174,13 +174,12 @@ class LightFilter {
   /// Over free vertices, scaled.
   double product(const Values& a, const Values& b) const {
     double sum = 0;
-    for (const FilterPlan::Free& at : plan_.free()) sum += vec::dot(a[at.vertex], b[at.vertex]);
+    for (const std::uint32_t v : plan_.free()) sum += vec::dot(a[v], b[v]);
     return sum;
   }
   Values scaled(const Values& errors) const {
     Values scaled(errors.size(), {0, 0, 0});
-    for (const FilterPlan::Free& at : plan_.free())
-      scaled[at.vertex] = vec::scale(errors[at.vertex], 1 / scale_[at.vertex]);
+    for (const std::uint32_t v : plan_.free()) scaled[v] = vec::scale(errors[v], 1 / scale_[v]);
     return scaled;
   }
 
@@ -193,36 +192,14 @@ class LightFilter {
       anchor(way);
       const Values pulls = pulls_of(way);
       const double along = square / product(way, pulls);
-      for (const FilterPlan::Free& at : plan_.free()) {
-        const std::uint32_t v = at.vertex;
+      for (const std::uint32_t v : plan_.free()) {
         values_[v] = vec::add(values_[v], vec::scale(way[v], along));
         missing[v] = vec::subtract(missing[v], vec::scale(pulls[v], along));
       }
       const Values next = scaled(missing);
       const double left = product(missing, next);
-      for (const FilterPlan::Free& at : plan_.free())
-        way[at.vertex] = vec::add(next[at.vertex], vec::scale(way[at.vertex], left / square));
+      for (const std::uint32_t v : plan_.free()) way[v] = vec::add(next[v], vec::scale(way[v], left / square));
       square = left;
-    }
-    anchor(values_);
-  }
-
-  /// What steps that end early, and values below zero, have left wrong of a region's flux is shared out in proportion.
-  void hold_flux() {
-    Values wanted(plan_.regions(), {0, 0, 0});
-    Values held = wanted;
-    for (std::size_t t = 0; t < plan_.triangles().size(); ++t) {
-      const FilterPlan::Triangle& triangle = plan_.triangles()[t];
-      const Vec3d missing = vec::subtract(received(triangle), flux_by(triangle, values_));
-      wanted[plan_.region()[t]] = vec::add(wanted[plan_.region()[t]], missing);
-    }
-    for (const FilterPlan::Free& at : plan_.free())
-      held[at.region] = vec::add(held[at.region], vec::scale(values_[at.vertex], plan_.area()[at.vertex]));
-    for (const FilterPlan::Free& at : plan_.free()) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double hold = held[at.region][c];
-        if (hold > 0) values_[at.vertex][c] *= std::max(0.0, 1 + wanted[at.region][c] / hold);
-      }
     }
     anchor(values_);
   }
