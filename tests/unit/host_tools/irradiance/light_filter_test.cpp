@@ -101,7 +101,7 @@ TEST(LightFilter, AStepOfLightStaysAStep) {
   const Light step = [](double x) { return x < 2 ? 1.0 : 5.0; };
   for (const auto& [least, most] : {std::pair(0.5, 1.6), std::pair(2.4, 3.5)}) {
     const Shown shown = show(step, true, 500 * kRecord, least, most);
-    EXPECT_LT(shown.spread, 0.08);  // noise is 0.12 without; a step smeared over two elements would leave 1
+    EXPECT_LT(shown.spread, 0.08);  // noise is 0.12 without, measured 0.06 and 0.02
   }
 }
 
