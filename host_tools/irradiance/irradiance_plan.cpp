@@ -29,6 +29,7 @@ class SidePlanner {
     plan_spread();
     plan_borders();
     plan_lit_sides();
+    plan_filter();
     return std::move(plan_);
   }
 
@@ -177,6 +178,21 @@ class SidePlanner {
       plan_.facets[i].of_hidden = static_cast<std::uint32_t>(plan_.hidden.size());
       plan_.hidden.push_back(at);
     }
+  }
+
+  /// Clusters have fits of their own, and what walls cut is known too badly: vertices there keep their light.
+  void plan_filter() {
+    std::vector<bool> kept(vertices_.count(), false);
+    for (std::size_t i = 0; i < plan_.facets.size(); ++i) {
+      const Facet& facet = plan_.facets[i];
+      const MeshFacet& of = mesh_.facets[number_[i]];
+      if (facet.of_cluster == SidePlan::kNone && !of.is_piece && !(of.seen < 1) && facet.of_element == 1) {
+        plan_.filter.add(mesh_, number_[i], facet.element, facet.corner);
+      } else {
+        for (const std::uint32_t v : facet.corner) kept[v] = true;
+      }
+    }
+    plan_.filter.finish(kept, plan_.anchored);
   }
 
   const Mesh& mesh_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_tools/irradiance/cluster_vertices.hpp"
+#include "host_tools/irradiance/filter_plan.hpp"
 #include "host_tools/irradiance/surface_vertices.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
@@ -60,6 +61,7 @@ struct SidePlan {
   std::uint32_t lit_places = 0;
   std::vector<Corners> hidden;  ///< lit places of the corners of what lies under a thing
   ClusterVertices clusters;
+  FilterPlan filter;  ///< of what no wall cuts
 };
 
 struct IrradiancePlan {

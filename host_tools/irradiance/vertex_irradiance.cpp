@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The plan and the elements' flux enter; sums alone are left to do: means at vertices, spread to what is narrow,
-// corrected at borders, then brought to the machine's unit of radiance.
+// corrected at borders, filtered, then brought to the machine's unit of radiance.
 #include "host_tools/irradiance/vertex_irradiance.hpp"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host_tools/irradiance/cluster_light.hpp"
+#include "host_tools/irradiance/light_filter.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -24,12 +25,13 @@ double sum_of(const Vec3d& light) {
 class SideLight {
  public:
   /// plan, flux: outlive this.
-  SideLight(const SidePlan& plan, std::span<const protocol::Flux> flux)
+  SideLight(const SidePlan& plan, std::span<const protocol::Flux> flux, double flux_of_record)
       : plan_(plan), flux_(flux), clusters_(plan.clusters, flux) {
     take_means();
     spread_and_anchor();
     follow_to_borders();
     spread_and_anchor();
+    if (flux_of_record > 0) filter_light(plan.filter, flux, flux_of_record, values_);
     note_lit_sides();
   }
 
@@ -130,14 +132,15 @@ class SideLight {
 }  // namespace
 
 VertexIrradiance make_vertex_irradiance(const IrradiancePlan& plan, std::span<const protocol::Flux> flux,
-                                        double watts_per_quantum, double unit_radiance) {
+                                        double watts_per_quantum, double unit_radiance, double flux_of_record) {
   const double factor = watts_per_quantum / (std::numbers::pi * unit_radiance);
   VertexIrradiance irradiance;
   irradiance.first = plan.first;
   irradiance.triangles.resize(plan.triangles);
   for (const SidePlan& side : plan.side) {
     irradiance.fits += side.clusters.fits();
-    const SideLight light(side, flux);
+    if (flux_of_record > 0) irradiance.filtered += kFilterPasses * side.filter.triangles().size();
+    const SideLight light(side, flux, flux_of_record);
     for (const SidePlan::Facet& facet : side.facets) {
       const std::array<Vec3d, 3> corners = light.at_corners(facet);
       auto& to = irradiance.triangles[facet.triangle].irradiance_over_pi;

@@ -16,6 +16,7 @@ struct VertexIrradiance {
   std::vector<protocol::CornerIrradiance> triangles;  ///< by facet; of each the front, then the back, as present
   std::vector<std::uint32_t> first;                   ///< by facet: into `triangles`
   std::uint64_t fits = 0;                             ///< fits of irradiance that were made for it
+  std::uint64_t filtered = 0;                         ///< facets that the filter came by, each time counted
 };
 
 /// flux: incident, by global element (Mesh::elements of them), in quanta. watts_per_quantum: of the flux.
@@ -23,8 +24,10 @@ struct VertexIrradiance {
 /// A vertex takes the flux of all elements around it on its smooth surface, divided by their area. A vertex on the edge
 /// of a larger element is anchored: it lies on the line between that element's corners. Facets of clusters share their
 /// vertices' light but for what their own normals make of it.
+/// flux_of_record: what a record carries in the mean, of the channels [quanta]; where it is known, the noise that it
+/// makes is filtered (light_filter.hpp). 0: elements' light is shown as it came.
 VertexIrradiance make_vertex_irradiance(const IrradiancePlan& plan, std::span<const protocol::Flux> flux,
-                                        double watts_per_quantum, double unit_radiance);
+                                        double watts_per_quantum, double unit_radiance, double flux_of_record = 0);
 /// With a plan for this once.
 inline VertexIrradiance make_vertex_irradiance(const Mesh& mesh, std::span<const protocol::Flux> flux,
                                                double watts_per_quantum, double unit_radiance) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host_tools/layout/stage_image.hpp"
+#include "host_tools/solution/foreseen_flux.hpp"
 #include "host_tools/stages/adaptive_phase.hpp"
 #include "host_tools/stages/load_phase.hpp"
 #include "host_tools/stages/radiosity_phase.hpp"
@@ -79,7 +80,7 @@ void RenderProgram::charge(HostPort& port, Step step) const {
   if (step == Step::load_radiosity) {
     port.work(HostWork::hemicube_entry, protocol::hemicube_weights(job_.setup.parameters.hemicube));
   } else if (step == Step::load_ray_tracing) {
-    port.work(HostWork::irradiance_triangle, irradiance_.triangles.size());
+    port.work(HostWork::irradiance_triangle, irradiance_.triangles.size() + irradiance_.filtered);
     port.work(HostWork::irradiance_fit, irradiance_.fits);
   }
 }
@@ -103,9 +104,9 @@ std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
     case Step::load_ray_tracing:
       // The plan is a matter of the mesh, and like that not charged (docs/costs.md): it is made here, as late as it can
       // be, to spare memory.
-      irradiance_ = make_vertex_irradiance(IrradiancePlan(setup.mesh),
-                                           incident_flux(*job_.solution, setup.parameters.emitters > 0),
-                                           setup.units.watts_per_quantum, setup.units.unit_radiance);
+      irradiance_ = make_vertex_irradiance(
+          IrradiancePlan(setup.mesh), foreseen_flux(setup.mesh, *job_.solution, setup.parameters.emitters > 0),
+          setup.units.watts_per_quantum, setup.units.unit_radiance, flux_of_record(*job_.solution));
       return loading(Stage::ray_tracing);
     case Step::ray_tracing:
       if (is_adaptive())

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The filter of elements' noise: what is even or rises evenly stays, noise falls, a step of light stays a step.
+#include "host_tools/irradiance/light_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "host_tools/irradiance/vertex_irradiance.hpp"
+#include "tests/unit/host_tools/test_scenes.hpp"
+
+namespace torolux {
+namespace {
+
+constexpr double kRecord = 1e6;  // quanta
+constexpr double kLight = 1e12;  // quanta in a unit of area
+
+/// A floor of 4 x 4 under a far lamp.
+Mesh floor_mesh() {
+  test::SceneBuilder builder;
+  builder.quad(builder.material({0.5, 0.5, 0.5}), {0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
+  builder.triangle(builder.material({0, 0, 0}, {1, 1, 1}), {0, 0, 9}, {0, 1, 9}, {1, 0, 9});
+  return make_mesh(builder.scene, {.patch_length = 2, .element_length = 0.2});
+}
+
+/// Of the floor's front; by the place of each element's middle, from 0 to 4 along x.
+using Light = std::function<double(double)>;
+
+double middle_of(const Mesh& mesh, const MeshFacet& facet) {
+  const auto corners = grid_corners(mesh.triangles[facet.triangle], facet.code);
+  const Vec3d middle{(corners[0][0] + corners[1][0] + corners[2][0]) / 3, 0, 0};
+  return mesh.space.to_user(middle)[0];
+}
+
+struct Shown {
+  double spread = 0;  ///< of values about the light, over the light, over corners in the middle of the floor
+  double flux = 0;    ///< that the floor shows, over what it received
+};
+
+/// chance: whether records come by chance. least, most: of x, where corners count.
+Shown show(const Light& light, bool chance, double of_record, double least, double most) {
+  const Mesh mesh = floor_mesh();
+  std::mt19937 random(7);
+  std::vector<protocol::Flux> flux(mesh.elements);
+  double received = 0;
+  for (const MeshFacet& facet : mesh.facets) {
+    if (mesh.triangles[facet.triangle].material != 0) continue;
+    const double wanted = light(middle_of(mesh, facet)) * kLight * mesh.facet_area(facet);
+    std::poisson_distribution<int> records(wanted / kRecord / 500);
+    const double came = chance ? records(random) * kRecord * 500 : wanted;
+    for (const MeshPatch& of : mesh.patches) {
+      const auto number = static_cast<std::uint32_t>(&facet - mesh.facets.data());
+      if (number < of.first_facet || number >= of.first_facet + of.facets) continue;
+      const auto quanta = static_cast<std::int64_t>(came);
+      flux[of.first_element[0] + facet.element] = {quanta, quanta, quanta};
+    }
+    received += came;
+  }
+  const VertexIrradiance shown = make_vertex_irradiance(IrradiancePlan(mesh), flux, std::numbers::pi, 1, of_record);
+  Shown result;
+  double count = 0;
+  double sum = 0;
+  for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
+    const MeshFacet& facet = mesh.facets[f];
+    if (mesh.triangles[facet.triangle].material != 0) continue;
+    const auto corners = grid_corners(mesh.triangles[facet.triangle], facet.code);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = static_cast<double>(shown.triangles[shown.first[f]].irradiance_over_pi[c][0]);
+      sum += value * mesh.facet_area(facet) / 3;
+      const double x = mesh.space.to_user(corners[c])[0];
+      if (x < least || x > most) continue;
+      const double off = value / kLight / light(x) - 1;
+      result.spread += off * off;
+      count += 1;
+    }
+  }
+  result.spread = std::sqrt(result.spread / count);
+  result.flux = sum / received;
+  return result;
+}
+
+TEST(LightFilter, WhatRisesEvenlyStays) {
+  const Shown shown = show([](double x) { return 1 + x; }, false, 500 * kRecord, 0.5, 3.5);
+  EXPECT_LT(shown.spread, 1e-3);  // a few steps do not end at the last digit
+  EXPECT_NEAR(shown.flux, 1, 1e-4);
+}
+
+TEST(LightFilter, NoiseFallsAndFluxStays) {
+  const Light even = [](double) { return 1.0; };
+  const Shown raw = show(even, true, 0, 0.5, 3.5);
+  const Shown filtered = show(even, true, 500 * kRecord, 0.5, 3.5);
+  EXPECT_LT(filtered.spread, raw.spread / 1.8);  // of the means around vertices, not of elements
+  EXPECT_NEAR(filtered.flux, 1, 1e-3);
+}
+
+TEST(LightFilter, AStepOfLightStaysAStep) {
+  const Light step = [](double x) { return x < 2 ? 1.0 : 5.0; };
+  for (const auto& [least, most] : {std::pair(0.5, 1.6), std::pair(2.4, 3.5)}) {
+    const Shown shown = show(step, true, 500 * kRecord, least, most);
+    EXPECT_LT(shown.spread, 0.08);  // noise is 0.12 without, measured 0.06 and 0.02
+  }
+}
+
+}  // namespace
+}  // namespace torolux
