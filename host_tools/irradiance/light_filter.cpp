@@ -16,8 +16,8 @@ namespace {
 constexpr double kVariance = 1.2;
 /// Noise is taken out over so many lengths of elements where light does not bend,
 constexpr double kReach = 1.5;
-/// and as much of a bend is noise that what this part of noise explains is not believed. Tuned with kReach on
-/// `cornell_box` and `interior`; half and twice as much cost 2 % of FLIP on one of them.
+/// and as much of a bend is noise that what this part of noise explains is not believed. Chosen with kReach on
+/// `cornell_box` and `interior` (docs/decisions/elements.md).
 constexpr double kDoubted = 0.03;
 /// Of weights; and steps after each. More change nothing that is seen.
 constexpr int kRounds = 4;
