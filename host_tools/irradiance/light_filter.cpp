@@ -19,6 +19,8 @@ constexpr double kReach = 1.5;
 /// and as much of a bend is noise that what this part of noise explains is not believed. Chosen with kReach on
 /// `cornell_box` and `interior` (docs/decisions/elements.md).
 constexpr double kDoubted = 0.03;
+/// No value moves by more than noise explains, in standard deviations: the tips of caustics would.
+constexpr double kMostDeviations = 2;
 /// Of weights; and steps after each. More change nothing that is seen.
 constexpr int kRounds = 4;
 constexpr int kSteps = 5;
@@ -48,14 +50,13 @@ class LightFilter {
         weight_(plan.bends().size()) {}
 
   void run() {
+    const Values before = values_;
     for (int round = 0; round < kRounds; ++round) {
       weigh_bends();
       find_scale();
       descend();
     }
-    for (const std::uint32_t v : plan_.free()) {
-      for (double& light : values_[v]) light = std::max(0.0, light);
-    }
+    hold_to_noise(before);
     anchor(values_);
   }
 
@@ -130,6 +131,22 @@ class LightFilter {
       pulls[at.vertex] = {0, 0, 0};
       pulls[at.from] = vec::add(pulls[at.from], vec::scale(pull, 1 - at.along));
       pulls[at.to] = vec::add(pulls[at.to], vec::scale(pull, at.along));
+    }
+  }
+
+  /// A value is known as well as the light of the elements around it.
+  void hold_to_noise(const Values& before) {
+    std::vector<double> area(values_.size(), 0);
+    for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
+      for (const std::uint32_t v : triangle.corner) area[v] += triangle.area;
+    }
+    for (const std::uint32_t v : plan_.free()) {
+      const double light = std::max(0.0, sum_of(before[v]));
+      const double most = kMostDeviations * std::sqrt(noise_ * light / area[v]);
+      const double moved = std::abs(sum_of(values_[v]) - sum_of(before[v]));
+      const double part = moved > most ? most / moved : 1;
+      values_[v] = vec::add(before[v], vec::scale(vec::subtract(values_[v], before[v]), part));
+      for (double& channel : values_[v]) channel = std::max(0.0, channel);
     }
   }
 

@@ -17,7 +17,8 @@ namespace torolux {
 /// that miss least of the elements' flux, bent as little as may be where they meet: a smoothing spline (Reinsch 1967)
 /// whose penalty grows with a bend's square while noise alone could make it, and with the bend itself from there on
 /// (Huber 1964; Kim, Koh, Boyd & Gorinevsky 2009, "l1 trend filtering"). So a gradient stays as it is, and an edge of
-/// light does. Where no vertex is kept, the best values hold exactly what the elements received; steps end when no more
+/// light does. No value moves by more than twice its standard deviation, so that what is narrow and bright stays, too.
+/// Where no vertex is kept, the best values hold exactly what the elements received; steps end when no more
 /// is seen of the rest (docs/decisions/elements.md).
 /// flux: by global element [quanta]. flux_of_record: in the mean, of the channels [quanta], > 0. values: by vertex,
 /// irradiance [quanta / user unit^2]: as well as is known without; changed.
