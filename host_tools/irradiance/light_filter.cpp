@@ -19,7 +19,7 @@ constexpr double kReach = 1.5;
 /// and as much of a bend is noise that what this part of noise explains is not believed. Chosen with kReach on
 /// `cornell_box` and `interior` (docs/decisions/elements.md).
 constexpr double kDoubted = 0.03;
-/// No value moves by more than noise explains, in standard deviations: the tips of caustics would.
+/// No value moves by more than noise explains, in standard deviations: the tips of caustics would rise.
 constexpr double kMostDeviations = 2;
 /// Of weights; and steps after each. More change nothing that is seen.
 constexpr int kRounds = 4;
