@@ -9,6 +9,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/inspect/light_sources.hpp"
+#include "host_tools/solution/foreseen_flux.hpp"
 
 namespace torolux {
 namespace {
@@ -23,10 +24,6 @@ CameraRays picture_rays(const Inspected& of) {
           seed};
 }
 
-std::vector<protocol::Flux> all_flux(const Solution& solution) {
-  return incident_flux(solution, false);
-}
-
 /// As the statistics name it.
 constexpr const char* name_of(protocol::Stage stage) {
   return stage == protocol::Stage::radiosity ? "radiosity" : "ray_tracing";
@@ -38,7 +35,7 @@ Inspector::Inspector(const Inspected& of)
     : of_(of), view_(of.scene, of.setup.mesh, of.setup.ray_placement, of_.setup.units, picture_rays(of)) {}
 
 Picture Inspector::picture() const {
-  return view_.picture(all_flux(of_.solution));
+  return view_.picture(foreseen_flux(of_.setup.mesh, of_.solution, false));
 }
 
 std::optional<std::uint32_t> Inspector::element_at(std::uint32_t column, std::uint32_t row) const {

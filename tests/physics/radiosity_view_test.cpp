@@ -15,6 +15,8 @@ RenderCase looked_at() {
   RenderCase of = small_cornell();
   of.quality.width = of.quality.height = 64;
   of.quality.samples = 4;
+  of.quality.max_shots = 400;  // of what is unshot pictures have an estimate, and looks have none
+  of.quality.unshot = 0.01;
   of.machine.progress_seconds = 0;
   return of;
 }
