@@ -8,9 +8,7 @@
 #include <numbers>
 
 #include "host_tools/scene/lamp_web.hpp"
-#include "tests/references/path_tracer.hpp"
-#include "tests/references/picture_error.hpp"
-#include "tests/support/render_support.hpp"
+#include "tests/physics/lit_scenes.hpp"
 
 namespace torolux::test {
 namespace {
@@ -70,14 +68,7 @@ TEST_P(Lamps, LightARoomAsThePathTracerSays) {
   room.quality.width = room.quality.height = 48;
   room.quality.samples = 16;
   room.quality.unshot = 0.005;
-  const Scene scene = load_scene(room.scene, {});
-  references::TraceChoice choice;
-  choice.width = room.quality.width;
-  choice.height = room.quality.height;
-  choice.samples = 1024;
-  const auto reference = references::trace(references::World(scene, false), scene.camera.value(), choice);
-  const RenderResult result = run_case(room);
-  const auto error = references::picture_error(result.picture, reference.picture);
+  const auto [result, error] = beside_path_tracer(room);
   EXPECT_NEAR(error.plain_mean, 0, 0.01);
   EXPECT_LT(error.rmse, GetParam() ? 0.015 : 0.03);
   EXPECT_LT(energy_error(result.figures.energy), 1e-12);
@@ -90,11 +81,7 @@ TEST(MeasuredLamp, IsTheSameOnAnyMachine) {
   one.quality.width = one.quality.height = 16;
   one.quality.samples = 4;
   one.quality.emission_records = 50'000;
-  const auto expected = bytes_of(run_case(one).picture);
-  one.machine.columns = 3;
-  one.machine.rows = 2;
-  one.machine.subspaces = {5, 1, 4};
-  EXPECT_EQ(bytes_of(run_case(one).picture), expected);
+  expect_same_on_another_machine(one);
 }
 
 // Both sides, seen straight on and edge on.
