@@ -29,10 +29,6 @@ static_assert(kFilterPasses == kRounds * (kSteps + 2));
 
 using Values = std::vector<Vec3d>;
 
-double sum_of(const Vec3d& light) {
-  return light[0] + light[1] + light[2];
-}
-
 Vec3d bend_of(const FilterPlan::Bend& bend, const Values& values) {
   Vec3d sum{0, 0, 0};
   for (std::size_t i = 0; i < bend.of.size(); ++i) sum = vec::add(sum, vec::scale(values[bend.vertex[i]], bend.of[i]));
@@ -67,7 +63,7 @@ class LightFilter {
     std::vector<double> count(values_.size(), 0);
     constexpr std::array<std::size_t, 4> corners{0, 1, 2, 3};  // where no vertex hangs: all
     for (const FilterPlan::Bend& bend : plan_.bends()) {
-      const double by = sum_of(bend_of(bend, values_));
+      const double by = vec::sum(bend_of(bend, values_));
       for (const std::size_t i : corners) {
         sum[bend.vertex[i]] += by * by;
         count[bend.vertex[i]] += 1;
@@ -96,7 +92,7 @@ class LightFilter {
       for (const std::uint32_t t : bend.triangle) {
         const FilterPlan::Triangle& triangle = plan_.triangles()[t];
         area += triangle.area;
-        for (const std::uint32_t v : triangle.corner) light += sum_of(values_[v]) / 6;
+        for (const std::uint32_t v : triangle.corner) light += vec::sum(values_[v]) / 6;
       }
       // Smoothed over `reach`, noise leaves bends of a spread of sqrt(noise) / reach^3 over a unit of length.
       const double reach = kReach * std::sqrt(area);
@@ -141,9 +137,9 @@ class LightFilter {
       for (const std::uint32_t v : triangle.corner) area[v] += triangle.area;
     }
     for (const std::uint32_t v : plan_.free()) {
-      const double light = std::max(0.0, sum_of(before[v]));
+      const double light = std::max(0.0, vec::sum(before[v]));
       const double most = kMostDeviations * std::sqrt(noise_ * light / area[v]);
-      const double moved = std::abs(sum_of(values_[v]) - sum_of(before[v]));
+      const double moved = std::abs(vec::sum(values_[v]) - vec::sum(before[v]));
       const double part = moved > most ? most / moved : 1;
       values_[v] = vec::add(before[v], vec::scale(vec::subtract(values_[v], before[v]), part));
       for (double& channel : values_[v]) channel = std::max(0.0, channel);

@@ -17,10 +17,6 @@ namespace {
 bool is_dark(const Vec3d& light) {
   return light == Vec3d{0, 0, 0};
 }
-double sum_of(const Vec3d& light) {
-  return light[0] + light[1] + light[2];
-}
-
 /// Irradiance at all vertices of one side [quanta / user unit^2].
 class SideLight {
  public:
@@ -103,7 +99,7 @@ class SideLight {
     lit_.assign(plan_.lit_places, {0, 0, 0});
     for (const SidePlan::Lit& lit : plan_.lit) {
       const Vec3d& light = values_[lit.vertex];
-      if (!is_dark(light) && sum_of(lit_[lit.place]) < sum_of(light)) lit_[lit.place] = light;
+      if (!is_dark(light) && vec::sum(lit_[lit.place]) < vec::sum(light)) lit_[lit.place] = light;
     }
   }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "host_tools/scene/mesh_transform.hpp"
+#include "host_tools/scene/number_among.hpp"
 #include "host_tools/scene/resolve_material.hpp"
 #include "host_tools/scene/rotation.hpp"
 #include "host_tools/scene/statements.hpp"
@@ -112,14 +113,8 @@ SceneLamp placed_lamp(SceneLamp lamp, const MeshTransform& transform) {
 }  // namespace
 
 std::uint32_t SceneBuilder::add_lamp(const LampWeb& web, SceneLamp lamp) {
-  const auto number = [](auto& all, const auto& one) {
-    const auto same = std::ranges::find(all, one);
-    const auto place = static_cast<std::uint32_t>(same - all.begin());
-    if (same == all.end()) all.push_back(one);
-    return place;
-  };
-  lamp.web = number(webs_, web);
-  return number(lamps_, lamp);
+  lamp.web = number_among(webs_, web);
+  return number_among(lamps_, lamp);
 }
 
 void SceneBuilder::add_mesh(const ImportedMesh& mesh, std::span<const MeshEntry> instances,

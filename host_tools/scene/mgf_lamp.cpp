@@ -6,22 +6,10 @@
 #include <array>
 #include <numbers>
 
+#include "host_tools/scene/number_among.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {
-namespace {
-
-/// The number of what equals `value`, put behind the others where nothing does.
-template <typename T>
-std::uint32_t number_of(std::vector<T>& all, const T& value) {
-  const auto same = std::ranges::find(all, value);
-  const auto number = static_cast<std::uint32_t>(same - all.begin());
-  if (same == all.end()) all.push_back(value);
-  return number;
-}
-
-}  // namespace
-
 MgfLamp::MgfLamp(const MgfStatement& statement, const std::filesystem::path& folder, SceneFiles& files,
                  Notices& notices)
     : place_(statement.place()) {
@@ -52,7 +40,7 @@ void MgfLamp::hang(const MgfPlacement& placement, std::uint32_t line, ImportedMe
   if (mesh.triangles.size() + opening.triangles.size() > kMostTriangles)
     refuse(place_, "more than " + std::to_string(kMostTriangles) +
                        " triangles; make arrays (xf -a) smaller, or leave parts out");
-  lamp.web = number_of(mesh.webs, measured_.web);
+  lamp.web = number_among(mesh.webs, measured_.web);
   const std::uint32_t material = material_of(lamp, {mesh.file, line}, mesh);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), opening.positions.begin(), opening.positions.end());
@@ -67,7 +55,7 @@ std::uint32_t MgfLamp::material_of(const SceneLamp& lamp, const Place& place, Im
   SceneMaterial material;
   material.name = name_;
   material.emission = emission_;
-  material.lamp = number_of(mesh.lamps, lamp);
+  material.lamp = number_among(mesh.lamps, lamp);
   const auto same = std::ranges::find(mesh.materials, material, &ImportedMaterial::material);
   if (same == mesh.materials.end()) {
     mesh.materials.push_back({material, true, place});

@@ -28,6 +28,9 @@ inline double dot(const Vec3d& a, const Vec3d& b) {
 inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+inline double sum(const Vec3d& a) {
+  return a[0] + a[1] + a[2];
+}
 inline double length(const Vec3d& a) {
   return std::hypot(a[0], a[1], a[2]);
 }

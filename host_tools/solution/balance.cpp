@@ -40,13 +40,24 @@ void add_patch(const Scene& scene, const MeshPatch& patch, std::size_t number, c
     add_to(sums.emitted, patch_emission(scene, patch, s, units));
     add_to(sums.incident, side.incident);
     add_to(sums.unshot_emission, side.emission);
-    for (std::size_t c = 0; c < 3; ++c) {
-      sums.unshot_reflected[c] += protocol::scale_down(side.incident[c] - side.shot[c], patch.reflectance[c]);
-    }
+    add_to(sums.unshot_reflected, unshot_reflected(side, patch));
   }
 }
 
 }  // namespace
+
+Flux sky_entered(const Solution& solution) {
+  Flux entered = solution.sky_shot;
+  for (std::size_t c = 0; c < 3; ++c) entered[c] -= solution.tally.sky_rest[c];
+  return entered;
+}
+
+Flux unshot_reflected(const SolvedSide& side, const MeshPatch& patch) {
+  Flux unshot{};
+  for (std::size_t c = 0; c < 3; ++c)
+    unshot[c] = protocol::scale_down(side.incident[c] - side.shot[c], patch.reflectance[c]);
+  return unshot;
+}
 
 EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& units, const Solution& solution) {
   Sums sums;
@@ -54,8 +65,7 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   const protocol::Tally& tally = solution.tally;
   Flux shot = solution.emitted_shot;
   add_to(shot, solution.reflected_shot);
-  Flux entered = solution.sky_shot;
-  for (std::size_t c = 0; c < 3; ++c) entered[c] -= tally.sky_rest[c];
+  const Flux entered = sky_entered(solution);
   add_to(shot, entered);
   Flux arrived = sums.incident;
   for (const Flux* part : {&tally.absorbed_specular, &tally.escaped, &tally.cut_off, &tally.back_side}) {
@@ -84,11 +94,10 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
 
 double flux_of_record(const Solution& solution) {
   if (solution.tally.rays == 0) return 0;
+  const Flux entered = sky_entered(solution);
   double sum = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    sum += static_cast<double>(solution.emitted_shot[c] + solution.reflected_shot[c] + solution.sky_shot[c] -
-                               solution.tally.sky_rest[c]);
-  }
+  for (std::size_t c = 0; c < 3; ++c)
+    sum += static_cast<double>(solution.emitted_shot[c] + solution.reflected_shot[c] + entered[c]);
   return sum / 3 / static_cast<double>(solution.tally.rays);
 }
 

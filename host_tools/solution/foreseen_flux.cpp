@@ -2,8 +2,6 @@
 // A geometric series for each channel, over the whole scene: what is unshot, times what becomes of each quantum.
 #include "host_tools/solution/foreseen_flux.hpp"
 
-#include "firmware/protocol/flux.hpp"
-
 namespace torolux {
 namespace {
 
@@ -15,9 +13,8 @@ Flux unshot_flux(const Mesh& mesh, const Solution& solution) {
   for (const MeshPatch& patch : mesh.patches) {
     for (const std::uint32_t number : patch.side) {
       if (number == protocol::kNoSide) continue;
-      const SolvedSide& side = solution.sides[number];
-      for (std::size_t c = 0; c < 3; ++c)
-        unshot[c] += protocol::scale_down(side.incident[c] - side.shot[c], patch.reflectance[c]);
+      const Flux rest = unshot_reflected(solution.sides[number], patch);
+      for (std::size_t c = 0; c < 3; ++c) unshot[c] += rest[c];
     }
   }
   return unshot;
@@ -26,10 +23,10 @@ Flux unshot_flux(const Mesh& mesh, const Solution& solution) {
 /// So much more reflected light is to come, beside what has been shot.
 std::array<double, 3> parts_to_come(const Mesh& mesh, const Solution& solution) {
   const Flux unshot = unshot_flux(mesh, solution);
+  const Flux entered = sky_entered(solution);
   std::array<double, 3> parts{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto first =
-        static_cast<double>(solution.emitted_shot[c] + solution.sky_shot[c] - solution.tally.sky_rest[c]);
+    const auto first = static_cast<double>(solution.emitted_shot[c] + entered[c]);
     const auto reflected = static_cast<double>(solution.reflected_shot[c]);
     const auto rest = static_cast<double>(unshot[c]);
     // Of all that was shot, (reflected + rest) came back to be shot again; 1 / (1 - that part) sums up all further

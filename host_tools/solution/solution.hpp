@@ -31,7 +31,7 @@ struct Solution {
   protocol::Tally tally{};              ///< of all PEs
   protocol::Flux emitted_shot{};        ///< flux of all shots of emitted light
   protocol::Flux reflected_shot{};      ///< flux of all shots of reflected light
-  protocol::Flux sky_shot{};            ///< flux of the sky's shots; what has entered is Tally::sky_rest less
+  protocol::Flux sky_shot{};            ///< flux of the sky's shots; what has entered: sky_entered
   std::uint64_t shots = 0;
 
   template <class Archive>
@@ -39,6 +39,12 @@ struct Solution {
     archive(elements, sides, tally, emitted_shot, reflected_shot, sky_shot, shots);
   }
 };
+
+/// Of the sky's shots, what has entered.
+protocol::Flux sky_entered(const Solution& solution);
+
+/// Reflected light that one side of a patch has received and not shot.
+protocol::Flux unshot_reflected(const SolvedSide& side, const MeshPatch& patch);
 
 /// [W], R G B.
 struct EnergyBalance {

@@ -221,14 +221,14 @@ TEST(Malformed, EmittersThatDoNotHoldAreRefused) {
   }
 }
 
-TEST(Malformed, SkiesThatDoNotHoldAreRefused) {
-  const auto fault = [](const std::function<void(PeStores&)>& change) {
+using Change = std::function<void(PeStores&)>;
+
+/// Stores of the small scene hold once `add` has added to them, and no more once one of the changes was made.
+void expect_refused(Stage stage, const Change& add, const std::vector<Change>& changes) {
+  const auto fault = [&](const Change& change) {
     FakeMachine machine(1);
-    machine.load(small_scene(), Stage::radiosity, 64, 1, [&](PeStores& s) {
-      for (std::uint32_t i = 1; i <= protocol::kSkyEntries; ++i)
-        s.sky.push_back({{1, 1, 1}, i * (0xFFFF'FFFFU / protocol::kSkyEntries)});
-      s.sky.back().chosen_to = 0xFFFF'FFFFU;
-      s.sky_openings = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    machine.load(small_scene(), stage, 64, 1, [&](PeStores& s) {
+      add(s);
       change(s);
     });
     return fault_of([&] {
@@ -237,7 +237,18 @@ TEST(Malformed, SkiesThatDoNotHoldAreRefused) {
     });
   };
   EXPECT_EQ(fault([](PeStores&) {}), 0U);
-  const std::vector<std::function<void(PeStores&)>> changes = {
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
+}
+
+TEST(Malformed, SkiesThatDoNotHoldAreRefused) {
+  const auto add = [](PeStores& s) {
+    for (std::uint32_t i = 1; i <= protocol::kSkyEntries; ++i)
+      s.sky.push_back({{1, 1, 1}, i * (0xFFFF'FFFFU / protocol::kSkyEntries)});
+    s.sky.back().chosen_to = 0xFFFF'FFFFU;
+    s.sky_openings = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  };
+  const std::vector<Change> changes = {
       [](PeStores& s) { s.sky.pop_back(); },
       [](PeStores& s) { s.sky.push_back(s.sky.back()); },
       [](PeStores& s) { s.sky.back().chosen_to -= 1; },
@@ -245,27 +256,17 @@ TEST(Malformed, SkiesThatDoNotHoldAreRefused) {
       [](PeStores& s) { s.sky_openings[0].along[0] = 1.5F; },
       [](PeStores& s) { s.sky_openings[0].corner[2] = -0.5F; },
   };
-  for (std::size_t i = 0; i < changes.size(); ++i)
-    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
+  expect_refused(Stage::radiosity, add, changes);
 }
 
 TEST(Malformed, LampsThatDoNotHoldAreRefused) {
-  const auto fault = [](const std::function<void(PeStores&)>& change) {
-    FakeMachine machine(1);
-    machine.load(small_scene(), Stage::radiosity, 64, 1, [&](PeStores& s) {
-      s.lamp_values = {1, 0.5F, 0, 2, 2, 1, 1, 0, 0};
-      s.lamp_chances = {0x4000'0000, 0x8000'0000, 0xC000'0000, 0xFFFF'FFFF};
-      s.lamps = {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {{{2, 2, 0, 3, 0}, {}}}}};
-      s.materials[0].lamp = 0;
-      change(s);
-    });
-    return fault_of([&] {
-      machine.message(0, MessageKind::begin);
-      machine.run();
-    });
+  const auto add = [](PeStores& s) {
+    s.lamp_values = {1, 0.5F, 0, 2, 2, 1, 1, 0, 0};
+    s.lamp_chances = {0x4000'0000, 0x8000'0000, 0xC000'0000, 0xFFFF'FFFF};
+    s.lamps = {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {{{2, 2, 0, 3, 0}, {}}}}};
+    s.materials[0].lamp = 0;
   };
-  EXPECT_EQ(fault([](PeStores&) {}), 0U);
-  const std::vector<std::function<void(PeStores&)>> changes = {
+  const std::vector<Change> changes = {
       [](PeStores& s) { s.materials[0].lamp = 1; },
       [](PeStores& s) { s.lamps[0].side[0].bands = protocol::kMostLampBands + 1; },
       [](PeStores& s) { s.lamps[0].side[0].sectors = 0; },
@@ -279,28 +280,18 @@ TEST(Malformed, LampsThatDoNotHoldAreRefused) {
       [](PeStores& s) { std::swap(s.lamp_chances[1], s.lamp_chances[2]); },
       [](PeStores& s) { s.lamp_chances[3] -= 1; },
   };
-  for (std::size_t i = 0; i < changes.size(); ++i)
-    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
+  expect_refused(Stage::radiosity, add, changes);
 }
 
 TEST(Malformed, TexturesThatLeaveTheirStoresAreRefused) {
-  const auto fault = [](const std::function<void(PeStores&)>& change) {
-    FakeMachine machine(1);
-    machine.load(small_scene(), Stage::ray_tracing, 64, 1, [&](PeStores& s) {
-      s.textures = {{4, 3, 2}};
-      s.texels.assign(14, 0);
-      s.texture_points.assign(5, {0.5F, -2});
-      s.materials[0].texture = 0;
-      for (protocol::Polygon& polygon : s.polygons) polygon.texture_points = 2;
-      change(s);
-    });
-    return fault_of([&] {
-      machine.message(0, MessageKind::begin);
-      machine.run();
-    });
+  const auto add = [](PeStores& s) {
+    s.textures = {{4, 3, 2}};
+    s.texels.assign(14, 0);
+    s.texture_points.assign(5, {0.5F, -2});
+    s.materials[0].texture = 0;
+    for (protocol::Polygon& polygon : s.polygons) polygon.texture_points = 2;
   };
-  EXPECT_EQ(fault([](PeStores&) {}), 0U);
-  const std::vector<std::function<void(PeStores&)>> changes = {
+  const std::vector<Change> changes = {
       [](PeStores& s) { s.materials[0].texture = 1; },
       [](PeStores& s) { s.textures[0].first_texel = 3; },
       [](PeStores& s) {
@@ -314,9 +305,7 @@ TEST(Malformed, TexturesThatLeaveTheirStoresAreRefused) {
       [](PeStores& s) { s.texture_points[1].u = std::numeric_limits<float>::quiet_NaN(); },
       [](PeStores& s) { s.texture_points[1].v = 1e9F; },
   };
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    EXPECT_EQ(fault(changes[i]), code(FaultCode::outside_store)) << "change " << i;
-  }
+  expect_refused(Stage::ray_tracing, add, changes);
 }
 
 }  // namespace
