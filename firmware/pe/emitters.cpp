@@ -5,6 +5,7 @@
 #include "firmware/pe/emitters.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -135,35 +136,36 @@ std::uint32_t candidates_of(const Scene& scene) {
   return emitters <= 2U ? least : std::clamp(emitters - 1U, least, kMostCandidates);
 }
 
+float brings(const EmitterSample& sample) {
+  const glm::vec3& light = sample.irradiance_over_pi;
+  return (light.x + light.y) + light.z;
+}
+
 }  // namespace
 
-bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, std::uint32_t choice,
-                    const glm::vec3& point, const glm::vec3& normal, const glm::vec3& geometric,
-                    EmitterSample& sample) {
+bool sample_emitter(const Scene& scene, const protocol::StratifiedTriple& numbers, const glm::vec3& point,
+                    const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
   const std::uint32_t candidates = candidates_of(scene);
-  float u = protocol::uniform_float(choice);
+  if (candidates == 1U) return sample_by_power(scene, {numbers.x, numbers.y}, point, normal, geometric, sample);
+  // Each has its own part of all emitters' power, so that none with as much is ever left out, and the same one in all
+  // samples of a pixel: choices that keep apart choose emitters that do.
+  const auto candidate = [&](std::uint32_t i, EmitterSample& of) {
+    const protocol::StratifiedPair here{i * (0xFFFF'FFFFU / candidates) + numbers.z / candidates,
+                                        numbers.y + i * 0x9E37'79B9U};
+    return sample_by_power(scene, here, point, normal, geometric, of);
+  };
+  std::array<float, kMostCandidates> upto{};  // what this candidate and those before it would bring
   float all = 0.0F;
-  float chosen = 0.0F;
   for (std::uint32_t i = 0; i < candidates; ++i) {
-    // Evenly over all emitters' power, so that none with a candidate's share of it is ever left out.
-    const protocol::StratifiedPair here{numbers.x + i * (0xFFFF'FFFFU / candidates), numbers.y + i * 0x9E37'79B9U};
-    EmitterSample candidate;
-    if (!sample_by_power(scene, here, point, normal, geometric, candidate)) continue;
-    const glm::vec3& light = candidate.irradiance_over_pi;
-    const float brings = (light.x + light.y) + light.z;
-    if (!(brings > 0.0F)) continue;
-    all += brings;
-    const float chance = brings / all;
-    if (u < chance) {
-      sample = candidate;
-      chosen = brings;
-      u = u / chance;
-    } else {
-      u = (u - chance) / (1.0F - chance);
-    }
+    if (EmitterSample here; candidate(i, here)) all += brings(here);
+    upto[i] = all;
   }
-  if (!(chosen > 0.0F)) return false;
-  sample.irradiance_over_pi *= all / (chosen * static_cast<float>(candidates));
+  if (!(all > 0.0F)) return false;
+  const float at = protocol::uniform_float(numbers.x) * all;
+  std::uint32_t chosen = 0;
+  while (chosen + 1U < candidates && !(at < upto[chosen])) ++chosen;
+  candidate(chosen, sample);
+  sample.irradiance_over_pi *= all / (brings(sample) * static_cast<float>(candidates));
   return true;
 }
 

@@ -16,10 +16,10 @@ struct EmitterSample {
   std::uint32_t polygon;         ///< global number of the emitter
 };
 
-/// numbers, choice: uniform, apart from each other; pairs that keep apart give points that do. normal: unit length, of
+/// numbers: uniform; triples that keep apart give emitters and points that do. normal: unit length, of
 /// the side from which the surface is seen; geometric: likewise, of the polygon without its corner normals. The scene
 /// has emitters. False: no light comes that way.
-bool sample_emitter(const Scene& scene, const protocol::StratifiedPair& numbers, std::uint32_t choice,
-                    const glm::vec3& point, const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample);
+bool sample_emitter(const Scene& scene, const protocol::StratifiedTriple& numbers, const glm::vec3& point,
+                    const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample);
 
 }  // namespace torolux::pe

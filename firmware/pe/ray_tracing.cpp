@@ -51,11 +51,12 @@ void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, cons
   pe.results.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
 }
 
-/// They keep apart over the samples of a pixel that come this way: the same bounce, with as many branches waiting.
-protocol::StratifiedPair numbers_apart(const Pe& pe, const RayRecord& record, Dimension dimension) {
+/// Key of numbers that keep apart over the samples of a pixel that come this way: the same bounce, with as many
+/// branches waiting.
+std::uint32_t way_key(const Pe& pe, const RayRecord& record, Dimension dimension) {
   const std::uint32_t pixel = protocol::hash_combine(pe.scene.layout.seed, record.pixel);
   const std::uint32_t way = protocol::hash_combine(pixel, record.bounce * 4U + record.waiting);
-  return protocol::stratified_pair(record.sample, protocol::hash_combine(way, static_cast<std::uint32_t>(dimension)));
+  return protocol::hash_combine(way, static_cast<std::uint32_t>(dimension));
 }
 
 /// From a diffuse surface on towards an emitter, if shadow rays are asked for. False: no light comes that way.
@@ -65,9 +66,10 @@ bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
   const glm::vec3 to_side = hit.front ? glm::vec3(1.0F) : glm::vec3(-1.0F);
   const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + to_vector(record.direction) * hit.t);
   EmitterSample sample;
-  if (!sample_emitter(pe.scene, numbers_apart(pe, record, Dimension::emitter),
-                      numbers_apart(pe, record, Dimension::emitter_choice).x, origin,
-                      shading_normal(pe.scene, polygon, hit) * to_side, unit_normal(polygon) * to_side, sample)) {
+  const protocol::StratifiedTriple numbers =
+      protocol::stratified_triple(record.sample, way_key(pe, record, Dimension::emitter));
+  if (!sample_emitter(pe.scene, numbers, origin, shading_normal(pe.scene, polygon, hit) * to_side,
+                      unit_normal(polygon) * to_side, sample)) {
     return false;
   }
   const glm::vec3 diffuse = diffuse_reflectance(pe.scene, polygon, hit);
@@ -175,7 +177,8 @@ bool choose_lobe(const Pe& pe, const RayRecord& record, const Hit& hit, Onward& 
   way.bounce = static_cast<std::uint8_t>(record.bounce + 1U);
   way.key = protocol::hash_combine(record.key, way.bounce);
   const glm::vec3 in = to_vector(record.direction);
-  const protocol::StratifiedPair numbers = numbers_apart(pe, record, Dimension::lobe);
+  const protocol::StratifiedPair numbers =
+      protocol::stratified_pair(record.sample, way_key(pe, record, Dimension::lobe));
   const LobeSample lobe = sample_lobe(material, in, unit_normal(polygon), shading_normal(pe.scene, polygon, hit),
                                       protocol::uniform_float(numbers.x), protocol::uniform_float(numbers.y));
   way.origin = leaving_point(polygon, to_vector(record.origin) + in * hit.t);

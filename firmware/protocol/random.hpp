@@ -34,7 +34,6 @@ enum class Dimension : std::uint32_t {
   lobe,
   lobe_height,
   lobe_turn,
-  emitter_choice,
   lens_x,
   lens_y,
 };

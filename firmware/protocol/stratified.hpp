@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Random numbers that keep apart, of a pixel's samples or of a shot's points: pairs of a (0,2)-sequence, scrambled by a
 // key. Of any 2^m of them that begin at a multiple of 2^m, one lies in each of the 2^m cells of every grid of equal
-// boxes over the unit square.
+// boxes over the unit square. Triples have a third number, of Sobol's sequence (1967): one in each of 2^m equal parts,
+// and with either of the others no more than two in any cell.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,11 @@ namespace torolux::protocol {
 /// Two numbers in units of 2^-32.
 struct StratifiedPair {
   std::uint32_t x, y;
+};
+
+/// Likewise.
+struct StratifiedTriple {
+  std::uint32_t x, y, z;
 };
 
 constexpr std::uint32_t reversed_bits(std::uint32_t x) {
@@ -44,12 +50,37 @@ constexpr std::uint32_t second_dimension(std::uint32_t index) {
   return index ^ ((index >> 16U) & 0x0000'FFFFU);
 }
 
+/// Sobol's third dimension, bits reversed: primitive polynomial x^2 + x + 1, first directions 1 and 3. Of the index the
+/// bits above 16, which move nothing by more than 2^-16, are left out: scrambling moves it as much.
+constexpr std::uint32_t third_dimension(std::uint32_t index) {
+  std::uint32_t direction = 1U << 31U;
+  std::uint32_t next = 3U << 30U;
+  std::uint32_t sum = 0;
+  for (std::uint32_t bits = index & 0xFFFFU; bits != 0; bits >>= 1U) {
+    sum ^= direction & (0U - (bits & 1U));
+    const std::uint32_t after = next ^ direction ^ (direction >> 2U);
+    direction = next;
+    next = after;
+  }
+  return reversed_bits(sum);
+}
+
+constexpr std::uint32_t shuffled(std::uint32_t sample, std::uint32_t key) {
+  return reversed_bits(scrambled(reversed_bits(sample), hash_combine(key, 0)));
+}
+
 /// sample: counted from 0. key: the same for all samples whose pairs are to keep apart. Their order is shuffled, so
 /// that pairs of different keys have nothing to do with each other.
 constexpr StratifiedPair stratified_pair(std::uint32_t sample, std::uint32_t key) {
-  const std::uint32_t index = reversed_bits(scrambled(reversed_bits(sample), hash_combine(key, 0)));
+  const std::uint32_t index = shuffled(sample, key);
   return {reversed_bits(scrambled(index, hash_combine(key, 1))),
           reversed_bits(scrambled(second_dimension(index), hash_combine(key, 2)))};
+}
+
+/// Likewise; x and y are those of stratified_pair.
+constexpr StratifiedTriple stratified_triple(std::uint32_t sample, std::uint32_t key) {
+  const StratifiedPair pair = stratified_pair(sample, key);
+  return {pair.x, pair.y, reversed_bits(scrambled(third_dimension(shuffled(sample, key)), hash_combine(key, 3)))};
 }
 
 }  // namespace torolux::protocol
