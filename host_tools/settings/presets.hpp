@@ -23,7 +23,7 @@ inline constexpr std::array<Preset, 3> kPresets{{
      {.samples = 4,
       .patch_factor = 2,
       .element_factor = 2,
-      .shot_points = 3,
+      .shot_points = 4,
       .emission_records = 500'000,
       .unshot = 0.02}},
     {"normal", "the default", {}},
@@ -33,7 +33,7 @@ inline constexpr std::array<Preset, 3> kPresets{{
       .patch_factor = 0.5,
       .element_factor = 2,
       .refine = 4,
-      .shot_points = 16,
+      .shot_points = 21,
       .emission_records = 24'000'000,
       .unshot = 0.0005}},
 }};

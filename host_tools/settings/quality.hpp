@@ -30,8 +30,8 @@ struct Quality {
   double cluster_factor = 1;
   /// Elements that are added where a draft of the solution says so, as a multiple of those without; 0: no draft.
   double refine = 0;
-  std::uint32_t hemicube = 8;     ///< pixels across the top, even, 4..256
-  std::uint32_t shot_points = 6;  ///< k: k * k points per patch
+  std::uint32_t hemicube = 6;     ///< pixels across the top, even, 4..256
+  std::uint32_t shot_points = 8;  ///< k: k * k points per patch
   /// With which all emitters together begin, about: their light casts the sharpest shadows, so that a patch that emits
   /// gets more points than one that only reflects.
   std::uint32_t emission_records = 4'000'000;

@@ -64,7 +64,7 @@ void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality,
   const double wanted = std::sqrt(quality.emission_records / (protocol::hemicube_pixels(quality.hemicube) * emitting));
   parameters.shot_points = quality.shot_points;
   parameters.emission_points =
-      static_cast<std::uint32_t>(std::clamp(std::floor(wanted), static_cast<double>(quality.shot_points),
+      static_cast<std::uint32_t>(std::clamp(std::round(wanted), static_cast<double>(quality.shot_points),
                                             static_cast<double>(protocol::kMostEmissionPoints)));
   const double points = emitting * parameters.emission_points * parameters.emission_points;
   parameters.points_per_quantum = static_cast<float>(points / (kFaintestRecord * kEmittedQuanta));
