@@ -220,7 +220,13 @@ TEST(Mgf, TransformsEndWithTheirFile) {
 // What would take longer than anybody waits, or more memory than there is, ends with a reason.
 TEST(Mgf, ArraysBeyondAllBoundsAreRefused) {
   EXPECT_THAT(refused(kQuad + "xf -a 1000000000 -t 0 0 1\nsph a 1\nxf\n"), HasSubstr("more than 4000000 triangles"));
-  EXPECT_THAT(refused("xf -a 1000000000 -t 0 0 1e-9\nxf\n"), HasSubstr("repeat more than 5,000,000 statements"));
+  const auto endless = HasSubstr("repeat more than 5000000 statements");
+  EXPECT_THAT(refused("xf -a 1000000000 -t 0 0 1e-9\nxf\n"), endless);
+  // Of files as well in which nothing stands, and of faces that make no triangles.
+  EXPECT_THAT(refusal({{"a.mgf", kQuad + "i b.inc -a 1000000000\n"}, {"b.inc", "# nothing\n"}}, "a.mgf"), endless);
+  std::string line = "f";
+  for (int i = 0; i < 1000; ++i) line += " a";
+  EXPECT_THAT(refused(kQuad + "xf -a 2000000\n" + line + "\nxf\n"), HasSubstr("more than 4000000 triangles"));
   EXPECT_THAT(refused(kQuad + "xf -i 4000000000 -t 0 0 1e9\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
   EXPECT_THAT(refused(kQuad + "xf -i 4000 -s 2\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
 }
