@@ -231,6 +231,19 @@ TEST(Mgf, ArraysBeyondAllBoundsAreRefused) {
   EXPECT_THAT(refused(kQuad + "xf -i 4000 -s 2\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
 }
 
+// What differs in each copy is compared with all that came before; what is wrong alike in all is one.
+TEST(Mgf, CopiesThatAllDifferAreRefused) {
+  const std::string drift =
+      "c x =\ncxy .2 .3\nc y =\ncxy .3 .3\nxf -a 1000000\nc z =\ncmix 1000000 x 1 y\nc x = z\nm q =\nc x\nrd .4\n"
+      "f a b c\nxf\n";
+  EXPECT_THAT(refused(kQuad + drift), HasSubstr("more than 10000 materials of one name"));
+  EXPECT_THAT(refused(kQuad + "xf -a 100000 -t 0 0 .0001\nrd 7\nf a b c\nxf\n"),
+              HasSubstr("a.mgf:12: 'rd' is 7; allowed are 0 to 1"));
+  std::string counts = "xf";
+  for (int i = 0; i < 101; ++i) counts += " -i 2 -rx 90";
+  EXPECT_THAT(refused(kQuad + counts + "\nf a b c\nxf\n"), HasSubstr("more than 100 arrays and repetitions"));
+}
+
 TEST(Mgf, MistakesSayWhereTheyAre) {
   const std::vector<std::pair<std::string, std::string>> mistakes{
       {"f a b\n", "a.mgf:11: 'f' has 2 arguments; it is written f VERTEX VERTEX VERTEX ..."},
