@@ -83,22 +83,22 @@ inline bool load_text(SceneText kind, const std::string& text, bool studio) {
 }
 
 /// The same of MGF, whose arrays and curves make much of little: it is imported with narrow limits, and only a scene of
-/// few triangles goes through all that scenes go through. One text in 256, chosen by its bytes, is not spared.
+/// few triangles goes through all that scenes go through. One text in 256, chosen by its bytes, has wider limits.
 inline bool load_mgf(const std::string& text, bool studio) {
-  if (std::hash<std::string>()(text) % 256 != 0) {
-    constexpr std::size_t most_triangles = 600;
-    MemoryFiles files(scene_with(SceneText::mgf, text));
-    Notices notices;
-    try {
-      const ImportedMesh mesh = import_mgf("fuzz.mgf", files, {"fuzz.mgf"}, notices, {10'000, 2'000});
-      for (const ImportedTriangle& triangle : mesh.triangles)
-        for (const std::uint32_t p : triangle.position)
-          if (p >= mesh.positions.size()) std::abort();
-      if (mesh.triangles.size() > most_triangles) return true;
-    } catch (const InputError& error) {
-      check_place(error);
-      return false;
-    }
+  const bool wide = std::hash<std::string>()(text) % 256 == 0;
+  const std::size_t most_triangles = wide ? 20'000 : 600;
+  MemoryFiles files(scene_with(SceneText::mgf, text));
+  Notices notices;
+  try {
+    const MgfLimits limits = wide ? MgfLimits{20'000, 100'000} : MgfLimits{10'000, 2'000};
+    const ImportedMesh mesh = import_mgf("fuzz.mgf", files, {"fuzz.mgf"}, notices, limits);
+    for (const ImportedTriangle& triangle : mesh.triangles)
+      for (const std::uint32_t p : triangle.position)
+        if (p >= mesh.positions.size()) std::abort();
+    if (mesh.triangles.size() > most_triangles) return true;
+  } catch (const InputError& error) {
+    check_place(error);
+    return false;
   }
   return load_text(SceneText::mgf, text, studio);
 }
