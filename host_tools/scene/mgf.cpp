@@ -18,12 +18,13 @@ namespace {
 
 class MgfReader {
  public:
-  MgfReader(ImportedMesh& mesh, SceneFiles& files, Notices& notices)
+  MgfReader(ImportedMesh& mesh, SceneFiles& files, Notices& notices, const MgfLimits& limits)
       : mesh_(mesh),
         files_(files),
         notices_(notices),
         materials_(mesh, notices),
-        surfaces_(mesh, materials_, vertices_, notices) {}
+        surfaces_(mesh, materials_, vertices_, notices, limits.triangles),
+        limits_(limits) {}
 
   void run(const std::filesystem::path& path, const Place& asked_at) {
     run_file(path, asked_at);
@@ -31,8 +32,6 @@ class MgfReader {
   }
 
  private:
-  /// Arrays of arrays, and files that include others twice, can ask for more work than a life has time for.
-  static constexpr std::size_t kMostRepeated = 5'000'000;
   static constexpr std::size_t kMostDepth = 100;
 
   void run_file(const std::filesystem::path& path, const Place& asked_at) {
@@ -60,10 +59,8 @@ class MgfReader {
       std::size_t& done = done_[&text];
       if (i >= done) {
         done = i + 1;
-      } else if (++repeated_ > kMostRepeated) {
-        statement.refuse_with(
-            "arrays (xf -a) and files that are included again repeat more than 5,000,000 statements; "
-            "make them smaller");
+      } else {
+        count_repeated(statement);
       }
       if (running_.size() == 1 && !ends) line_ = statement.line();
       ++i;
@@ -81,6 +78,20 @@ class MgfReader {
         if (ends) i = text.size();
       }
     }
+  }
+
+  /// Arrays of arrays, and files that include others twice, can ask for more work than a life has time for.
+  void count_repeated(const MgfStatement& statement) {
+    repeated_ += 1 + statement.count() / kWordsOfOne;
+    if (repeated_ > limits_.repeated)
+      statement.refuse_with("arrays (-a) and files that are included again repeat more than " +
+                            std::to_string(limits_.repeated) + " statements; make them smaller");
+  }
+
+  /// The innermost transform's next copy, of what one statement places.
+  bool next_copy(const MgfStatement& statement) {
+    count_repeated(statement);
+    return transforms_.next_copy();
   }
 
   void handle(const MgfStatement& statement) {
@@ -118,7 +129,7 @@ class MgfReader {
     if (statement.count() == 1) return run_file(found->path, statement.place());
     transforms_.open(statement, 1);
     do run_file(found->path, statement.place());
-    while (transforms_.next_copy());
+    while (next_copy(statement));
   }
 
   void hang_lamp(const MgfStatement& statement) {
@@ -127,7 +138,7 @@ class MgfReader {
     if (lamp.transform() == statement.count()) return lamp.hang(transforms_.current(), line, mesh_);
     transforms_.open(statement, lamp.transform());
     do lamp.hang(transforms_.current(), line, mesh_);
-    while (transforms_.next_copy());
+    while (next_copy(statement));
   }
 
   void note_unknown(const MgfStatement& statement) {
@@ -135,6 +146,7 @@ class MgfReader {
   }
 
   static constexpr std::array<std::string_view, 1> kEnd{"xf"};
+  static constexpr std::size_t kWordsOfOne = 64;  ///< a longer statement counts as several
 
   ImportedMesh& mesh_;
   SceneFiles& files_;
@@ -144,6 +156,7 @@ class MgfReader {
   MgfMaterials materials_;
   MgfSurfaces surfaces_;
   MgfTransforms transforms_;
+  const MgfLimits limits_;
   std::map<std::string, MgfText> texts_;
   std::vector<std::string> running_;                      ///< the files that include each other, the innermost last
   std::unordered_map<const MgfText*, std::size_t> done_;  ///< statements that have been carried out at least once
@@ -152,10 +165,11 @@ class MgfReader {
 
 }  // namespace
 
-ImportedMesh import_mgf(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at, Notices& notices) {
+ImportedMesh import_mgf(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at, Notices& notices,
+                        const MgfLimits& limits) {
   ImportedMesh mesh;
   mesh.file = path.string();
-  MgfReader(mesh, files, notices).run(path, asked_at);
+  MgfReader(mesh, files, notices, limits).run(path, asked_at);
   return mesh;
 }
 

@@ -10,6 +10,13 @@
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {
+namespace {
+
+/// Each is compared with all others.
+constexpr std::size_t kMostLamps = 10'000;
+
+}  // namespace
+
 MgfLamp::MgfLamp(const MgfStatement& statement, const std::filesystem::path& folder, SceneFiles& files,
                  Notices& notices)
     : place_(statement.place()) {
@@ -58,6 +65,8 @@ std::uint32_t MgfLamp::material_of(const SceneLamp& lamp, const Place& place, Im
   material.lamp = number_among(mesh.lamps, lamp);
   const auto same = std::ranges::find(mesh.materials, material, &ImportedMaterial::material);
   if (same == mesh.materials.end()) {
+    if (mesh.lamps.size() > kMostLamps)
+      refuse(place_, "more than 10000 measured lamps that hang differently; make arrays (-a) smaller");
     mesh.materials.push_back({material, true, place});
     return static_cast<std::uint32_t>(mesh.materials.size() - 1);
   }

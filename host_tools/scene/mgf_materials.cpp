@@ -7,6 +7,15 @@
 namespace torolux {
 namespace {
 
+/// Each is compared with all others of its name.
+constexpr std::size_t kMostAlike = 10'000;
+
+bool are_alike(const std::vector<MaterialFault>& some, const std::vector<MaterialFault>& others) {
+  return std::ranges::equal(some, others, [](const MaterialFault& a, const MaterialFault& b) {
+    return a.value == b.value && a.place.text() == b.place.text() && a.message == b.message;
+  });
+}
+
 /// Which value of a material a statement sets.
 struct Field {
   MgfPortion MgfMaterial::*portion;
@@ -110,10 +119,14 @@ std::uint32_t MgfMaterials::added(ImportedMaterial material) {
   std::vector<std::uint32_t>& alike = by_name_[material.material.name];
   for (const std::uint32_t number : alike) {
     const ImportedMaterial& other = mesh_.materials[number];
-    if (other.material == material.material && other.defined == material.defined && other.faults.empty() &&
-        material.faults.empty())
+    if (other.material == material.material && other.defined == material.defined &&
+        are_alike(other.faults, material.faults))
       return number;
   }
+  if (alike.size() == kMostAlike)
+    refuse(material.place,
+           "more than 10000 materials of one name: a statement repeats with other values each time; make "
+           "arrays (-a) smaller");
   alike.push_back(static_cast<std::uint32_t>(mesh_.materials.size()));
   mesh_.materials.push_back(std::move(material));
   return alike.back();

@@ -13,8 +13,6 @@ namespace {
 
 /// Greatest distance between a curved surface and its triangles, over the size of the whole; of what bends light, less.
 constexpr double kTolerance = 3e-4, kLensTolerance = 1e-5;
-const std::string kTooMany =
-    "more than " + std::to_string(kMostTriangles) + " triangles; make arrays (xf -a) smaller, or leave parts out";
 
 }  // namespace
 
@@ -80,9 +78,14 @@ void MgfSurfaces::handle(const MgfStatement& statement, const MgfPlacement& plac
   check_count(statement);
 }
 
-/// Each curved surface makes twelve triangles or more.
+std::string MgfSurfaces::too_many() const {
+  return "more than " + std::to_string(most_) + " triangles; make arrays (xf -a) smaller, or leave parts out";
+}
+
+/// Each curved surface makes twelve triangles or more. Faces of many corners and few triangles count by their corners.
 void MgfSurfaces::check_count(const MgfStatement& statement) const {
-  if (mesh_.triangles.size() + 12 * curved_.size() > kMostTriangles) statement.refuse_with(kTooMany);
+  if (std::max(mesh_.triangles.size(), mesh_.positions.size() / 3) + 12 * curved_.size() > most_)
+    statement.refuse_with(too_many());
 }
 
 MgfSurfaces::Corner MgfSurfaces::corner(const MgfStatement& statement, std::string_view name) {
@@ -244,7 +247,7 @@ void MgfSurfaces::finish() {
   std::size_t count = mesh_.triangles.size();
   for (const Curved& curved : curved_) {
     count += triangles_of(curved.shape, roundness_of(curved, size));
-    if (count > kMostTriangles) refuse({mesh_.file, curved.line}, kTooMany);
+    if (count > most_) refuse({mesh_.file, curved.line}, too_many());
   }
   for (const Curved& curved : curved_) add_curved(curved, roundness_of(curved, size));
 }

@@ -32,12 +32,13 @@ class MgfVertices {
 
 class MgfSurfaces {
  public:
-  MgfSurfaces(ImportedMesh& mesh, MgfMaterials& materials, MgfVertices& vertices, Notices& notices)
-      : mesh_(mesh), materials_(materials), vertices_(vertices), notices_(notices) {}
+  /// most: triangles, and a third of the positions; more are refused.
+  MgfSurfaces(ImportedMesh& mesh, MgfMaterials& materials, MgfVertices& vertices, Notices& notices, std::size_t most)
+      : mesh_(mesh), materials_(materials), vertices_(vertices), notices_(notices), most_(most) {}
 
   static bool knows(std::string_view keyword);
   /// line: of the mesh's own file. Throws InputError: vertices, normals or radii that are not what the shape needs,
-  /// more than kMostTriangles triangles.
+  /// too many triangles.
   void handle(const MgfStatement& statement, const MgfPlacement& placement, std::size_t line);
   /// Curved surfaces become triangles, as fine as the whole asks for.
   void finish();
@@ -63,11 +64,13 @@ class MgfSurfaces {
   void add_curved(const Curved& curved, const Roundness& roundness);
   Roundness roundness_of(const Curved& curved, double size) const;
   void check_count(const MgfStatement& statement) const;
+  std::string too_many() const;
 
   ImportedMesh& mesh_;
   MgfMaterials& materials_;
   MgfVertices& vertices_;
   Notices& notices_;
+  std::size_t most_;
   std::uint32_t material_ = 0, line_ = 0;  ///< of the surface at hand
   std::vector<Curved> curved_;
 };

@@ -18,6 +18,7 @@ constexpr const char* kForm =
 /// More are more than anybody means; and twice as much still has room.
 constexpr std::uint64_t kMostCopies = std::uint64_t{1} << 62U;
 constexpr std::size_t kMostDepth = 1000;
+constexpr std::size_t kMostCounts = 100;
 
 MgfPlacement to_the_power(MgfPlacement base, std::uint64_t times) {
   MgfPlacement result;
@@ -137,11 +138,7 @@ MgfPlacement MgfTransforms::placement_of(const Step& step) {
 
 void MgfTransforms::place(Open& open) {
   MgfPlacement total;
-  for (const Group& group : open.groups) {
-    MgfPlacement once;
-    for (const Step& step : group.steps) once = joined(once, placement_of(step));
-    total = joined(total, to_the_power(once, group.times));
-  }
+  for (const Group& group : open.groups) total = joined(total, group.all);
   const MgfPlacement& outer = &open == &open_.front() ? none_ : open_[open_.size() - 2].placement;
   open.placement = joined(total, outer);
   if (!in_range(open.placement))
@@ -150,7 +147,7 @@ void MgfTransforms::place(Open& open) {
 
 void MgfTransforms::open(const MgfStatement& statement, std::size_t first) {
   if (open_.size() == kMostDepth) statement.refuse_with("more than 1000 transforms one inside the other");
-  Open fresh{{{{}, 1, 0}}, {}, statement.place()};
+  Open fresh{{Group{1}}, {}, statement.place()};
   Arguments arguments(statement, first);
   while (arguments.more()) {
     const std::string_view text = arguments.peek();
@@ -158,11 +155,15 @@ void MgfTransforms::open(const MgfStatement& statement, std::size_t first) {
       arguments.word();
       const std::uint64_t count = arguments.count();
       if (text == "-a" && count == 0) statement.refuse_with("an array of no copies; -a COUNT is a number from 1 on");
-      fresh.groups.push_back({{}, text == "-a" ? 0 : count, text == "-a" ? count : 0});
+      if (fresh.groups.size() > kMostCounts)
+        statement.refuse_with("more than 100 arrays and repetitions (-a, -i) in one transform");
+      fresh.groups.push_back({text == "-a" ? 0 : count, text == "-a" ? count : 0});
     } else {
-      fresh.groups.back().steps.push_back(read_step(arguments));
+      MgfPlacement& once = fresh.groups.back().once;
+      once = joined(once, placement_of(read_step(arguments)));
     }
   }
+  for (Group& group : fresh.groups) group.all = to_the_power(group.once, group.times);
   open_.push_back(std::move(fresh));
   place(open_.back());
 }
@@ -172,11 +173,12 @@ bool MgfTransforms::next_copy() {
   for (std::size_t i = innermost.groups.size(); i-- > 0;) {
     Group& group = innermost.groups[i];
     if (group.copies == 0) continue;
-    if (++group.times < group.copies) {
+    group.times = (group.times + 1) % group.copies;
+    group.all = to_the_power(group.once, group.times);
+    if (group.times > 0) {
       place(innermost);
       return true;
     }
-    group.times = 0;
   }
   open_.pop_back();
   return false;

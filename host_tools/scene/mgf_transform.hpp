@@ -29,7 +29,7 @@ MgfPlacement joined(const MgfPlacement& inner, const MgfPlacement& outer);
 class MgfTransforms {
  public:
   /// Begins one; arguments from number `first` on. Throws InputError: an unknown argument, a number that is none, a
-  /// scale of zero, a count below 1, what leaves the range of numbers.
+  /// scale of zero, a count below 1, too many counts, what leaves the range of numbers.
   void open(const MgfStatement& statement, std::size_t first);
   /// Goes on to the innermost's next copy: true; or ends it: false. One must be open.
   bool next_copy();
@@ -44,11 +44,12 @@ class MgfTransforms {
     std::size_t axis;  ///< of turn and mirror
     Vec3d values;      ///< of move; the first: degrees, or scale
   };
-  /// Steps that are repeated together.
+  /// Steps that are repeated together. Arrays ask for many copies: what does not change from one to the next is kept.
   struct Group {
-    std::vector<Step> steps;
     std::uint64_t times;       ///< of a repetition (-i); of an array (-a) its copies so far
     std::uint64_t copies = 0;  ///< of an array; 0: a repetition
+    MgfPlacement once{};       ///< all steps
+    MgfPlacement all{};        ///< as many times as that
   };
   struct Open {
     std::vector<Group> groups;

@@ -12,6 +12,11 @@ namespace {
 
 /// Of one triangle: beyond that it stays as it is.
 constexpr std::size_t kMostPieces = 4096;
+/// Of all cuts, counted as comparisons of a corner with an edge: some seconds.
+constexpr std::size_t kMostWork = 500'000'000;
+/// What else costs, in such comparisons: a piece that is cut up, a triangle whose border is looked for.
+constexpr std::size_t kCutWork = 500;
+constexpr std::size_t kBorderWork = 50;
 
 }  // namespace
 
@@ -20,7 +25,13 @@ OverlapCutter::OverlapCutter(Scene& scene, const std::vector<FlatSurface>& surfa
       surfaces_(surfaces),
       near_(kSamePlane * vec::largest(box.extent())),
       vertices_(scene, box.low, near_),
-      convex_cut_(scene, vertices_, near_) {}
+      convex_cut_(scene, vertices_, near_),
+      work_left_(kMostWork) {}
+
+bool OverlapCutter::spend(std::size_t work) {
+  work_left_ -= std::min(work, work_left_);
+  return work_left_ > 0;
+}
 
 void OverlapCutter::add_vertices(std::uint32_t surface) {
   for (const std::uint32_t t : surfaces_[surface].triangles)
@@ -36,14 +47,19 @@ std::vector<PositionPolygon> OverlapCutter::pieces_of(std::uint32_t triangle) co
 
 OverlapCutter::Found OverlapCutter::cut(std::uint32_t upper, std::uint32_t lower) {
   Found found = Found::nothing;
+  if (!spend(kBorderWork * surfaces_[upper].triangles.size())) return Found::too_long;
   const std::vector<PositionPolygon> outlines = convex_outlines(upper);
   for (const std::uint32_t t : surfaces_[lower].triangles) {
     std::vector<PositionPolygon> pieces = pieces_of(t);
     bool cut_here = false;
     for (const PositionPolygon& outline : outlines) {
       std::vector<PositionPolygon> left;
-      for (const PositionPolygon& piece : pieces)
-        cut_here = convex_cut_.take_away(piece, outline, surfaces_[lower].normal, left) || cut_here;
+      if (!spend(outline.size())) return Found::too_long;
+      for (const PositionPolygon& piece : pieces) {
+        const bool cut = convex_cut_.take_away(piece, outline, surfaces_[lower].normal, left);
+        if (!spend(piece.size() * outline.size() + (cut ? kCutWork : 0))) return Found::too_long;
+        cut_here = cut_here || cut;
+      }
       pieces = std::move(left);
       if (pieces.size() > kMostPieces) break;
     }
@@ -60,10 +76,13 @@ OverlapCutter::Found OverlapCutter::cut(std::uint32_t upper, std::uint32_t lower
 
 bool OverlapCutter::covers(std::uint32_t upper, std::uint32_t lower) {
   const std::size_t positions = scene_.positions.size();
-  auto pieces = pieces_;
+  std::map<std::uint32_t, std::vector<PositionPolygon>> before;
+  for (const std::uint32_t t : surfaces_[lower].triangles)
+    if (const auto pieces = pieces_.find(t); pieces != pieces_.end()) before.insert(*pieces);
   const bool all = cut(upper, lower) == Found::cut &&
                    std::ranges::all_of(surfaces_[lower].triangles, [this](std::uint32_t t) { return is_gone(t); });
-  pieces_ = std::move(pieces);
+  for (const std::uint32_t t : surfaces_[lower].triangles) pieces_.erase(t);
+  pieces_.merge(before);
   vertices_.forget_from(positions);
   return all;
 }

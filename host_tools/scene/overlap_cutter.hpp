@@ -17,7 +17,7 @@ namespace torolux {
 
 class OverlapCutter {
  public:
-  enum class Found { nothing, cut, too_many_pieces };
+  enum class Found { nothing, cut, too_many_pieces, too_long };
 
   /// box: of the scene.
   OverlapCutter(Scene& scene, const std::vector<FlatSurface>& surfaces, const vec::Box& box);
@@ -26,7 +26,8 @@ class OverlapCutter {
   void add_vertices(std::uint32_t surface);
 
   /// Takes from the lower surface's triangles what lies under the upper one. too_many_pieces: a triangle of more stays
-  /// as it was, whatever became of the others.
+  /// as it was, whatever became of the others. too_long: all cuts together have taken more work than a scene is worth;
+  /// nothing is cut any more.
   Found cut(std::uint32_t upper, std::uint32_t lower);
   /// Whether that would leave nothing of it.
   bool covers(std::uint32_t upper, std::uint32_t lower);
@@ -40,6 +41,8 @@ class OverlapCutter {
 
   const Vec3d& at(std::uint32_t p) const { return scene_.positions[p]; }
   std::vector<PositionPolygon> pieces_of(std::uint32_t triangle) const;
+  /// False: there is none left.
+  bool spend(std::size_t work);
   /// Counter-clockwise seen from the surface's front: its border where that is one convex loop, else its triangles.
   std::vector<PositionPolygon> convex_outlines(std::uint32_t surface) const;
   void divide_edges(const std::vector<std::uint32_t>& involved);
@@ -56,6 +59,7 @@ class OverlapCutter {
   ConvexCut convex_cut_;
   std::map<std::uint32_t, std::vector<PositionPolygon>> pieces_;  ///< of triangles that are cut
   std::map<Edge, PositionPolygon> points_on_;
+  std::size_t work_left_;  ///< comparisons of a corner with an edge
 };
 
 }  // namespace torolux

@@ -52,8 +52,7 @@ class Parting {
         cutter_(scene, surfaces_, box) {}
 
   void run() {
-    if (pairs_.too_many)
-      notices_.note("so many surfaces lie in one plane that not all were looked at: some may overlap", place_);
+    if (pairs_.too_many) tell_too_many();
     if (pairs_.pairs.empty()) return;
     std::vector<std::uint32_t> involved;
     for (const auto& [upper, lower] : pairs_.pairs) involved.insert(involved.end(), {upper, lower});
@@ -71,6 +70,9 @@ class Parting {
  private:
   const SceneMaterial& material(std::uint32_t surface) const {
     return scene_.materials[scene_.triangles[surfaces_[surface].triangles[0]].material];
+  }
+  void tell_too_many() {
+    notices_.note("so many surfaces lie in one plane that not all were looked at: some may overlap", place_);
   }
   std::string name(std::uint32_t surface) const { return "'" + material(surface).name + "'"; }
 
@@ -115,6 +117,9 @@ class Parting {
     switch (cutter_.cut(upper, lower)) {
       case OverlapCutter::Found::nothing:
         return;
+      case OverlapCutter::Found::too_long:
+        tell_too_many();
+        break;
       case OverlapCutter::Found::too_many_pieces:
         notices_.note("so much lies on one triangle that it stays whole below it: they overlap in one plane", place_,
                       name(upper) + " on " + name(lower));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <string>
@@ -10,6 +11,7 @@
 #include "emulator/errors.hpp"
 #include "host_tools/scene/inspect.hpp"
 #include "host_tools/scene/load_scene.hpp"
+#include "host_tools/scene/mgf.hpp"
 #include "tests/support/memory_files.hpp"
 
 namespace torolux {
@@ -48,7 +50,16 @@ inline std::map<std::string, std::string> scene_with(SceneText kind, const std::
           {"a.ies", lamp}};
 }
 
-/// true: loaded. Ends the program where a message does not begin with one of the files.
+/// Ends the program where a message does not begin with one of the files.
+inline void check_place(const InputError& error) {
+  const std::string message = error.what();
+  for (const char* file : {"fuzz.", "a.obj", "a.mtl", "a.mgf", "a.inc", "--studio"})
+    if (message.starts_with(file)) return;
+  std::cerr << "a message without a place: " << message << '\n';
+  std::abort();
+}
+
+/// true: loaded.
 inline bool load_text(SceneText kind, const std::string& text, bool studio) {
   MemoryFiles files(scene_with(kind, text));
   SceneOptions options;
@@ -66,12 +77,30 @@ inline bool load_text(SceneText kind, const std::string& text, bool studio) {
     inspect(scene);
     return true;
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    for (const char* file : {"fuzz.", "a.obj", "a.mtl", "a.mgf", "a.inc", "--studio"})
-      if (message.starts_with(file)) return false;
-    std::cerr << "a message without a place: " << message << '\n';
-    std::abort();
+    check_place(error);
+    return false;
   }
+}
+
+/// The same of MGF, whose arrays and curves make much of little: it is imported with narrow limits, and only a scene of
+/// few triangles goes through all that scenes go through. One text in 256, chosen by its bytes, has wider limits.
+inline bool load_mgf(const std::string& text, bool studio) {
+  const bool wide = std::hash<std::string>()(text) % 256 == 0;
+  const std::size_t most_triangles = wide ? 20'000 : 600;
+  MemoryFiles files(scene_with(SceneText::mgf, text));
+  Notices notices;
+  try {
+    const MgfLimits limits = wide ? MgfLimits{20'000, 100'000} : MgfLimits{10'000, 2'000};
+    const ImportedMesh mesh = import_mgf("fuzz.mgf", files, {"fuzz.mgf"}, notices, limits);
+    for (const ImportedTriangle& triangle : mesh.triangles)
+      for (const std::uint32_t p : triangle.position)
+        if (p >= mesh.positions.size()) std::abort();
+    if (mesh.triangles.size() > most_triangles) return true;
+  } catch (const InputError& error) {
+    check_place(error);
+    return false;
+  }
+  return load_text(SceneText::mgf, text, studio);
 }
 
 }  // namespace torolux

@@ -3,6 +3,6 @@
 #include "tests/fuzz/load_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  torolux::load_text(torolux::SceneText::mgf, std::string(data, data + size), size % 2 == 1);
+  torolux::load_mgf(std::string(data, data + size), size % 2 == 1);
   return 0;
 }

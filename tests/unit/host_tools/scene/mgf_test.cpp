@@ -220,9 +220,28 @@ TEST(Mgf, TransformsEndWithTheirFile) {
 // What would take longer than anybody waits, or more memory than there is, ends with a reason.
 TEST(Mgf, ArraysBeyondAllBoundsAreRefused) {
   EXPECT_THAT(refused(kQuad + "xf -a 1000000000 -t 0 0 1\nsph a 1\nxf\n"), HasSubstr("more than 4000000 triangles"));
-  EXPECT_THAT(refused("xf -a 1000000000 -t 0 0 1e-9\nxf\n"), HasSubstr("repeat more than 5,000,000 statements"));
+  const auto endless = HasSubstr("repeat more than 5000000 statements");
+  EXPECT_THAT(refused("xf -a 1000000000 -t 0 0 1e-9\nxf\n"), endless);
+  // Of files as well in which nothing stands, and of faces that make no triangles.
+  EXPECT_THAT(refusal({{"a.mgf", kQuad + "i b.inc -a 1000000000\n"}, {"b.inc", "# nothing\n"}}, "a.mgf"), endless);
+  std::string line = "f";
+  for (int i = 0; i < 1000; ++i) line += " a";
+  EXPECT_THAT(refused(kQuad + "xf -a 2000000\n" + line + "\nxf\n"), HasSubstr("more than 4000000 triangles"));
   EXPECT_THAT(refused(kQuad + "xf -i 4000000000 -t 0 0 1e9\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
   EXPECT_THAT(refused(kQuad + "xf -i 4000 -s 2\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
+}
+
+// What differs in each copy is compared with all that came before; what is wrong alike in all is one.
+TEST(Mgf, CopiesThatAllDifferAreRefused) {
+  const std::string drift =
+      "c x =\ncxy .2 .3\nc y =\ncxy .3 .3\nxf -a 1000000\nc z =\ncmix 1000000 x 1 y\nc x = z\nm q =\nc x\nrd .4\n"
+      "f a b c\nxf\n";
+  EXPECT_THAT(refused(kQuad + drift), HasSubstr("more than 10000 materials of one name"));
+  EXPECT_THAT(refused(kQuad + "xf -a 100000 -t 0 0 .0001\nrd 7\nf a b c\nxf\n"),
+              HasSubstr("a.mgf:12: 'rd' is 7; allowed are 0 to 1"));
+  std::string counts = "xf";
+  for (int i = 0; i < 101; ++i) counts += " -i 2 -rx 90";
+  EXPECT_THAT(refused(kQuad + counts + "\nf a b c\nxf\n"), HasSubstr("more than 100 arrays and repetitions"));
 }
 
 TEST(Mgf, MistakesSayWhereTheyAre) {
