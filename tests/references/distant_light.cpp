@@ -13,14 +13,14 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const double kCosine = std::cos(0.2665 * kPi / 180);
 /// The table's cells: 32 bands of height, 64 sectors.
-constexpr int kBands = 32, kSectors = 64;
+constexpr int kBands = 32, kSectors = 64, kHorizon = kBands / 2;
 
 Vec vector_of(const Vec3d& v) {
   return {v[0], v[1], v[2]};
 }
 
 Colour cell(const Sky& sky, int band, int sector) {
-  const Vec3d& radiance = sky.radiance[static_cast<std::size_t>(band * kSectors + sector)];
+  const Vec3d& radiance = sky.radiance[static_cast<std::size_t>(band) * kSectors + static_cast<std::size_t>(sector)];
   return {radiance[0], radiance[1], radiance[2]};
 }
 
@@ -68,7 +68,7 @@ double DistantLight::sector(const Vec& direction) const {
   const double in_quarter = angle - quarter * (kPi / 2);
   // Along the side of the square |x| + |y| = 1.
   const double side = std::sin(in_quarter) / (std::sin(in_quarter) + std::cos(in_quarter));
-  return (quarter + side) * (kSectors / 4);
+  return (quarter + side) / 4 * kSectors;
 }
 
 Colour DistantLight::sky(const Vec& direction) const {
@@ -78,10 +78,11 @@ Colour DistantLight::sky(const Vec& direction) const {
 
 Colour DistantLight::sky_shown(const Vec& direction) const {
   const double height = direction.dot(up_);
-  const double first = height < 0 ? 0 : kBands / 2;
-  const double row = std::clamp((height + 1) / 2 * kBands - 0.5, first, first + kBands / 2 - 1);
+  const int first = height < 0 ? 0 : kHorizon;
+  const int last = first + kHorizon - 1;
+  const double row = std::clamp<double>((height + 1) / 2 * kBands - 0.5, first, last);
   const int below = static_cast<int>(row);
-  const int above = std::min(below + 1, static_cast<int>(first) + kBands / 2 - 1);
+  const int above = std::min(below + 1, last);
   const double column = sector(direction) + kSectors - 0.5;
   const int left = static_cast<int>(column);
   const double right_part = column - left;
