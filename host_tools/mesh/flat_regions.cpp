@@ -15,6 +15,8 @@ namespace {
 
 /// Cosine between normals; small triangles lie near every plane through them.
 constexpr double kSameNormal = 0.9999;
+/// Periods: a fraction of the finest texture's texel.
+constexpr double kSameTexel = 1e-4;
 
 Vec3d cross_of(const Scene& scene, const SceneTriangle& t) {
   const Vec3d& a = scene.positions[t.position[0]];
@@ -34,6 +36,40 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_over_edges(const Scen
   });
   std::ranges::sort(pairs);
   return pairs;
+}
+
+/// But for whole periods, by which texture points are moved so that they are small.
+bool continues_texture(const Scene& scene, const SceneTriangle& t, const SceneTriangle& seed) {
+  if ((t.texture_points == kNoImage) != (seed.texture_points == kNoImage)) return false;
+  if (t.texture_points == kNoImage) return true;
+  using Point = std::array<double, 2>;
+  const Point* of_seed = &scene.texture_points[seed.texture_points];
+  std::optional<Point> moved;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const Point there = interpolated(weights_at(scene, seed, scene.positions[t.position[i]]),
+                                     std::array<Point, 3>{of_seed[0], of_seed[1], of_seed[2]});
+    const Point& own = scene.texture_points[t.texture_points + i];
+    const Point by{there[0] - own[0], there[1] - own[1]};
+    if (!moved) moved = Point{std::round(by[0]), std::round(by[1])};
+    if (std::abs(by[0] - (*moved)[0]) > kSameTexel || std::abs(by[1] - (*moved)[1]) > kSameTexel) return false;
+  }
+  return true;
+}
+
+/// Moved by whole periods, so that they are small.
+void add_texture_points(Scene& scene, std::uint32_t from, const std::array<std::array<double, 3>, 3>& weights,
+                        SceneTriangle& part) {
+  using Point = std::array<double, 2>;
+  const std::array<Point, 3> whole{scene.texture_points[from], scene.texture_points[from + 1],
+                                   scene.texture_points[from + 2]};
+  part.texture_points = static_cast<std::uint32_t>(scene.texture_points.size());
+  std::array<Point, 3> points{};
+  for (std::size_t i = 0; i < 3; ++i) points[i] = interpolated(weights[i], whole);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double periods = std::floor(std::min({points[0][axis], points[1][axis], points[2][axis]}) + 1e-9);
+    for (Point& p : points) p[axis] -= periods;
+  }
+  scene.texture_points.insert(scene.texture_points.end(), points.begin(), points.end());
 }
 
 class RegionFinder {
@@ -66,14 +102,14 @@ class RegionFinder {
   FlatRegion grow(std::uint32_t seed) {
     FlatRegion region{{seed}, seed};
     taken_[seed] = true;
-    if (!is_plain(seed)) return region;
     const SceneTriangle& first = scene_.triangles[seed];
-    const Vec3d normal = vec::unit(cross_of(scene_, first));
+    if (!is_plain(scene_, first)) return region;
     for (std::size_t next = 0; next < region.triangles.size(); ++next) {
       const auto at = std::pair(region.triangles[next], std::uint32_t{0});
       for (auto to = std::ranges::lower_bound(beside_, at); to != beside_.end() && to->first == at.first; ++to) {
         const std::uint32_t t = to->second;
-        if (taken_[t] || !is_plain(t) || !belongs(t, first, normal)) continue;
+        const SceneTriangle& beside = scene_.triangles[t];
+        if (taken_[t] || !is_plain(scene_, beside) || !continues(scene_, beside, first, size_)) continue;
         taken_[t] = true;
         region.triangles.push_back(t);
       }
@@ -82,46 +118,6 @@ class RegionFinder {
     return region;
   }
 
-  /// Its normals, where it has any, are those of its plane.
-  bool is_plain(std::uint32_t number) const {
-    const SceneTriangle& t = scene_.triangles[number];
-    const Vec3d cross = cross_of(scene_, t);
-    if (!(vec::length(cross) > 0)) return false;
-    return t.normal[0] == kNoNormal || std::ranges::all_of(t.normal, [&](std::uint32_t n) {
-             return vec::dot(scene_.normals[n], vec::unit(cross)) > kSameNormal;
-           });
-  }
-
-  bool belongs(std::uint32_t number, const SceneTriangle& seed, const Vec3d& normal) const {
-    const SceneTriangle& t = scene_.triangles[number];
-    if (t.material != seed.material || !(vec::dot(vec::unit(cross_of(scene_, t)), normal) > kSameNormal)) return false;
-    const Vec3d& origin = scene_.positions[seed.position[0]];
-    const bool flat = std::ranges::all_of(t.position, [&](std::uint32_t p) {
-      return std::abs(vec::dot(normal, vec::subtract(scene_.positions[p], origin))) <= 0.5 * kSamePlane * size_;
-    });
-    return flat && continues_texture(t, seed);
-  }
-
-  /// But for whole periods, by which texture points are moved so that they are small.
-  bool continues_texture(const SceneTriangle& t, const SceneTriangle& seed) const {
-    if ((t.texture_points == kNoImage) != (seed.texture_points == kNoImage)) return false;
-    if (t.texture_points == kNoImage) return true;
-    using Point = std::array<double, 2>;
-    const Point* of_seed = &scene_.texture_points[seed.texture_points];
-    std::optional<Point> moved;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const Point there = interpolated(weights_at(scene_, seed, scene_.positions[t.position[i]]),
-                                       std::array<Point, 3>{of_seed[0], of_seed[1], of_seed[2]});
-      const Point& own = scene_.texture_points[t.texture_points + i];
-      const Point by{there[0] - own[0], there[1] - own[1]};
-      if (!moved) moved = Point{std::round(by[0]), std::round(by[1])};
-      if (std::abs(by[0] - (*moved)[0]) > kSameTexel || std::abs(by[1] - (*moved)[1]) > kSameTexel) return false;
-    }
-    return true;
-  }
-
-  /// Periods: a fraction of the finest texture's texel.
-  static constexpr double kSameTexel = 1e-4;
   const Scene& scene_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> beside_;
   double size_ = 0;
@@ -140,6 +136,36 @@ std::array<double, 3> weights_at(const Scene& scene, const SceneTriangle& triang
   const double at_b = vec::dot(vec::cross(p, c), normal) / square;
   const double at_c = vec::dot(vec::cross(b, p), normal) / square;
   return {1 - at_b - at_c, at_b, at_c};
+}
+
+bool is_plain(const Scene& scene, const SceneTriangle& triangle) {
+  const Vec3d cross = cross_of(scene, triangle);
+  if (!(vec::length(cross) > 0)) return false;
+  return triangle.normal[0] == kNoNormal || std::ranges::all_of(triangle.normal, [&](std::uint32_t n) {
+           return vec::dot(scene.normals[n], vec::unit(cross)) > kSameNormal;
+         });
+}
+
+bool continues(const Scene& scene, const SceneTriangle& triangle, const SceneTriangle& other, double size) {
+  const Vec3d normal = vec::unit(cross_of(scene, other));
+  if (triangle.material != other.material || !(vec::dot(vec::unit(cross_of(scene, triangle)), normal) > kSameNormal))
+    return false;
+  const Vec3d& origin = scene.positions[other.position[0]];
+  const bool flat = std::ranges::all_of(triangle.position, [&](std::uint32_t p) {
+    return std::abs(vec::dot(normal, vec::subtract(scene.positions[p], origin))) <= 0.5 * kSamePlane * size;
+  });
+  return flat && continues_texture(scene, triangle, other);
+}
+
+SceneTriangle part_of(Scene& scene, const SceneTriangle& triangle, const std::array<std::uint32_t, 3>& corners) {
+  const SceneTriangle whole = triangle;  // it may be one of the scene's
+  SceneTriangle part = whole;
+  part.position = corners;
+  std::array<std::array<double, 3>, 3> weights{};
+  for (std::size_t i = 0; i < 3; ++i) weights[i] = weights_at(scene, whole, scene.positions[corners[i]]);
+  part.normal.fill(kNoNormal);  // those of a plain triangle are its plane's
+  if (whole.texture_points != kNoImage) add_texture_points(scene, whole.texture_points, weights, part);
+  return part;
 }
 
 FlatRegions flat_regions(const Scene& scene) {

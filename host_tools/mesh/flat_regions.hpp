@@ -25,6 +25,17 @@ struct FlatRegions {
 /// What lies within a millionth of the scene's size lies in a plane.
 FlatRegions flat_regions(const Scene& scene);
 
+/// Whether its normals, where it has any, are those of its plane. No triangle without area is plain.
+bool is_plain(const Scene& scene, const SceneTriangle& triangle);
+
+/// Whether a plain triangle goes on where another ends: of its material, in its plane, wound alike, its texture points
+/// the same linear map but for whole periods. size: the scene's longest edge.
+bool continues(const Scene& scene, const SceneTriangle& triangle, const SceneTriangle& other, double size);
+
+/// The triangle of these corners (positions in its plane), with its texture points, moved by whole periods so that they
+/// are small, and without normals. Adds texture points to the scene.
+SceneTriangle part_of(Scene& scene, const SceneTriangle& triangle, const std::array<std::uint32_t, 3>& corners);
+
 /// Texture point, or normal, at a place in a triangle's plane, from those of its corners.
 template <typename Value>
 Value interpolated(const std::array<double, 3>& weight, const std::array<Value, 3>& corner) {

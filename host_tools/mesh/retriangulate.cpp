@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "host_tools/mesh/corners_on_edges.hpp"
 #include "host_tools/mesh/delaunay.hpp"
 #include "host_tools/mesh/flat_regions.hpp"
 #include "host_tools/mesh/region_borders.hpp"
@@ -112,37 +113,11 @@ class Retriangulation {
       if (!cut_[region]) {
         triangles.push_back(scene_.triangles[t]);
       } else if (regions_.all[region].triangles.front() == t) {
-        for (const Corners& corners : *cut_[region]) triangles.push_back(part_of(regions_.all[region], corners));
+        const SceneTriangle& whole = scene_.triangles[regions_.all[region].seed];
+        for (const Corners& corners : *cut_[region]) triangles.push_back(part_of(scene_, whole, corners));
       }
     }
     scene_.triangles = std::move(triangles);
-  }
-
-  SceneTriangle part_of(const FlatRegion& region, const Corners& corners) {
-    const SceneTriangle whole = scene_.triangles[region.seed];
-    SceneTriangle part = whole;
-    part.position = corners;
-    std::array<std::array<double, 3>, 3> weights{};
-    for (std::size_t i = 0; i < 3; ++i) weights[i] = weights_at(scene_, whole, scene_.positions[corners[i]]);
-    part.normal.fill(kNoNormal);  // those of a region are its plane's
-    if (whole.texture_points != kNoImage) add_texture_points(whole.texture_points, weights, part);
-    return part;
-  }
-
-  /// Moved by whole periods, so that they are small.
-  void add_texture_points(std::uint32_t from, const std::array<std::array<double, 3>, 3>& weights,
-                          SceneTriangle& part) {
-    using Point = std::array<double, 2>;
-    const std::array<Point, 3> whole{scene_.texture_points[from], scene_.texture_points[from + 1],
-                                     scene_.texture_points[from + 2]};
-    part.texture_points = static_cast<std::uint32_t>(scene_.texture_points.size());
-    std::array<Point, 3> points{};
-    for (std::size_t i = 0; i < 3; ++i) points[i] = interpolated(weights[i], whole);
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const double periods = std::floor(std::min({points[0][axis], points[1][axis], points[2][axis]}) + 1e-9);
-      for (Point& p : points) p[axis] -= periods;
-    }
-    scene_.texture_points.insert(scene_.texture_points.end(), points.begin(), points.end());
   }
 
   Scene& scene_;
@@ -160,6 +135,7 @@ void retriangulate(Scene& scene) {
   const int exponent = std::ilogb(vec::largest(box.extent()));
   for (Vec3d& point : scene.positions)
     for (double& x : point) x = std::ldexp(x, -exponent);
+  split_edges_at_corners(scene);
   Retriangulation(scene).run();
   for (Vec3d& point : scene.positions)
     for (double& x : point) x = std::ldexp(x, exponent);

@@ -31,6 +31,23 @@ class Hash {
   std::uint64_t state_ = 0xCBF29CE484222325U;
 };
 
+void add_sky(const Sky& sky, Hash& hash) {
+  for (const Vec3d& axis : {sky.east, sky.north, sky.up, sky.sun, sky.sun_irradiance}) hash.add(axis);
+  for (const Vec3d& radiance : sky.radiance) hash.add(radiance);
+}
+
+void add_textures(const Scene& scene, Hash& hash) {
+  for (const auto& [u, v] : scene.texture_points) {
+    hash.add(u);
+    hash.add(v);
+  }
+  for (const SceneTexture& texture : scene.textures) {
+    hash.add(std::uint64_t{texture.width} << 32U | texture.height);
+    for (const auto& [red, green, blue] : texture.texels)
+      hash.add(std::uint64_t{red} << 16U | std::uint64_t{green} << 8U | blue);
+  }
+}
+
 std::uint64_t hash_of(const Scene& scene, const View& view, const std::array<std::uint32_t, 2>& size,
                       const ReferenceEffort& effort) {
   Hash hash;
@@ -49,6 +66,8 @@ std::uint64_t hash_of(const Scene& scene, const View& view, const std::array<std
     for (const Vec3d& axis : {lamp.x, lamp.y, lamp.nadir}) hash.add(axis);
     for (const double intensity : scene.webs[lamp.web].intensity) hash.add(intensity);
   }
+  add_textures(scene, hash);
+  if (scene.sky) add_sky(*scene.sky, hash);
   hash.add(view.camera.eye);
   hash.add(view.camera.look_at);
   hash.add(view.camera.up);

@@ -13,7 +13,7 @@ namespace {
 
 Scene load(const std::filesystem::path& path) {
   Scene scene = load_scene(path, {});
-  if (std::ranges::any_of(scene.materials, emits)) return scene;
+  if (scene.sky || std::ranges::any_of(scene.materials, emits)) return scene;
   SceneOptions options;
   options.studio = true;
   return load_scene(path, options);

@@ -54,10 +54,13 @@ class Path {
     }
   }
 
-  /// The path leaves the scene. Of surfaces that scatter, the sun has been asked for.
+  /// The path leaves the scene. Of surfaces that scatter, the sun has been asked for, and openings.
   void see_sky() {
     if (!far_) return;
-    light_ += weight_ * radiance_scale_ * far_->sky(direction_);
+    double share = 1;
+    if (density_ > 0 && far_->has_openings() && finding_ != LightFinding::directions_only)
+      share = finding_ == LightFinding::both ? power(density_, far_->opening_density(vertex_, direction_)) : 0;
+    light_ += weight_ * radiance_scale_ * (density_ == 0 ? far_->sky_shown(direction_) : far_->sky(direction_)) * share;
     if (density_ == 0 || finding_ == LightFinding::directions_only)
       light_ += weight_ * radiance_scale_ * far_->sun(direction_);
   }
@@ -72,6 +75,19 @@ class Path {
     const Vec beyond = origin + out * (4 * world_.size());
     const Colour through = passed(world_, origin, beyond, hit.triangle, kNoTriangle);
     light_ += weight_ * through * radiance_scale_ * reflection.value(out) * far_->sun_irradiance() * cosine;
+  }
+
+  /// The sky, by chance through an opening.
+  void ask_openings(const Hit& hit, const Reflection& reflection, double pick, const std::array<double, 2>& place) {
+    if (!far_ || !far_->has_openings()) return;
+    const Vec out = far_->to_opening(hit.point, pick, place);
+    const double cosine = reflection.cosine(out);
+    const double density = far_->opening_density(hit.point, out);
+    if (cosine <= 0 || density <= 0) return;
+    const Vec origin = world_.leave(hit, out);
+    const Colour through = passed(world_, origin, origin + out * (4 * world_.size()), hit.triangle, kNoTriangle);
+    const double share = finding_ == LightFinding::both ? power(density, reflection.density(out)) : 1;
+    light_ += weight_ * through * radiance_scale_ * reflection.value(out) * far_->sky(out) * (cosine / density * share);
   }
 
   bool turn(const Hit& hit) {
@@ -135,8 +151,12 @@ class Path {
                                 diffuse, specular, exponent);
     const unsigned dimension = 1 + 3 * turns_;
     const auto [emitter, lobe] = samples_.pair(dimension);
-    if (finding_ != LightFinding::directions_only) ask_sun(hit, reflection);
-    if (finding_ != LightFinding::directions_only) ask_emitters(hit, reflection, emitter, samples_.pair(dimension + 1));
+    if (finding_ != LightFinding::directions_only) {
+      ask_sun(hit, reflection);
+      const std::array<double, 2> place = samples_.pair(dimension + 1);
+      ask_emitters(hit, reflection, emitter, place);
+      ask_openings(hit, reflection, emitter, place);
+    }
     const Vec out = reflection.sample(lobe, samples_.pair(dimension + 2));
     const double cosine = reflection.cosine(out);
     const double density = reflection.density(out);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "host_tools/scene/load_scene.hpp"
 #include "tests/references/light_paths.hpp"
@@ -150,6 +151,35 @@ TEST(PathTracer, LightUnderASquareLampIsExact) {
     // 32768 well spread samples, 3 * 0.43 the spread of one: independent ones would be within 0.007.
     EXPECT_NEAR(sum / 3, 0.239456470461, 0.0008) << static_cast<int>(finding);
   }
+}
+
+/// Under a sky of radiance 3: as much comes through a unit square at distance 1 as a lamp there would give, and with
+/// the directions that surfaces scatter to, as much as from all around.
+TEST(PathTracer, OpeningsAreAskedForTheirPartOfTheSky) {
+  Scene scene =
+      scene_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl paper\nf 1 2 3 4\n", "newmtl paper\nKd .5 .5 .5\n");
+  Sky sky;
+  sky.radiance.assign(32 * 64, {3, 3, 3});
+  // The second one faces away: nothing comes from its back.
+  sky.openings = {{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, {{4, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+  scene.sky = sky;
+  const World world(scene, false);
+  const Hit corner = world.at(0, 0, 0, true);
+  const auto light = [&](LightFinding finding) {
+    Samples samples(1, 1);
+    double sum = 0;
+    constexpr std::uint32_t kSamples = 1U << 15U;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+      samples.begin(i);
+      sum += incident_over_pi(world, corner, finding, samples)[1] / kSamples;
+    }
+    return sum / 3;
+  };
+  // Over a corner of the square below it: form factor of a point to a square, by its closed form.
+  const double root = std::sqrt(2.0);
+  EXPECT_NEAR(light(LightFinding::emitters_only), 2 / root * std::atan(1 / root) / (2 * std::numbers::pi), 0.001);
+  EXPECT_NEAR(light(LightFinding::both), 1, 0.003);
+  EXPECT_NEAR(light(LightFinding::directions_only), 1, 1e-9);
 }
 
 /// Emitters met by chance and asked for directly: the same light. All white surfaces emit, so that chance finds them.

@@ -106,7 +106,8 @@ class World {
   /// Whether anything but these two triangles lies between two points.
   bool blocked(const Vec& from, const Vec& to, std::uint32_t leaving, std::uint32_t target) const;
   bool has_panes() const;
-  /// Sky and sun, where the scene has them. Openings are none of the references' business.
+  /// Sky and sun, where the scene has them. Openings are where to look for it; its light
+  /// comes from all around.
   const std::optional<Sky>& sky() const { return sky_; }
   /// Longest edge of the bounding box [user units].
   double size() const;

@@ -93,6 +93,49 @@ TEST(Retriangulate, AWallIsTheSameWhateverTheFileCutsItInto) {
   for (const auto& other : results) EXPECT_EQ(other, results[0]);
 }
 
+/// As people build it: a quad below the window, one above, one on each side; their edges end within each other's.
+Scene wall_around_window(double width) {
+  SceneBuilder builder;
+  const std::uint32_t paint = builder.material({0.5, 0.5, 0.5});
+  const auto quad = [&](double left, double right, double low, double high) {
+    builder.quad(paint, {left, low, 0}, {right, low, 0}, {right, high, 0}, {left, high, 0});
+  };
+  quad(0, width, 0, 0.5);
+  quad(0, width, 1.5, 2);
+  quad(0, 1, 0.5, 1.5);
+  quad(2, width, 0.5, 1.5);
+  return builder.scene;
+}
+
+TEST(Retriangulate, QuadsAroundAWindowAreOneWall) {
+  Scene grid = wall({0, 1, 2, 4}, {0, 0.5, 1.5, 2}, false);
+  Scene quads = wall_around_window(4);
+  EXPECT_EQ(flat_regions(quads).all.size(), 4U) << "no edge is another's";
+  retriangulate(grid);
+  retriangulate(quads);
+  EXPECT_EQ(sorted_triangles(quads), sorted_triangles(grid));
+  EXPECT_EQ(flat_regions(quads).all.size(), 1U);
+}
+
+/// Neither another paint nor another pattern is the same wall: nothing is cut.
+TEST(Retriangulate, QuadsOfOtherPaintOrPatternStayWhole) {
+  Scene painted = wall_around_window(4);
+  painted.materials.push_back(painted.materials[0]);
+  for (std::size_t t = 0; t < 4; ++t) painted.triangles[t].material = 1;
+  retriangulate(painted);
+  EXPECT_EQ(painted.triangles.size(), 8U);
+  Scene pattern = wall_around_window(4);
+  for (SceneTriangle& t : pattern.triangles) {
+    t.texture_points = static_cast<std::uint32_t>(pattern.texture_points.size());
+    for (const std::uint32_t p : t.position) {
+      const Vec3d& at = pattern.positions[p];
+      pattern.texture_points.push_back({at[0] * (t.position[0] % 3 + 1), at[1]});
+    }
+  }
+  retriangulate(pattern);
+  EXPECT_EQ(pattern.triangles.size(), 8U);
+}
+
 TEST(Retriangulate, WhatNeedsNoChangeIsNotTouched) {
   const Scene before = room_with_box();
   Scene after = before;
