@@ -30,7 +30,7 @@ std::optional<Message> LifeSigns::poll() {
     if (message->kind != kLifeSign) return message;
   }
   const Clock::time_point now = Clock::now();
-  const Clock::duration since = std::min<Clock::duration>(now - looked_, times_.between);
+  const Clock::duration since = std::min<Clock::duration>(now - looked_, times_.silence / 8);
   looked_ = now;
   for (auto& [peer, silence] : silence_) silence += since;
   return std::nullopt;
