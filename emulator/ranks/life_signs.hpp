@@ -29,9 +29,9 @@ class LifeSigns {
   LifeSigns& operator=(const LifeSigns&) = delete;
   ~LifeSigns() = default;
 
-  /// The transport's next message that is no sign of life. Time counts as a peer's silence only where this is called and
-  /// finds nothing, and up to an eighth of LifeTimes::silence at once: who was busy or stopped itself does not blame the
-  /// others for that.
+  /// The transport's next message that is no sign of life. Time counts as a peer's silence only where this is called
+  /// and finds nothing, and up to an eighth of LifeTimes::silence at once: who was busy or stopped itself does not
+  /// blame the others for that.
   std::optional<Message> poll();
   /// A rank that is heard again is not silent any more.
   bool silent(unsigned peer) const { return silence_.at(peer) >= times_.silence; }

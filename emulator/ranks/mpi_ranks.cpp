@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <deque>
 #include <iostream>
 #include <limits>
@@ -61,8 +60,6 @@ class MpiRank : public Transport {
 };
 
 MpiRank::MpiRank() {
-  // With -disable-auto-cleanup MPICH's mpirun signals a rank's death to the others so, who would die of it.
-  std::signal(SIGUSR1, SIG_IGN);
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   int own = 0;
@@ -167,9 +164,12 @@ void MpiRank::abort(const std::string& reason) {
 
 void MpiRank::close(std::span<const unsigned> lost, int exit_code) {
   if (!lost.empty()) {
-    // MPI_Finalize would wait for them.
+    // MPI_Finalize would wait for them. The first that lives ends all; the others give it time for that.
     std::cout << std::flush;
     std::cerr << std::flush;
+    unsigned first = 0;
+    while (std::ranges::find(lost, first) != lost.end()) ++first;
+    if (first != ranks_.own) std::this_thread::sleep_for(std::chrono::seconds(10));
     const std::lock_guard lock(mutex_);
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);

@@ -19,7 +19,9 @@ enum class FarmMessage : std::uint32_t {
   order,         ///< from rank 0: FarmOrder
   answer,        ///< to rank 0: FarmAnswer
   leaving,       ///< to rank 0, empty: this rank was told to end; what it was doing is not answered
-  end            ///< from rank 0: FarmEnd
+  end,           ///< from rank 0, empty: stop what you do
+  ready,         ///< to rank 0, empty: that has been done
+  close          ///< from rank 0: FarmClose
 };
 
 struct Greeting {
@@ -52,7 +54,7 @@ struct FarmAnswer {
   }
 };
 
-struct FarmEnd {
+struct FarmClose {
   std::vector<unsigned> lost;  ///< ranks
   std::int32_t exit_code = 0;
 

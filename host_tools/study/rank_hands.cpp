@@ -7,8 +7,6 @@
 #include <iostream>
 #include <numeric>
 
-#include "host_tools/study/farm_messages.hpp"
-
 namespace torolux::study {
 namespace {
 
@@ -76,8 +74,12 @@ void RankHands::receive(const ranks::Message& message) {
         others_[message.from].left = true;
         tell(name_of(message.from) + " was told to end");
         return give_up(others_[message.from]);
+      case FarmMessage::ready:
+        others_[message.from].ready = true;
+        return;
       case FarmMessage::order:
       case FarmMessage::end:
+      case FarmMessage::close:
         break;
     }
   } catch (const InputError& error) {
@@ -122,10 +124,23 @@ void RankHands::look_for_silence() {
   }
 }
 
+void RankHands::send_all(FarmMessage kind, const std::vector<std::byte>& bytes) {
+  for (unsigned rank = 1; rank < others_.size(); ++rank) transport_.send(rank, static_cast<std::uint32_t>(kind), bytes);
+}
+
 void RankHands::end(int exit_code) {
-  const std::vector<unsigned> lost = life_->silent_ones();
-  for (unsigned rank = 1; rank < others_.size(); ++rank)
-    transport_.send(rank, static_cast<std::uint32_t>(FarmMessage::end), bytes_of(FarmEnd{lost, exit_code}));
+  constexpr std::chrono::milliseconds kPause{50};
+  send_all(FarmMessage::end, {});
+  // Closing would wait for ever for one that has died since it was last looked at.
+  while (std::any_of(others_.begin() + 1, others_.end(), [](const Other& o) { return !o.ready && !o.silent; })) {
+    transport_.wait(kPause);
+    poll();
+  }
+  std::vector<unsigned> lost;
+  for (unsigned rank = 1; rank < others_.size(); ++rank) {
+    if (!others_[rank].ready) lost.push_back(rank);
+  }
+  send_all(FarmMessage::close, bytes_of(FarmClose{lost, exit_code}));
   life_.reset();
   transport_.close(lost, exit_code);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/ranks/life_signs.hpp"
+#include "host_tools/study/farm_messages.hpp"
 #include "host_tools/study/hands.hpp"
 
 namespace torolux::study {
@@ -34,7 +35,7 @@ class RankHands : public Hands {
     std::string host;                  ///< empty: it has not greeted yet
     std::set<std::uint64_t> orders;    ///< not answered
     std::set<std::uint64_t> given_up;  ///< of these, what somebody else was given
-    bool silent = false, left = false;
+    bool silent = false, left = false, ready = false;
   };
 
   unsigned least_busy() const;
@@ -44,6 +45,7 @@ class RankHands : public Hands {
   void take_answer(unsigned rank, const std::vector<std::byte>& bytes);
   void give_up(Other& other);
   void look_for_silence();
+  void send_all(FarmMessage kind, const std::vector<std::byte>& bytes);
 
   ranks::Transport& transport_;
   unsigned jobs_;

@@ -30,19 +30,18 @@ class Server {
   Server(ranks::Transport& transport, Hands& hands, ranks::LifeTimes times)
       : transport_(transport), hands_(hands), life_(transport, {0}, times) {}
 
-  FarmEnd run(const std::string& program) {
+  FarmClose run(const std::string& program) {
     send(FarmMessage::greeting, bytes_of(Greeting{host_name(), program}));
     std::chrono::milliseconds pause = kShortestPause;
-    while (!end_) {
+    while (!close_) {
       const bool received = receive();
       const bool answered = answer();
       if (interrupted() && !left_) leave();
       if (life_.silent(0)) transport_.abort("rank 0 is silent and counts as lost");
       pause = received || answered ? kShortestPause : std::min(2 * pause, kLongestPause);
-      if (!end_) transport_.wait(pause);
+      if (!close_) transport_.wait(pause);
     }
-    hands_.stop();
-    return *end_;
+    return *close_;
   }
 
  private:
@@ -66,18 +65,30 @@ class Server {
   }
 
   void take(const ranks::Message& message) {
-    if (message.kind == static_cast<std::uint32_t>(FarmMessage::end)) {
-      end_ = content_of<FarmEnd>(message.bytes);
-    } else if (message.kind == static_cast<std::uint32_t>(FarmMessage::order)) {
-      const auto order = content_of<FarmOrder>(message.bytes);
-      if (left_) return;
-      std::error_code error;
-      std::filesystem::current_path(order.folder, error);
-      if (error) throw InputError("there is no folder " + order.folder + " here as rank 0 has: " + error.message());
-      hands_.start(order.order);
-    } else {
-      throw InputError("rank 0 has sent a message of kind " + std::to_string(message.kind));
+    switch (static_cast<FarmMessage>(message.kind)) {
+      case FarmMessage::order:
+        return begin(content_of<FarmOrder>(message.bytes));
+      case FarmMessage::end:
+        hands_.stop();
+        return send(FarmMessage::ready, {});
+      case FarmMessage::close:
+        close_ = content_of<FarmClose>(message.bytes);
+        return;
+      case FarmMessage::greeting:
+      case FarmMessage::answer:
+      case FarmMessage::leaving:
+      case FarmMessage::ready:
+        break;
     }
+    throw InputError("rank 0 has sent a message of kind " + std::to_string(message.kind));
+  }
+
+  void begin(const FarmOrder& order) {
+    if (left_) return;
+    std::error_code error;
+    std::filesystem::current_path(order.folder, error);
+    if (error) throw InputError("there is no folder " + order.folder + " here as rank 0 has: " + error.message());
+    hands_.start(order.order);
   }
 
   bool answer() {
@@ -102,15 +113,15 @@ class Server {
   ranks::Transport& transport_;
   Hands& hands_;
   ranks::LifeSigns life_;
-  std::optional<FarmEnd> end_;
+  std::optional<FarmClose> close_;
   bool left_ = false;
 };
 
 }  // namespace
 
 void serve(ranks::Transport& transport, Hands& hands, const std::string& program, ranks::LifeTimes times) {
-  const FarmEnd end = Server(transport, hands, times).run(program);
-  transport.close(end.lost, end.exit_code);
+  const FarmClose close = Server(transport, hands, times).run(program);
+  transport.close(close.lost, close.exit_code);
 }
 
 }  // namespace torolux::study

@@ -13,6 +13,7 @@
 #include "emulator/ranks/launched.hpp"
 #include "emulator/ranks/mpi_ranks.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/cli/interruption.hpp"
 #include "host_tools/files/shell_line.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"
@@ -239,6 +240,7 @@ int run_on_ranks(StudyOptions options) {
   if (transport->ranks().own != 0) {
     LocalHands own(running_program(), options.jobs, true);
     serve(*transport, own, program_digest());
+    forget_interruption();  // rank 0 knows of it, and its exit code counts
     return 0;
   }
   RankHands others(*transport, options.jobs, program_digest());

@@ -160,11 +160,15 @@ TEST(Farm, ARankThatIsHeardAgainWorksOn) {
       transport.wait(1000ms);
       const auto message = transport.poll();
       if (!message || message->kind == ranks::kLifeSign) continue;
-      if (message->kind == static_cast<std::uint32_t>(FarmMessage::end)) break;
+      if (message->kind == static_cast<std::uint32_t>(FarmMessage::close)) break;
+      if (message->kind == static_cast<std::uint32_t>(FarmMessage::end)) {
+        transport.send(0, static_cast<std::uint32_t>(FarmMessage::ready), {});
+        continue;
+      }
       if (answered == 0) std::this_thread::sleep_for(1000ms);
       answer(transport, content_of<FarmOrder>(message->bytes).order.number);
     }
-    transport.close(std::vector<unsigned>{1}, 0);
+    transport.close({}, 0);
   });
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
               AllOf(HasSubstr("rank 1 (a host) has been silent"), HasSubstr("rank 1 (a host) is heard again")));
@@ -192,6 +196,19 @@ TEST(Farm, WhereRank0IsSilentAllEnd) {
     serve(transport, own, kProgram, {1ms, 100ms});
   });
   EXPECT_THAT(ends[1], HasSubstr("rank 1: rank 0 is silent and counts as lost"));
+}
+
+// Nobody has given it anything: it is missed where all are to close.
+TEST(Farm, ARankThatDiesAtTheEndIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  testing::internal::CaptureStderr();
+  const auto ends = ranks::run_as_threads(3, {}, [&](Transport& transport) {
+    if (transport.ranks().own == 0) lead(transport, seven_runs(), folder.path(), 1);
+    if (transport.ranks().own == 2) follow(transport);
+  });
+  EXPECT_THAT(ends, Each(IsEmpty()));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("rank 1 has been silent for 3 s"));
+  EXPECT_EQ(contents_of(folder.path()).size(), 7U);
 }
 
 TEST(Farm, MessagesThatAreNotWholeAreRefused) {
