@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <thread>
 
@@ -63,13 +64,19 @@ std::size_t results_in(const fs::path& folder) {
   return count;
 }
 
+/// Of a process that may have ended meanwhile, or be somebody else's: then empty.
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 /// The process of rank 1 that works on this folder; 0: there is none.
 pid_t first_helper(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string environment = '\0' + contents(entry.path() / "environ");
+    const std::string environment = '\0' + text_of(entry.path() / "environ");
     const bool first = environment.find(std::string("\0OMPI_COMM_WORLD_RANK=1\0", 24)) != std::string::npos ||
                        environment.find(std::string("\0PMI_RANK=1\0", 12)) != std::string::npos;
-    const std::string words = contents(entry.path() / "cmdline");
+    const std::string words = text_of(entry.path() / "cmdline");
     if (first && words.find(folder.string()) != std::string::npos && words.starts_with(torolux_file().string()))
       return static_cast<pid_t>(std::stol(entry.path().filename()));
   }
