@@ -46,6 +46,9 @@ std::optional<int> run_cc_command(const std::vector<std::string>& words);
 bool interrupted();
 inline constexpr int kInterrupted = 130;
 
+/// Runs `work`; what it throws becomes a message and an exit code.
+int guarded(const std::function<int()>& work);
+
 /// The whole of the `torolux` executable. Exit codes: 0 done, 1 usage, 2 bad input, 3 machine failure, 130 interrupted.
 int torolux_main(int argc, const char* const* argv);
 

@@ -14,6 +14,7 @@
 
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
+#include "emulator/ranks/launched.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/help_format.hpp"
@@ -27,30 +28,6 @@ namespace {
 
 int code(ExitCode exit_code) {
   return static_cast<int>(exit_code);
-}
-
-/// Runs `work`; what it throws becomes a message and an exit code.
-template <class Work>
-int guarded(Work work) {
-  const auto fail = [](const char* what, ExitCode exit_code) {
-    if (interrupted()) return kInterrupted;
-    std::cerr << "torolux: " << what << std::endl;
-    return code(exit_code);
-  };
-  try {
-    const int result = work();
-    return interrupted() ? kInterrupted : result;
-  } catch (const Interrupted&) {
-    return kInterrupted;
-  } catch (const UsageError& error) {
-    return fail((std::string(error.what()) + " (see --help)").c_str(), ExitCode::usage);
-  } catch (const InputError& error) {
-    return fail(error.what(), ExitCode::bad_input);
-  } catch (const std::bad_alloc&) {
-    return fail("this computer has too little memory for that", ExitCode::machine_failure);
-  } catch (const std::exception& error) {
-    return fail(error.what(), ExitCode::machine_failure);
-  }
 }
 
 /// What `torolux --version` prints.
@@ -77,6 +54,14 @@ std::string first_steps() {
          (scenes.empty() ? "" : "\nScenes that are here:" + scenes + "\n");
 }
 
+/// What does not know of ranks would do the same work, and write the same files, once for each.
+void refuse_copies(const CLI::App& app) {
+  const unsigned count = ranks::launched_ranks().count;
+  if (count == 1 || app.got_subcommand("study")) return;
+  throw UsageError("mpirun would run '" + app.get_subcommands().front()->get_name() + "' " + std::to_string(count) +
+                   " times: start it without mpirun; only 'study' shares its work out to ranks");
+}
+
 int run(CLI::App& app, const CommandAction& action, int argc, const char* const* argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   // `help`, `help render`: as `--help`, `render --help`.
@@ -100,6 +85,7 @@ int run(CLI::App& app, const CommandAction& action, int argc, const char* const*
   } catch (const CLI::ParseError& error) {
     throw UsageError(parse_error_text(app, words, error));
   }
+  refuse_copies(app);
   return action();
 }
 
@@ -115,6 +101,30 @@ int flushed(int result) {
 }
 
 }  // namespace
+
+int guarded(const std::function<int()>& work) {
+  const auto fail = [](const char* what, ExitCode exit_code) {
+    if (interrupted()) return kInterrupted;
+    // All ranks have the same command line: one of them says what is wrong with it.
+    if (exit_code == ExitCode::usage && ranks::launched_ranks().own != 0) return code(exit_code);
+    std::cerr << "torolux: " << what << std::endl;
+    return code(exit_code);
+  };
+  try {
+    const int result = work();
+    return interrupted() ? kInterrupted : result;
+  } catch (const Interrupted&) {
+    return kInterrupted;
+  } catch (const UsageError& error) {
+    return fail((std::string(error.what()) + " (see --help)").c_str(), ExitCode::usage);
+  } catch (const InputError& error) {
+    return fail(error.what(), ExitCode::bad_input);
+  } catch (const std::bad_alloc&) {
+    return fail("this computer has too little memory for that", ExitCode::machine_failure);
+  } catch (const std::exception& error) {
+    return fail(error.what(), ExitCode::machine_failure);
+  }
+}
 
 void add_commands(CLI::App& app, CommandAction& action) {
   add_render_command(app, action);

@@ -75,6 +75,11 @@ std::optional<Json> row_of_csv(const std::string& text) {
 }
 
 std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolder& folder, unsigned threads) {
+  return words_for_result(run, folder, threads, folder.file(run.key));
+}
+
+std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolder& folder, unsigned threads,
+                                          const std::filesystem::path& file) {
   std::vector<std::string> words = run.words;
   if (folder.from_output()) {
     words.insert(words.end(), {"--format", "csv"});
@@ -82,7 +87,7 @@ std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolde
   }
   std::vector<std::string> more = {"--threads", std::to_string(threads), "--quiet"};
   if (words.front() == "render") more.emplace_back("--no-picture");
-  more.insert(more.end(), {"--stats", folder.file(run.key).string()});
+  more.insert(more.end(), {"--stats", file.string()});
   words.insert(std::ranges::find(words, kEndOfOptions), more.begin(), more.end());
   return words;
 }

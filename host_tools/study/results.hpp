@@ -38,6 +38,9 @@ class ResultFolder {
 
 /// All words after `torolux` that leave the result in the folder, and nothing else anywhere.
 std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolder& folder, unsigned threads);
+/// The same with another file for statistics.
+std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolder& folder, unsigned threads,
+                                          const std::filesystem::path& file);
 
 /// Header and row; numbers where they read as such. Absent where there is not just one row.
 std::optional<Json> row_of_csv(const std::string& text);

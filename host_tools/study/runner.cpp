@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A pool of child processes.
+// A pool of runs: what is to be done, what is being done by whom.
 #include "host_tools/study/runner.hpp"
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <deque>
 #include <iostream>
-#include <list>
+#include <map>
 #include <thread>
 
 #include "emulator/errors.hpp"
@@ -18,7 +15,6 @@
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/study/child.hpp"
 #include "host_tools/study/claim.hpp"
-#include "host_tools/study/options.hpp"
 
 namespace torolux::study {
 namespace {
@@ -40,7 +36,7 @@ class Pool {
     while (!pending_.empty() || !running_.empty() || !claimed_.empty()) {
       if (interrupted()) return stopped();
       const bool changed = start_some();
-      pause = reap() || changed ? kShortestPause : std::min(2 * pause, kLongestPause);
+      pause = collect() || changed ? kShortestPause : std::min(2 * pause, kLongestPause);
       show_life();
       std::this_thread::sleep_for(pause);
       if (pending_.empty()) pending_.swap(claimed_);
@@ -51,22 +47,22 @@ class Pool {
  private:
   struct Running {
     Work work;
-    std::vector<std::string> words;
     Claim claim;
-    Child child;
   };
 
   bool start_some() {
     bool changed = false;
-    while (running_.size() < choice_.jobs && !pending_.empty()) {
-      Work work = std::move(pending_.front());
-      pending_.pop_front();
-      changed = start(std::move(work)) || changed;
+    for (Hands* hands : choice_.hands) {
+      while (hands->free() && !pending_.empty()) {
+        Work work = std::move(pending_.front());
+        pending_.pop_front();
+        changed = start(std::move(work), *hands) || changed;
+      }
     }
     return changed;
   }
 
-  bool start(Work work) {
+  bool start(Work work, Hands& hands) {
     std::optional<Claim> claim = Claim::take(folder_.lock(work.run.key));
     if (!claim) {
       claimed_.push_back(std::move(work));
@@ -77,34 +73,40 @@ class Pool {
       ++end_.others;
       return true;
     }
-    std::vector<std::string> words = words_for_result(work.run, folder_, choice_.threads);
-    Child child("/proc/" + std::to_string(::getpid()) + "/exe", words);  // this one, should it have been replaced
-    claim->note_child(child.process());
-    running_.push_back({std::move(work), std::move(words), std::move(*claim), std::move(child)});
+    std::vector<std::string> words = hands.brings_results()
+                                         ? words_for_result(work.run, folder_, choice_.threads, kResultStream)
+                                         : words_for_result(work.run, folder_, choice_.threads);
+    const std::optional<pid_t> process = hands.start({next_, std::move(words), folder_.from_output()});
+    if (process) claim->note_child(*process);
+    running_.emplace(next_++, Running{std::move(work), std::move(*claim)});
     ++end_.started;
     return true;
   }
 
-  bool reap() {
+  bool collect() {
     bool changed = false;
-    for (auto running = running_.begin(); running != running_.end();) {
-      const std::optional<Ended> ended = running->child.poll();
-      if (!ended) {
-        ++running;
-        continue;
+    for (Hands* hands : choice_.hands) {
+      while (const std::optional<Answer> answer = hands->poll()) {
+        const auto running = running_.find(answer->number);
+        if (running == running_.end()) continue;  // of a study before this one
+        if (answer->outcome) {
+          finish(running->second.work, *answer->outcome);
+        } else {
+          pending_.push_front(std::move(running->second.work));
+          --end_.started;
+        }
+        running_.erase(running);
+        changed = true;
       }
-      finish(*running, *ended);
-      running = running_.erase(running);
-      changed = true;
     }
     return changed;
   }
 
-  void finish(Running& running, const Ended& ended) {
-    const KeyedRun& run = running.work.run;
-    if (ended.exit_code == 0 && folder_.from_output()) write_file(folder_.file(run.key), ended.output);
-    std::string errors = ended.errors;
-    if (ended.exit_code == 0) {
+  void finish(const Work& work, const Outcome& outcome) {
+    const KeyedRun& run = work.run;
+    if (outcome.exit_code == 0 && !outcome.result.empty()) write_file(folder_.file(run.key), outcome.result);
+    std::string errors = outcome.errors;
+    if (outcome.exit_code == 0) {
       try {
         if (folder_.read(run)) return;
         errors = "it ended well and left no result\n";
@@ -114,8 +116,9 @@ class Pool {
       }
     }
     if (interrupted()) return;
-    running.words.insert(running.words.begin(), choice_.program);
-    end_.failures.push_back({running.work.label, shell_line(running.words), ended.exit_code, errors});
+    std::vector<std::string> words = words_for_result(run, folder_, choice_.threads);
+    words.insert(words.begin(), choice_.program);
+    end_.failures.push_back({work.label, shell_line(words), outcome.exit_code, errors});
     const Failure& failure = end_.failures.back();
     std::cerr << "torolux: " << failure.label << ": failed with exit code " << failure.exit_code << "\n  "
               << failure.command << "\n"
@@ -125,12 +128,11 @@ class Pool {
   void show_life() {
     if (Clock::now() - shown_ < kHeartbeat) return;
     shown_ = Clock::now();
-    for (const Running& running : running_) running.claim.show_life();
+    for (const auto& [number, running] : running_) running.claim.show_life();
   }
 
   RunnerEnd stopped() {
-    for (const Running& running : running_) running.child.signal(SIGTERM);
-    for (Running& running : running_) running.child.wait();
+    for (Hands* hands : choice_.hands) hands->stop();
     end_.interrupted = true;
     return std::move(end_);
   }
@@ -138,7 +140,8 @@ class Pool {
   const ResultFolder& folder_;
   const RunnerChoice& choice_;
   std::deque<Work> pending_, claimed_;
-  std::list<Running> running_;
+  std::map<std::uint64_t, Running> running_;  ///< by the number of the order
+  inline static std::uint64_t next_ = 0;      ///< never used twice: answers may come after their study's end
   RunnerEnd end_;
   Clock::time_point shown_ = Clock::now();
 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Runs enter, result files leave: as child processes, so many at once, each run by one process at a time.
+// Runs enter, result files leave: as child processes here and on other ranks, so many at once, each run by one process
+// at a time.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "host_tools/study/hands.hpp"
 #include "host_tools/study/results.hpp"
 
 namespace torolux::study {
@@ -21,12 +23,13 @@ struct Failure {
 };
 
 struct RunnerChoice {
-  std::string program;  ///< how a message names it; what runs is the program that runs already
-  unsigned jobs = 1, threads = 1;
+  std::string program;        ///< how a message names it
+  unsigned threads = 1;       ///< of a run
+  std::vector<Hands*> hands;  ///< who does it; the first that are free are asked first
 };
 
 struct RunnerEnd {
-  std::size_t started = 0;  ///< child processes
+  std::size_t started = 0;  ///< runs
   std::size_t others = 0;   ///< results that other processes made meanwhile
   std::vector<Failure> failures;
   bool interrupted = false;

@@ -10,15 +10,21 @@
 
 #include "emulator/errors.hpp"
 #include "emulator/nearest_name.hpp"
+#include "emulator/ranks/launched.hpp"
+#include "emulator/ranks/mpi_ranks.hpp"
 #include "host_tools/cli/command.hpp"
+#include "host_tools/cli/interruption.hpp"
 #include "host_tools/files/shell_line.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"
 #include "host_tools/study/claim.hpp"
 #include "host_tools/study/figures.hpp"
+#include "host_tools/study/local_hands.hpp"
 #include "host_tools/study/options.hpp"
 #include "host_tools/study/plots.hpp"
+#include "host_tools/study/rank_hands.hpp"
 #include "host_tools/study/runner.hpp"
+#include "host_tools/study/serve.hpp"
 #include "host_tools/study/shard.hpp"
 
 namespace torolux::study {
@@ -189,7 +195,8 @@ int finish(Study& study, const StudyOptions& options, const RunnerEnd& end, std:
   return static_cast<int>(end.failures.empty() ? ExitCode::done : ExitCode::machine_failure);
 }
 
-int run_study(const std::string& plan, const StudyOptions& options) {
+/// others: of the ranks beside this one; null: there are none.
+int run_study(const std::string& plan, const StudyOptions& options, Hands* others) {
   Study study = read_study(plan, options);
   study.read_results();
   std::vector<Work> work = study.missing();
@@ -204,22 +211,46 @@ int run_study(const std::string& plan, const StudyOptions& options) {
   const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
   const unsigned jobs = options.jobs != 0 ? options.jobs : std::max(1U, cores / study.plan.threads);
   const std::size_t there = study.results.size();
-  const RunnerEnd end = run_all(work, study.folder, {program_path(), jobs, study.plan.threads});
+  LocalHands own(running_program(), jobs, false);
+  std::vector<Hands*> hands = {&own};
+  if (others != nullptr) hands.push_back(others);
+  const RunnerEnd end = run_all(work, study.folder, {program_path(), study.plan.threads, hands});
   return finish(study, options, end, there);
 }
 
 /// Each is done, whatever became of those before it; the exit code is that of the first that failed.
-int run_studies(const StudyOptions& options) {
+int run_studies(const StudyOptions& options, Hands* others) {
   if (options.plans.size() > 1 && options.folder) throw UsageError("--folder: a folder is for one plan");
   if (options.plans.size() > 1 && options.format == "csv") throw UsageError("--format csv: a table is of one plan");
   int code = 0;
   for (const std::string& plan : options.plans) {
     if (options.plans.size() > 1) tell(options, plan);
-    const int of_plan = run_study(plan, options);
+    const int of_plan = run_study(plan, options, others);
     if (of_plan == kInterrupted) return of_plan;
     if (code == 0) code = of_plan;
   }
   return code;
+}
+
+/// One run at a time for each rank, since mpirun starts as many ranks as there are cores to use. What goes wrong here
+/// is told before the others end: where one of them is lost, they take this process along.
+int run_on_ranks(StudyOptions options) {
+  options.jobs = std::max(1U, options.jobs);
+  const std::unique_ptr<ranks::Transport> transport = ranks::join_mpi();
+  if (transport->ranks().own != 0) {
+    LocalHands own(running_program(), options.jobs, true);
+    serve(*transport, own, program_digest());
+    forget_interruption();  // rank 0 knows of it, and its exit code counts
+    return 0;
+  }
+  RankHands others(*transport, options.jobs, program_digest());
+  const int code = guarded([&] { return run_studies(options, &others); });
+  others.end(code);
+  return code;
+}
+
+int run(const StudyOptions& options) {
+  return ranks::launched_ranks().count > 1 ? run_on_ranks(options) : run_studies(options, nullptr);
 }
 
 void add_options(CLI::App& command, StudyOptions& options) {
@@ -228,7 +259,9 @@ void add_options(CLI::App& command, StudyOptions& options) {
       ->type_name("...");
   command.add_option("--folder", options.folder, "Where results lie [beside the plan, .study in place of .toml]")
       ->type_name("FOLDER");
-  command.add_option("--jobs", options.jobs, "Runs at once [all cores over the threads of a run]")
+  command
+      .add_option("--jobs", options.jobs,
+                  "Runs at once [all cores over the threads of a run; with mpirun 1 of each rank]")
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));
   command.add_flag("--dry-run", options.dry_run, "Run nothing; print what would run, and what is there");
@@ -256,7 +289,7 @@ void add_study_command(CLI::App& app, CommandAction& action) {
   CLI::App* command =
       app.add_subcommand("study", "Do the runs of plans that are not done yet; write a table and curves of each");
   study::add_options(*command, *options);
-  command->callback([options, &action] { action = [options] { return study::run_studies(*options); }; });
+  command->callback([options, &action] { action = [options] { return study::run(*options); }; });
 }
 
 }  // namespace torolux

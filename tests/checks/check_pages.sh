@@ -38,8 +38,8 @@ while IFS= read -r word; do words[$word]=1; done < <(cat "${sources[@]}" | grep 
 # Names of headers, sources and tests are words, too.
 while IFS= read -r word; do words[$word]=1; done < <(printf '%s\n' "${files[@]}" | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u)
 while IFS= read -r option; do options[$option]=1; done < <(cat "${sources[@]}" | grep -ohE -e '--[a-z][a-z0-9_-]*' | sort -u)
-# Compilers, QEMU, ctest and others have options of their own; keys of `torolux study` are options without dashes.
-readonly foreign=' --benchmark_filter --help --target '
+# Compilers, QEMU, ctest, mpirun, Slurm and others have options of their own; keys of `torolux study` are options without dashes.
+readonly foreign=' --allow-run-as-root --benchmark_filter --bind-to --enable-recovery --help --kill-on-bad-exit --oversubscribe --target '
 # What files of others may hold: keys of PNG and MTL that are not read, forms of a face.
 readonly others=' gAMA map_Ke map_Ns a/t a//n a/t/n '
 

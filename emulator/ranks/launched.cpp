@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Variables that launchers set become numbers.
+#include "emulator/ranks/launched.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+namespace torolux::ranks {
+namespace {
+
+struct Launcher {
+  const char* count;
+  const char* own;
+};
+
+/// OpenMPI; Hydra (MPICH, Intel MPI, MVAPICH) and srun --mpi=pmi2; srun --mpi=pmix, whose own number is PMIx's.
+constexpr std::array<Launcher, 3> kLaunchers = {{{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+                                                 {"PMI_SIZE", "PMI_RANK"},
+                                                 {"SLURM_STEP_NUM_TASKS", "PMIX_RANK"}}};
+constexpr std::array<std::string_view, 4> kOfLaunchers = {"OMPI_", "PMI_", "PMIX_", "HYDI_"};
+
+std::optional<unsigned> number(const char* name) {
+  const char* text = std::getenv(name);
+  if (text == nullptr) return std::nullopt;
+  unsigned value = 0;
+  const char* end = text + std::strlen(text);
+  const auto read = std::from_chars(text, end, value);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+Ranks launched_ranks() {
+  for (const Launcher& launcher : kLaunchers) {
+    const std::optional<unsigned> count = number(launcher.count);
+    const std::optional<unsigned> own = number(launcher.own);
+    if (count && own && *own < *count) return {*own, *count};
+  }
+  return {};
+}
+
+std::vector<std::string> environment_of_no_rank() {
+  std::vector<std::string> kept;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    bool of_launcher = false;
+    for (const std::string_view prefix : kOfLaunchers) of_launcher = of_launcher || text.starts_with(prefix);
+    if (!of_launcher) kept.emplace_back(text);
+  }
+  return kept;
+}
+
+}  // namespace torolux::ranks

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The environment enters; how many ranks this process was started as one of leaves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulator/ranks/transport.hpp"
+
+namespace torolux::ranks {
+
+/// As mpirun of OpenMPI, of MPICH and its relatives, and Slurm's srun with PMI or PMIx tell it; one rank where nobody
+/// does.
+Ranks launched_ranks();
+
+/// This process's environment without what makes a child take itself for a rank.
+std::vector<std::string> environment_of_no_rank();
+
+}  // namespace torolux::ranks

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What rank 0 of a study and the others tell each other, and its bytes; all run the same program.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/snapshot/archive.hpp"
+#include "host_tools/study/hands.hpp"
+
+namespace torolux::study {
+
+enum class FarmMessage : std::uint32_t {
+  greeting = 1,  ///< to rank 0: Greeting
+  order,         ///< from rank 0: FarmOrder
+  answer,        ///< to rank 0: FarmAnswer
+  leaving,       ///< to rank 0, empty: this rank was told to end; what it was doing is not answered
+  end,           ///< from rank 0, empty: stop what you do
+  ready,         ///< to rank 0, empty: that has been done
+  close          ///< from rank 0: FarmClose
+};
+
+struct Greeting {
+  std::string host, program;  ///< program: its digest
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(host, program);
+  }
+};
+
+struct FarmOrder {
+  std::string folder;  ///< where it runs: paths are relative to that
+  Order order;
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(folder, order);
+  }
+};
+
+struct FarmAnswer {
+  std::uint64_t number = 0;
+  std::int32_t exit_code = 0;
+  std::string errors, result;
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(number, exit_code, errors, result);
+  }
+};
+
+struct FarmClose {
+  std::vector<unsigned> lost;  ///< ranks
+  std::int32_t exit_code = 0;
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(lost, exit_code);
+  }
+};
+
+template <class Content>
+std::vector<std::byte> bytes_of(Content content) {
+  std::vector<std::byte> bytes;
+  SnapshotWriter writer(
+      [&bytes](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
+  writer(content);
+  writer.flush();
+  return bytes;
+}
+
+/// Throws InputError where these are the bytes of something else.
+template <class Content>
+Content content_of(std::span<const std::byte> bytes) {
+  Content content;
+  SnapshotReader reader([&bytes](std::span<std::byte> into) {
+    if (bytes.size() < into.size()) throw InputError("a message between ranks is too short");
+    std::memcpy(into.data(), bytes.data(), into.size());
+    bytes = bytes.subspan(into.size());
+  });
+  reader(content);
+  if (!bytes.empty()) throw InputError("a message between ranks is too long");
+  return content;
+}
+
+}  // namespace torolux::study
