@@ -97,15 +97,12 @@ void RankHands::greet(unsigned rank, const std::vector<std::byte>& bytes) {
 
 void RankHands::take_answer(unsigned rank, const std::vector<std::byte>& bytes) {
   auto answer = content_of<FarmAnswer>(bytes);
-  Other& other = others_[rank];
-  if (other.orders.erase(answer.number) == 0 || other.given_up.erase(answer.number) > 0) return;
+  if (others_[rank].orders.erase(answer.number) == 0) return;
   answers_.push_back({answer.number, Outcome{answer.exit_code, std::move(answer.errors), std::move(answer.result)}});
 }
 
-void RankHands::give_up(Other& other) {
-  for (const std::uint64_t number : other.orders) {
-    if (other.given_up.insert(number).second) answers_.push_back({number, std::nullopt});
-  }
+void RankHands::give_up(const Other& other) {
+  for (const std::uint64_t number : other.orders) answers_.push_back({number, std::nullopt});
 }
 
 void RankHands::look_for_silence() {

@@ -14,7 +14,8 @@
 namespace torolux::study {
 
 /// A rank that falls silent or leaves does not answer: its orders come back as nobody's (Answer), and it is told on
-/// standard error. One that is heard again gets orders again.
+/// standard error. One that is heard again gets orders again; what it still answers is for whom it was that ordered to
+/// pass over.
 class RankHands : public Hands {
  public:
   /// jobs: orders at once, of each rank. program: digest that theirs must have.
@@ -32,9 +33,8 @@ class RankHands : public Hands {
 
  private:
   struct Other {
-    std::string host;                  ///< empty: it has not greeted yet
-    std::set<std::uint64_t> orders;    ///< not answered
-    std::set<std::uint64_t> given_up;  ///< of these, what somebody else was given
+    std::string host;                ///< empty: it has not greeted yet
+    std::set<std::uint64_t> orders;  ///< not answered
     bool silent = false, left = false, ready = false;
   };
 
@@ -43,7 +43,7 @@ class RankHands : public Hands {
   void receive(const ranks::Message& message);
   void greet(unsigned rank, const std::vector<std::byte>& bytes);
   void take_answer(unsigned rank, const std::vector<std::byte>& bytes);
-  void give_up(Other& other);
+  void give_up(const Other& other);
   void look_for_silence();
   void send_all(FarmMessage kind, const std::vector<std::byte>& bytes);
 

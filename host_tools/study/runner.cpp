@@ -88,7 +88,7 @@ class Pool {
     for (Hands* hands : choice_.hands) {
       while (const std::optional<Answer> answer = hands->poll()) {
         const auto running = running_.find(answer->number);
-        if (running == running_.end()) continue;  // of a study before this one
+        if (running == running_.end()) continue;  // somebody else's by now, or of a study before this one
         if (answer->outcome) {
           finish(running->second.work, *answer->outcome);
         } else {
