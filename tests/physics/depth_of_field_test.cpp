@@ -89,7 +89,8 @@ TEST_F(DepthOfField, ALampOutOfFocusIsADiscAsWideAsTheThinLensHasIt) {
     // Of the disc, at distance 1: half of aperture |z - focus| / (z focus).
     const double radius = 0.1 * std::abs(kDistance - focus) / (kDistance * focus) / pixel;
     for (const Spread& blurred : {on_the_machine(camera), traced(camera)}) {
-      EXPECT_NEAR(blurred.sum, sharp.sum, 0.02 * sharp.sum) << focus;
+      // The lamp is met by some 1,300 of the disc's samples: 2.8 % by chance were nothing stratified; seen 2.4 %.
+      EXPECT_NEAR(blurred.sum, sharp.sum, 0.05 * sharp.sum) << focus;
       // Of disc, lamp and pixel, all uniform. 3 %: seen 1.3 %, where the disc is 6 pixels wide.
       const double variance = radius * radius / 4 + (lamp * lamp + 1) / 12;
       EXPECT_NEAR(blurred.variance, variance, 0.03 * variance) << focus;

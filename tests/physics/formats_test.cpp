@@ -21,8 +21,8 @@ RenderCase box() {
   result.quality.samples = 16;
   result.quality.patch_length = 100;
   result.quality.element_length = 50;
-  result.quality.shot_points = 4;
-  result.quality.hemicube = 16;
+  result.quality.shot_points = 10;
+  result.quality.hemicube = 6;
   result.quality.unshot = 0.002;
   result.machine.subspaces = {4, 4, 4};
   return result;
@@ -82,10 +82,10 @@ TEST(Formats, TheCornellBoxHasTheSameLightFromObjGltfAndMgf) {
     const auto all = sum_over_surfaces(scene, found);
     const auto all_wanted = sum_over_surfaces(obj, wanted);
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(all[c], all_wanted[c], 0.002 * all_wanted[c]) << ending;
-    // glTF rounds positions to floats, so that other records meet the blocks' dark sides: seen 3.7 % of noise there.
+    // glTF rounds positions to floats, so that other records meet the blocks' dark sides: seen 2.4 % of noise there.
     for (std::size_t quad = 0; quad < wanted.size(); ++quad) {
       for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_NEAR(found[quad][c], wanted[quad][c], 0.06 * wanted[quad][c]) << ending << ", quad " << quad;
+        EXPECT_NEAR(found[quad][c], wanted[quad][c], 0.04 * wanted[quad][c]) << ending << ", quad " << quad;
     }
     EXPECT_LE(relative_rmse(picture_of(scene, render_case), picture), noise) << ending;
   }
