@@ -33,15 +33,25 @@ void MgfColours::handle(const MgfStatement& statement) {
     statement.expect(2, 2, "cxy X Y");
     colours_.current() = checked(statement, {statement.number(0), statement.number(1)});
   } else if (keyword == "cspec") {
-    colours_.current() = spectrum(statement);
+    colours_.current() = once(statement, spectrum);
   } else if (keyword == "cct") {
-    statement.expect(1, 1, "cct KELVIN");
-    const double kelvin = statement.number(0);
-    if (!(kelvin >= 100 && kelvin <= 1e9)) statement.refuse_with("the temperature must be 100 to 1e9 kelvin");
-    colours_.current() = of_tristimulus(statement, black_body(kelvin));
+    colours_.current() = once(statement, temperature);
   } else {
     colours_.current() = mixture(statement);
   }
+}
+
+Chromaticity MgfColours::once(const MgfStatement& statement, Chromaticity (*work_out)(const MgfStatement&)) {
+  const char* const where = statement.keyword().data();
+  if (const auto known = worked_out_.find(where); known != worked_out_.end()) return known->second;
+  return worked_out_.emplace(where, work_out(statement)).first->second;
+}
+
+Chromaticity MgfColours::temperature(const MgfStatement& statement) {
+  statement.expect(1, 1, "cct KELVIN");
+  const double kelvin = statement.number(0);
+  if (!(kelvin >= 100 && kelvin <= 1e9)) statement.refuse_with("the temperature must be 100 to 1e9 kelvin");
+  return of_tristimulus(statement, black_body(kelvin));
 }
 
 Chromaticity MgfColours::spectrum(const MgfStatement& statement) {

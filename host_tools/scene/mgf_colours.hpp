@@ -2,6 +2,8 @@
 // MGF's c, cxy, cspec, cct and cmix enter; the current colour leaves.
 #pragma once
 
+#include <unordered_map>
+
 #include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/mgf_contexts.hpp"
 
@@ -9,7 +11,8 @@ namespace torolux {
 
 class MgfColours {
  public:
-  /// Throws InputError: a colour that is not defined, or that no light has (negative brightness, outside of x + y = 1).
+  /// The text of the statement outlives this. Throws InputError: a colour that is not defined, or that no light has
+  /// (negative brightness, outside of x + y = 1).
   void handle(const MgfStatement& statement);
   const Chromaticity& current() { return colours_.current(); }
 
@@ -17,9 +20,13 @@ class MgfColours {
 
  private:
   static Chromaticity spectrum(const MgfStatement& statement);
+  static Chromaticity temperature(const MgfStatement& statement);
+  /// What a statement says by itself is worked out once, however often arrays repeat it.
+  Chromaticity once(const MgfStatement& statement, Chromaticity (*work_out)(const MgfStatement&));
   Chromaticity mixture(const MgfStatement& statement);
 
   MgfContexts<Chromaticity> colours_{"colour"};
+  std::unordered_map<const char*, Chromaticity> worked_out_;  ///< by where the statement's keyword stands
 };
 
 }  // namespace torolux
