@@ -161,11 +161,12 @@ TEST(MgfMaterial, CornellBoxIsTheSameSceneAsFromObj) {
 
 // A repeated statement's colour is worked out once, and is that statement's.
 TEST(MgfMaterial, ColoursInArraysStayTheirStatements) {
-  const Scene scene = load_texts({{"a.mgf",
-                                   "v a =\np 0 0 0\nv b =\np 1 0 0\nv c =\np 1 1 0\nm one =\nxf -a 3 -t 0 0 1\n"
-                                   "c\ncct 3000\nrd .3\nf a b c\nc\ncct 6000\nrd .3\nf a c b\n"
-                                   "c\ncspec 400 700 3 2 1\nrd .3\nf b c a\nxf\n"}},
-                                 "a.mgf");
+  const Scene scene =
+      load_texts({{"a.mgf",
+                   "v a =\np 0 0 0\nv b =\np 1 0 0\nv c =\np 1 1 0\nv d =\np 0 1 0\nm one =\nxf -a 3 -t 0 0 1\n"
+                   "c\ncct 3000\nrd .3\nf a b c\nc\ncct 6000\nrd .3\nf a c b\n"
+                   "c\ncspec 400 700 3 2 1\nrd .3\nf a c d\nxf\n"}},
+                 "a.mgf");
   ASSERT_EQ(scene.materials.size(), 3U);
   EXPECT_GT(scene.materials[0].diffuse[0], scene.materials[1].diffuse[0]);
   EXPECT_GT(scene.materials[2].diffuse[2], scene.materials[1].diffuse[2]);

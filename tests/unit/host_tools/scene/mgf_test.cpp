@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves how each entity of MGF is read: contexts, surfaces, transforms, includes; and that mistakes say where they
 // are.
+#include "host_tools/scene/mgf.hpp"
 #include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
@@ -220,15 +221,33 @@ TEST(Mgf, TransformsEndWithTheirFile) {
 // What would take longer than anybody waits, or more memory than there is, ends with a reason.
 TEST(Mgf, ArraysBeyondAllBoundsAreRefused) {
   EXPECT_THAT(refused(kQuad + "xf -a 1000000000 -t 0 0 1\nsph a 1\nxf\n"), HasSubstr("more than 4000000 triangles"));
-  const auto endless = HasSubstr("repeat more than 5000000 statements");
-  EXPECT_THAT(refused("xf -a 1000000000 -t 0 0 1e-9\nxf\n"), endless);
-  // Of files as well in which nothing stands, and of faces that make no triangles.
-  EXPECT_THAT(refusal({{"a.mgf", kQuad + "i b.inc -a 1000000000\n"}, {"b.inc", "# nothing\n"}}, "a.mgf"), endless);
-  std::string line = "f";
-  for (int i = 0; i < 1000; ++i) line += " a";
-  EXPECT_THAT(refused(kQuad + "xf -a 2000000\n" + line + "\nxf\n"), HasSubstr("more than 4000000 triangles"));
+  EXPECT_THAT(refused("xf -a 1000000000 -t 0 0 1e-9\nxf\n"), HasSubstr("repeat more than 5000000 statements"));
   EXPECT_THAT(refused(kQuad + "xf -i 4000000000 -t 0 0 1e9\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
   EXPECT_THAT(refused(kQuad + "xf -i 4000 -s 2\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
+}
+
+// Nor do copies of files in which nothing stands, or of faces that make no triangles.
+TEST(Mgf, ArraysOfNothingAreRefused) {
+  const auto beyond = [](const MgfLimits& limits, const Texts& texts) -> std::string {
+    MemoryFiles files(texts);
+    Notices notices;
+    try {
+      import_mgf("a.mgf", files, {}, notices, limits);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "(accepted)";
+  };
+  const Texts empty{{"a.mgf", kQuad + "i b.inc -a 1000\n"}, {"b.inc", "# nothing\n"}};
+  EXPECT_EQ(beyond({100, 1000}, empty), "(accepted)");
+  EXPECT_THAT(beyond({100, 999}, empty), HasSubstr("repeat more than 999 statements"));
+  const Texts flat{{"a.mgf", kQuad + "xf -a 10\nf a a a a a a\nxf\n"}};
+  EXPECT_EQ(beyond({20, 100}, flat), "(accepted)");
+  EXPECT_THAT(beyond({19, 100}, flat), HasSubstr("more than 19 triangles"));
+  std::string words;
+  for (int i = 0; i < 640; ++i) words += " a";
+  EXPECT_THAT(beyond({100, 50}, {{"a.mgf", "xf -a 10\nthing" + words + "\nxf\n"}}),
+              HasSubstr("more than 50 statements"));
 }
 
 // What differs in each copy is compared with all that came before; what is wrong alike in all is one.
