@@ -90,8 +90,13 @@ bool ConvexCut::take_away(const PositionPolygon& piece, const PositionPolygon& o
 bool ConvexCut::parted_by(const PositionPolygon& polygon, const PositionPolygon& other, const Vec3d& up) const {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3d& a = at(polygon[i]);
-    const Vec3d& b = at(polygon[(i + 1) % polygon.size()]);
-    if (std::ranges::all_of(other, [&](std::uint32_t p) { return side_of(at(p), a, b, up) <= near_; })) return true;
+    const Vec3d along = vec::subtract(at(polygon[(i + 1) % polygon.size()]), a);
+    const double length = vec::length(along);
+    // As side_of has it, with the length worked out once.
+    const auto is_outside = [&](std::uint32_t p) {
+      return vec::dot(up, vec::cross(along, vec::subtract(at(p), a))) / length <= near_;
+    };
+    if (!(length > 0) || std::ranges::all_of(other, is_outside)) return true;
   }
   return false;
 }

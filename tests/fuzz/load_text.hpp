@@ -86,11 +86,11 @@ inline bool load_text(SceneText kind, const std::string& text, bool studio) {
 /// few triangles goes through all that scenes go through. One text in 256, chosen by its bytes, has wider limits.
 inline bool load_mgf(const std::string& text, bool studio) {
   const bool wide = std::hash<std::string>()(text) % 256 == 0;
-  const std::size_t most_triangles = wide ? 20'000 : 600;
+  const std::size_t most_triangles = wide ? 1'000 : 300;
   MemoryFiles files(scene_with(SceneText::mgf, text));
   Notices notices;
   try {
-    const MgfLimits limits = wide ? MgfLimits{20'000, 100'000} : MgfLimits{10'000, 2'000};
+    const MgfLimits limits = wide ? MgfLimits{100'000, 100'000} : MgfLimits{10'000, 2'000};
     const ImportedMesh mesh = import_mgf("fuzz.mgf", files, {"fuzz.mgf"}, notices, limits);
     for (const ImportedTriangle& triangle : mesh.triangles)
       for (const std::uint32_t p : triangle.position)
