@@ -17,8 +17,7 @@ struct MgfLimits {
 
 /// Lengths in metres, as the format has it, or whatever its transforms make of them. Lines of triangles are the file's
 /// own: of what is included, the line that includes it. Throws InputError with file and line: what is not MGF, a name
-/// or a file that is not there, files that include each other, what is beyond
-/// the limits.
+/// or a file that is not there, files that include each other, what is beyond the limits.
 ImportedMesh import_mgf(const std::filesystem::path& path, SceneFiles& files, const Place& asked_at, Notices& notices,
                         const MgfLimits& limits = {});
 
