@@ -44,6 +44,12 @@ Ranks launched_ranks() {
   return {};
 }
 
+std::string host_name() {
+  std::array<char, 256> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
 std::vector<std::string> environment_of_no_rank() {
   std::vector<std::string> kept;
   for (char** variable = environ; *variable != nullptr; ++variable) {

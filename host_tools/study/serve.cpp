@@ -2,14 +2,12 @@
 // A loop over messages and child processes.
 #include "host_tools/study/serve.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <system_error>
 
+#include "emulator/ranks/launched.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/study/farm_messages.hpp"
 
@@ -19,19 +17,13 @@ namespace {
 /// Child processes are looked at so often; messages wake at once.
 constexpr std::chrono::milliseconds kShortestPause{1}, kLongestPause{50};
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  ::gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
-
 class Server {
  public:
   Server(ranks::Transport& transport, Hands& hands, ranks::LifeTimes times)
       : transport_(transport), hands_(hands), life_(transport, {0}, times) {}
 
   FarmClose run(const std::string& program) {
-    send(FarmMessage::greeting, bytes_of(Greeting{host_name(), program}));
+    send(FarmMessage::greeting, bytes_of(Greeting{ranks::host_name(), program}));
     std::chrono::milliseconds pause = kShortestPause;
     while (!close_) {
       const bool received = receive();
