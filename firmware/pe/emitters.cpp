@@ -63,32 +63,41 @@ bool leads_through(const Emitter& half, const glm::vec3& point, const glm::vec3&
   return u >= 0.0F && v >= 0.0F && u + v <= 1.0F && glm::dot(second, aside) * inverse > 0.0F;
 }
 
-bool leads_through_any(const Scene& scene, const glm::vec3& point, const glm::vec3& direction) {
-  return std::any_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& emitter) {
-    return emitter.polygon == protocol::kSkyTarget && emitter.both_sides == protocol::kSkyThroughOpening &&
-           leads_through(emitter, point, direction);
-  });
+/// Through one of the openings, which stand before the sun in the list; where there are none, everywhere.
+bool lets_sun_in(const Scene& scene, const glm::vec3& point, const glm::vec3& direction) {
+  bool any = false;
+  for (std::size_t i = scene.emitters.size() - 1U; i-- > 0;) {
+    const Emitter& emitter = scene.emitters[i];
+    if (emitter.polygon != protocol::kSkyTarget || emitter.both_sides != protocol::kSkyThroughOpening) break;
+    if (leads_through(emitter, point, direction)) return true;
+    any = true;
+  }
+  return !any;
 }
 
-/// Of sky and sun: a direction by what comes from there. False: none comes to this side.
-bool sample_by_radiance(const Scene& scene, const Emitter& sky, float place, float v, const glm::vec3& point,
-                        const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
+/// Of the sky without its sun, or of the sun alone: a direction by what comes from there. False: none comes to this
+/// side.
+bool sample_by_radiance(const Scene& scene, const Emitter& emitter, float place, float v, const glm::vec3& normal,
+                        const glm::vec3& geometric, EmitterSample& sample) {
   // The sun's words are the last.
-  const std::uint32_t begin =
-      sky.both_sides == protocol::kSkySun ? scene.sky[protocol::kSkyCells - 1U].chosen_to + 1U : 0U;
-  const std::uint32_t most = 0xFFFF'FFFFU - begin;
+  const bool of_sun = emitter.both_sides == protocol::kSkySun;
+  const std::uint32_t last_of_sky = scene.sky[protocol::kSkyCells - 1U].chosen_to;
+  const std::uint32_t begin = of_sun ? last_of_sky + 1U : 0U;
+  const std::uint32_t most = of_sun ? 0xFFFF'FFFFU - begin : last_of_sky;
   const float upto = place * static_cast<float>(most);
   const std::uint32_t word = begin + (upto < static_cast<float>(most) ? static_cast<std::uint32_t>(upto) : most);
   const protocol::SkySample from = protocol::sample_sky(scene.layout.sky_frame, scene.sky, word, v);
   sample.direction = to_vector(from.direction);
-  sample.polygon = sky.polygon;
+  sample.polygon = emitter.polygon;
   const float leaving = glm::dot(sample.direction, normal);
   if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
-  if (sky.both_sides == protocol::kSkySun && !leads_through_any(scene, point, sample.direction)) return false;
-  // Of the sun alone the chance within all of the sky does not count.
-  const float share = sky.both_sides == protocol::kSkySun ? static_cast<float>(most) * 0x1p-32F : 1.0F;
-  sample.irradiance_over_pi = to_vector(from.radiance_by_solid_angle) * (leaving * sky.area_over_chance * share);
+  const float share = static_cast<float>(most) * 0x1p-32F;  // its chance within sky and sun together
+  sample.irradiance_over_pi = to_vector(from.radiance_by_solid_angle) * (leaving * emitter.area_over_chance * share);
   return true;
+}
+
+bool is_sun(const Emitter& emitter) {
+  return emitter.polygon == protocol::kSkyTarget && emitter.both_sides == protocol::kSkySun;
 }
 
 /// One point by the emitters' power alone. False: no light comes from there.
@@ -97,11 +106,10 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
   float place = 0.0F;
   const Emitter& emitter = choose(scene, numbers.x, place);
   const bool of_sky = emitter.polygon == protocol::kSkyTarget;
+  if (is_sun(emitter)) return false;
   const bool through = of_sky && emitter.both_sides == protocol::kSkyThroughOpening;
-  if (of_sky && !through) {
-    return sample_by_radiance(scene, emitter, place, protocol::uniform_float(numbers.y), point, normal, geometric,
-                              sample);
-  }
+  if (of_sky && !through)
+    return sample_by_radiance(scene, emitter, place, protocol::uniform_float(numbers.y), normal, geometric, sample);
   const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
   const float square = glm::dot(way, way);
   if (!(square > 0.0F)) return false;
@@ -129,23 +137,27 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
 /// Of the sky at least so many: a surface sees half of it, and most what stands above it.
 constexpr std::uint32_t kSkyCandidates = 4;
 
-/// A triangle or two, as lamps of one piece have, are alike from nearly everywhere. The sky is the last of all.
+/// A triangle or two, as lamps of one piece have, are alike from nearly everywhere. The sky is the last of all but its
+/// sun.
 std::uint32_t candidates_of(const Scene& scene) {
-  const auto emitters = static_cast<std::uint32_t>(scene.emitters.size());
-  const std::uint32_t least = scene.emitters.back().polygon == protocol::kSkyTarget ? kSkyCandidates : 1U;
+  const std::uint32_t suns = is_sun(scene.emitters.back()) ? 1U : 0U;
+  const auto emitters = static_cast<std::uint32_t>(scene.emitters.size()) - suns;
+  if (emitters == 0) return 0;
+  const std::uint32_t least = scene.emitters[emitters - 1U].polygon == protocol::kSkyTarget ? kSkyCandidates : 1U;
   return emitters <= 2U ? least : std::clamp(emitters - 1U, least, kMostCandidates);
 }
+
+}  // namespace
 
 float brings(const EmitterSample& sample) {
   const glm::vec3& light = sample.irradiance_over_pi;
   return (light.x + light.y) + light.z;
 }
 
-}  // namespace
-
 bool sample_emitter(const Scene& scene, const protocol::StratifiedTriple& numbers, const glm::vec3& point,
                     const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
   const std::uint32_t candidates = candidates_of(scene);
+  if (candidates == 0) return false;
   if (candidates == 1U) return sample_by_power(scene, {numbers.x, numbers.y}, point, normal, geometric, sample);
   // Each has its own part of all emitters' power, so that none with as much is ever left out, and the same one in all
   // samples of a pixel: choices that keep apart choose emitters that do.
@@ -167,6 +179,15 @@ bool sample_emitter(const Scene& scene, const protocol::StratifiedTriple& number
   candidate(chosen, sample);
   sample.irradiance_over_pi *= all / (brings(sample) * static_cast<float>(candidates));
   return true;
+}
+
+bool sample_sun(const Scene& scene, const protocol::StratifiedTriple& numbers, const glm::vec3& point,
+                const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
+  const Emitter& sun = scene.emitters.back();
+  return is_sun(sun) &&
+         sample_by_radiance(scene, sun, protocol::uniform_float(numbers.x), protocol::uniform_float(numbers.y), normal,
+                            geometric, sample) &&
+         lets_sun_in(scene, point, sample.direction);
 }
 
 }  // namespace torolux::pe

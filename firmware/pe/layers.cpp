@@ -24,6 +24,10 @@ protocol::Vec3f& carried_irradiance(RayRecord& record) {
 const protocol::Vec3f& carried_irradiance(const RayRecord& record) {
   return record.branches[protocol::kMostBranches - 1U].weight;
 }
+/// And of the ray to the sun that waits.
+protocol::Vec3f& sun_irradiance(RayRecord& record) {
+  return record.branches[protocol::kMostBranches - 1U].direction;
+}
 
 void add_irradiance(Pe& pe, Niu& niu, const RayRecord& record, const glm::vec3& over_pi) {
   const glm::vec3 value = over_pi * pe.scene.layout.pixel_scale;
@@ -71,14 +75,25 @@ void note_way(Pe& pe, Niu& niu, const RayRecord& record, const Way& way) {
   }
 }
 
-bool note_irradiance(const Pe& pe, RayRecord& record, const glm::vec3& irradiance_over_pi) {
-  if (record.bounce != 0 || !wanted(pe, Plane::irradiance)) return false;
+bool wants_irradiance(const Pe& pe, const RayRecord& record) {
+  return record.bounce == 0 && wanted(pe, Plane::irradiance);
+}
+
+void note_irradiance(const Pe& pe, RayRecord& record, const glm::vec3& irradiance_over_pi) {
+  if (!wants_irradiance(pe, record)) return;
   carried_irradiance(record) = to_array(to_vector(record.weight) * irradiance_over_pi);
-  return true;
+}
+
+void note_sun_irradiance(RayRecord& record, const glm::vec3& irradiance_over_pi) {
+  sun_irradiance(record) = to_array(to_vector(record.weight) * irradiance_over_pi);
+}
+
+void take_sun_irradiance(RayRecord& record) {
+  carried_irradiance(record) = sun_irradiance(record);
 }
 
 void dim_irradiance(const Pe& pe, RayRecord& record, const glm::vec3& passed) {
-  if (record.bounce != 0 || !wanted(pe, Plane::irradiance)) return;
+  if (!wants_irradiance(pe, record)) return;
   carried_irradiance(record) = to_array(to_vector(carried_irradiance(record)) * passed);
 }
 

@@ -14,9 +14,17 @@ void note_way(Pe& pe, Niu& niu, const protocol::RayRecord& record, const Way& wa
 void note_surface(Pe& pe, Niu& niu, const protocol::RayRecord& record, const Hit& hit,
                   const glm::vec3& irradiance_over_pi);
 
+/// Whether a shadow ray from the surface that a record has met must go, whatever its weight: irradiance is asked for.
+bool wants_irradiance(const Pe& pe, const protocol::RayRecord& record);
+
 /// The record is to become a shadow ray from the surface that it has met, and would bring this light (irradiance / pi).
-/// True: it must go, whatever its weight, as its irradiance is asked for.
-bool note_irradiance(const Pe& pe, protocol::RayRecord& record, const glm::vec3& irradiance_over_pi);
+void note_irradiance(const Pe& pe, protocol::RayRecord& record, const glm::vec3& irradiance_over_pi);
+
+/// Likewise of a ray to the sun, which waits for another one and is the only one that waits.
+void note_sun_irradiance(protocol::RayRecord& record, const glm::vec3& irradiance_over_pi);
+
+/// That ray is the record's way now.
+void take_sun_irradiance(protocol::RayRecord& record);
 
 /// What a pane lets pass of the light that note_irradiance() keeps: factors by channel.
 void dim_irradiance(const Pe& pe, protocol::RayRecord& record, const glm::vec3& passed);

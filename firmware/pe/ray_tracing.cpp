@@ -59,30 +59,6 @@ std::uint32_t way_key(const Pe& pe, const RayRecord& record, Dimension dimension
   return protocol::hash_combine(way, static_cast<std::uint32_t>(dimension));
 }
 
-/// From a diffuse surface on towards an emitter, if shadow rays are asked for. False: no light comes that way.
-bool aim_at_emitter(const Pe& pe, RayRecord& record, const Hit& hit) {
-  if (pe.scene.emitters.empty()) return false;
-  const Polygon& polygon = pe.scene.polygons[hit.polygon];
-  const glm::vec3 to_side = hit.front ? glm::vec3(1.0F) : glm::vec3(-1.0F);
-  const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + to_vector(record.direction) * hit.t);
-  EmitterSample sample;
-  const protocol::StratifiedTriple numbers =
-      protocol::stratified_triple(record.sample, way_key(pe, record, Dimension::emitter));
-  if (!sample_emitter(pe.scene, numbers, origin, shading_normal(pe.scene, polygon, hit) * to_side,
-                      unit_normal(polygon) * to_side, sample)) {
-    return false;
-  }
-  const glm::vec3 diffuse = diffuse_reflectance(pe.scene, polygon, hit);
-  const glm::vec3 weight = to_vector(record.weight) * diffuse * sample.irradiance_over_pi;
-  const bool lights = shows(pe, weight);
-  if (!note_irradiance(pe, record, sample.irradiance_over_pi) && !lights) return false;
-  record.weight = to_array(lights ? weight : glm::vec3(0.0F));
-  record.target = sample.polygon;
-  turn(record, origin, sample.direction, polygon.number);
-  record.flags |= protocol::kShadow;
-  return true;
-}
-
 /// A shadow ray has met something: the emitter, a pane, or what else is before it. Glass and mirrors cast shadows: the
 /// light that comes by way of them is no emitter's own, and is in the irradiance at vertices. False: it has ended.
 bool pass_shadow(Pe& pe, Niu& niu, RayRecord& record, const Hit& hit) {
@@ -160,6 +136,7 @@ void add_branch(RayRecord& record, const Onward& way) {
   branch.polygon = way.polygon;
   branch.key = way.key;
   branch.bounce = way.bounce;
+  branch.flags = 0;
 }
 
 void take(RayRecord& record, const Onward& way) {
@@ -167,6 +144,70 @@ void take(RayRecord& record, const Onward& way) {
   record.key = way.key;
   record.bounce = way.bounce;
   turn(record, way.origin, way.direction, way.polygon);
+}
+
+/// A shadow ray that might go: the light of the sun, or of all other emitters.
+struct Aim {
+  EmitterSample from;
+  glm::vec3 weight;  ///< the light that it brings to the pixel
+  bool goes;
+};
+
+void decide(const Pe& pe, const RayRecord& record, const glm::vec3& reflectance, Aim& aim) {
+  if (!aim.goes) return;
+  aim.weight = to_vector(record.weight) * reflectance * aim.from.irradiance_over_pi;
+  if (shows(pe, aim.weight)) return;
+  aim.weight = glm::vec3(0.0F);
+  aim.goes = wants_irradiance(pe, record);
+}
+
+/// No way may wait beside those that do: of two rays one goes, by what they bring, each at least once in four times.
+void choose_one(const RayRecord& record, Aim& sun, Aim& others) {
+  const float by_sun = brings(sun.from);
+  const float chance = glm::clamp(by_sun / (by_sun + brings(others.from)), 0.25F, 0.75F);
+  sun.goes = protocol::uniform(record.key, Dimension::emitter) < chance;
+  others.goes = !sun.goes;
+  Aim& chosen = sun.goes ? sun : others;
+  const float inverse = 1.0F / (sun.goes ? chance : 1.0F - chance);
+  chosen.weight *= inverse;
+  chosen.from.irradiance_over_pi *= inverse;
+}
+
+/// From a diffuse surface on towards an emitter, if shadow rays are asked for; where the sun may shine and no other way
+/// waits, its ray waits for that to the others. False: no light comes.
+bool aim_at_emitters(const Pe& pe, RayRecord& record, const Hit& hit) {
+  if (pe.scene.emitters.empty()) return false;
+  const Polygon& polygon = pe.scene.polygons[hit.polygon];
+  const glm::vec3 to_side = hit.front ? glm::vec3(1.0F) : glm::vec3(-1.0F);
+  const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + to_vector(record.direction) * hit.t);
+  const glm::vec3 normal = shading_normal(pe.scene, polygon, hit) * to_side;
+  const glm::vec3 geometric = unit_normal(polygon) * to_side;
+  const protocol::StratifiedTriple numbers =
+      protocol::stratified_triple(record.sample, way_key(pe, record, Dimension::emitter));
+  Aim sun{};
+  Aim others{};
+  sun.goes = sample_sun(pe.scene, numbers, origin, normal, geometric, sun.from);
+  others.goes = sample_emitter(pe.scene, numbers, origin, normal, geometric, others.from);
+  const glm::vec3 diffuse = diffuse_reflectance(pe.scene, polygon, hit);
+  decide(pe, record, diffuse, sun);
+  decide(pe, record, diffuse, others);
+  if (sun.goes && others.goes) {
+    if (record.waiting != 0) {
+      choose_one(record, sun, others);
+    } else {
+      note_sun_irradiance(record, sun.from.irradiance_over_pi);
+      add_branch(record, {origin, sun.from.direction, sun.weight, polygon.number, record.key, record.bounce});
+      record.branches[0].flags = protocol::kShadow;
+    }
+  }
+  const Aim& aim = others.goes ? others : sun;
+  if (!aim.goes) return false;
+  note_irradiance(pe, record, aim.from.irradiance_over_pi);
+  record.weight = to_array(aim.weight);
+  record.target = aim.from.polygon;
+  turn(record, origin, aim.from.direction, polygon.number);
+  record.flags |= protocol::kShadow;
+  return true;
 }
 
 /// The way by a glossy surface's lobe. False: none that is worth following.
@@ -188,25 +229,25 @@ bool choose_lobe(const Pe& pe, const RayRecord& record, const Hit& hit, Onward& 
   return worth_following(pe, way.weight);
 }
 
-/// From a diffuse or glossy surface on: by the lobe, and towards an emitter, if shadow rays are asked for; one of them
+/// From a diffuse or glossy surface on: by the lobe, and towards emitters, if shadow rays are asked for; one of them
 /// waits for the other, or where there is no room, one is taken by chance. False: there is neither.
 bool scatter(const Pe& pe, RayRecord& record, const Hit& hit) {
   Onward lobe;
   const MaterialKind kind = pe.scene.materials[pe.scene.polygons[hit.polygon].material].kind;
-  if (kind != MaterialKind::glossy || !choose_lobe(pe, record, hit, lobe)) return aim_at_emitter(pe, record, hit);
+  if (kind != MaterialKind::glossy || !choose_lobe(pe, record, hit, lobe)) return aim_at_emitters(pe, record, hit);
   bool by_lobe = pe.scene.emitters.empty();
   if (!by_lobe && record.waiting == protocol::kMostBranches) {
     by_lobe = protocol::uniform(lobe.key, Dimension::branch) < 0.5F;
     lobe.weight *= 2.0F;
     record.weight = to_array(to_vector(record.weight) * 2.0F);
-    if (!by_lobe) return aim_at_emitter(pe, record, hit);
+    if (!by_lobe) return aim_at_emitters(pe, record, hit);
   }
   if (by_lobe) {
     take(record, lobe);
     return true;
   }
   add_branch(record, lobe);
-  return aim_at_emitter(pe, record, hit);
+  return aim_at_emitters(pe, record, hit);
 }
 
 /// Turns the ray at mirror, glass or pane. False: nothing of it is worth following.
@@ -252,6 +293,10 @@ void resume_branch(RayRecord& record) {
   record.bounce = branch.bounce;
   record.flags = protocol::kFirst;  // whatever came with it: a branch begins where it waits
   record.kind = RecordKind::light;
+  if (branch.flags == 0) return;
+  record.flags |= protocol::kShadow;
+  record.target = protocol::kSkyTarget;
+  take_sun_irradiance(record);
 }
 
 /// The current path has ended. True: a branch of it goes on, here.
@@ -338,6 +383,7 @@ void check_ray(const Pe& pe, Niu& niu, const RayRecord& record) {
   for (std::uint32_t i = 0; i < record.waiting; ++i) {
     const Branch& branch = record.branches[i];
     require(niu, inside_grid(pe.scene.layout, branch.place), RecordField::branch_place, branch.place);
+    require(niu, branch.flags == 0 || branch.flags == protocol::kShadow, RecordField::branch_flags, branch.flags);
   }
   check_walk(pe, niu, record);
 }

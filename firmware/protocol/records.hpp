@@ -99,7 +99,8 @@ struct Branch {
   std::uint32_t polygon;
   std::uint32_t key;
   std::uint8_t bounce;
-  std::uint8_t unused[3];
+  std::uint8_t flags;  ///< kShadow: on its way to the sun; else 0
+  std::uint8_t unused[2];
 };
 static_assert(sizeof(Branch) == 52);
 

@@ -26,7 +26,8 @@ static_assert(kSkyBands % 2U == 0 && kSkySectors % 4U == 0);
 inline constexpr std::uint32_t kSkyEntries = kSkyCells + 1U;
 /// `polygon` of the emitter that stands for sky and sun, and `target` of a shadow ray on its way there.
 inline constexpr std::uint32_t kSkyTarget = kNoPolygon;
-/// `both_sides` of such an emitter: all directions; the sun's; those to a half of an opening, without the sun's.
+/// `both_sides` of such an emitter: all directions, without the sun's; the sun's, which has shadow rays of its own and
+/// is the last emitter; those to a half of an opening, without the sun's.
 inline constexpr std::uint32_t kSkyAround = 0, kSkySun = 2, kSkyThroughOpening = 3;
 
 struct SkyEntry {

@@ -69,18 +69,23 @@ constexpr std::uint32_t shuffled(std::uint32_t sample, std::uint32_t key) {
   return reversed_bits(scrambled(reversed_bits(sample), hash_combine(key, 0)));
 }
 
-/// sample: counted from 0. key: the same for all samples whose pairs are to keep apart. Their order is shuffled, so
-/// that pairs of different keys have nothing to do with each other.
-constexpr StratifiedPair stratified_pair(std::uint32_t sample, std::uint32_t key) {
-  const std::uint32_t index = shuffled(sample, key);
+/// index: as shuffled().
+constexpr StratifiedPair pair_of_index(std::uint32_t index, std::uint32_t key) {
   return {reversed_bits(scrambled(index, hash_combine(key, 1))),
           reversed_bits(scrambled(second_dimension(index), hash_combine(key, 2)))};
 }
 
+/// sample: counted from 0. key: the same for all samples whose pairs are to keep apart. Their order is shuffled, so
+/// that pairs of different keys have nothing to do with each other.
+constexpr StratifiedPair stratified_pair(std::uint32_t sample, std::uint32_t key) {
+  return pair_of_index(shuffled(sample, key), key);
+}
+
 /// Likewise; x and y are those of stratified_pair.
 constexpr StratifiedTriple stratified_triple(std::uint32_t sample, std::uint32_t key) {
-  const StratifiedPair pair = stratified_pair(sample, key);
-  return {pair.x, pair.y, reversed_bits(scrambled(third_dimension(shuffled(sample, key)), hash_combine(key, 3)))};
+  const std::uint32_t index = shuffled(sample, key);
+  const StratifiedPair pair = pair_of_index(index, key);
+  return {pair.x, pair.y, reversed_bits(scrambled(third_dimension(index), hash_combine(key, 3)))};
 }
 
 }  // namespace torolux::protocol

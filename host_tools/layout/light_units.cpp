@@ -76,8 +76,14 @@ std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, co
     flux.push_back(sky.power);
     sum += sky.power;
   }
-  // The chance that counts is the one that whole numbers of 2^-32 give it.
-  constexpr std::uint64_t one = std::uint64_t{1} << 32U;
+  std::optional<protocol::Emitter> sun;
+  if (!all.empty() && all.back().polygon == protocol::kSkyTarget && all.back().both_sides == protocol::kSkySun) {
+    sun = all.back();
+    sun->chosen_to = 0xFFFF'FFFFU;
+    all.pop_back();
+  }
+  // The chance that counts is the one that whole numbers of 2^-32 give it. The sun keeps the last of them.
+  const std::uint64_t one = (std::uint64_t{1} << 32U) - (sun ? 1U : 0U);
   double until = 0;
   std::uint64_t before = 0;
   std::vector<protocol::Emitter> chosen;
@@ -92,6 +98,7 @@ std::vector<protocol::Emitter> emitters(const Scene& scene, const Mesh& mesh, co
     chosen.push_back(all[i]);
     before = next;
   }
+  if (sun) chosen.push_back(*sun);
   return chosen;
 }
 

@@ -97,6 +97,13 @@ SkyTables sky_tables(const Scene& scene, const LightUnits& units) {
   return tables;
 }
 
+namespace {
+
+/// An opening through which the sun alone comes stays among the emitters: it tells where the sun shines in.
+constexpr double kLeastOfSun = 1e-6;
+
+}  // namespace
+
 std::vector<SkyEmitter> sky_emitters(const Scene& scene, const SceneSpace& space, const LightUnits& units) {
   std::vector<SkyEmitter> emitters;
   if (!scene.sky) return emitters;
@@ -115,23 +122,19 @@ std::vector<SkyEmitter> sky_emitters(const Scene& scene, const SceneSpace& space
     const double sky = std::max(0.0, sum(inlet.flux) * to_power - sun);
     sun_power += sun;
     sky_power += sky;
-    if (scene.sky->openings.empty() || !(sky > 0)) continue;
+    if (scene.sky->openings.empty()) continue;
     const auto point = [&](double u, double v) {
       return to_float(vec::add(to_double(opening.corner), vec::add(vec::scale(along, u), vec::scale(across, v))));
     };
     const auto half_area = static_cast<float>(area / 2 / std::numbers::pi);
     for (const auto& corners :
          {std::array{point(0, 0), point(1, 0), point(1, 1)}, std::array{point(0, 0), point(1, 1), point(0, 1)}})
-      emitters.push_back({{corners, {}, half_area, 0, protocol::kSkyTarget, protocol::kSkyThroughOpening}, sky / 2});
+      emitters.push_back({{corners, {}, half_area, 0, protocol::kSkyTarget, protocol::kSkyThroughOpening},
+                          std::max(sky, kLeastOfSun * sun) / 2});
   }
-  if (scene.sky->openings.empty()) {
-    emitters.push_back(
-        {{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkyAround}, sky_power + sun_power});
-  } else if (sun_power > 0) {
-    // Where it shines it is chosen by what it brings; where it does not, as in most of a room, the sky must not starve.
-    emitters.push_back({{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkySun},
-                        sky_power > 0 ? std::min(sun_power, sky_power) : sun_power});
-  }
+  if (scene.sky->openings.empty() && sky_power > 0)
+    emitters.push_back({{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkyAround}, sky_power});
+  if (sun_power > 0) emitters.push_back({{{}, {}, all_directions, 0, protocol::kSkyTarget, protocol::kSkySun}, 0});
   return emitters;
 }
 

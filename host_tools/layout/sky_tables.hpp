@@ -30,11 +30,11 @@ SkyTables sky_tables(const Scene& scene, const LightUnits& units);
 /// What shadow rays aim at, with the chance still to come.
 struct SkyEmitter {
   protocol::Emitter emitter{};
-  double power = 0;  ///< what comes in over pi, of the sun not more than of the sky [normalised area x unit of
-                     ///< radiance, R + G + B]
+  double power = 0;  ///< what comes in over pi [normalised area x unit of radiance, R + G + B]; of the sun 0: it has
+                     ///< rays of its own
 };
-/// All directions; or where the scene names openings, the sun, and the halves of each, so that no ray looks for the sky
-/// through walls.
+/// All directions; or where the scene names openings, the halves of each, so that no ray looks for the sky through
+/// walls. Then the sun.
 std::vector<SkyEmitter> sky_emitters(const Scene& scene, const SceneSpace& space, const LightUnits& units);
 
 }  // namespace torolux
