@@ -120,6 +120,7 @@ class CameraFollower {
   }
 
   void cast_shadow(const Way& from, const Vec3d& normal, Chance& chance) {
+    if (scene_.sky && scene_.sky->openings.empty()) look_for_sun(from, normal);
     if (emitters_.empty()) return look_for_sky(from, normal, chance);
     cost_.work().aims += points_of_aim(emitters_.count());
     const EmitterPoints::Point target = emitters_.point(chance);
@@ -138,6 +139,15 @@ class CameraFollower {
     cost_.work().aims += 1;
     PathCost::Cell cell = from.cell;
     const Meeting met = cost_.walk({from.ray.origin, chance.cosine_direction(normal)}, cell);
+    if (met.triangle == nullptr) cost_.work().deposits += 1;
+  }
+
+  /// It has rays of its own. Where openings are named it shines on little, which is not counted.
+  void look_for_sun(const Way& from, const Vec3d& normal) {
+    const Sky& sky = *scene_.sky;
+    if (!(vec::largest(sky.sun_irradiance) > 0) || !(vec::dot(sky.sun, normal) > 0)) return;
+    PathCost::Cell cell = from.cell;
+    const Meeting met = cost_.walk({from.ray.origin, sky.sun}, cell);
     if (met.triangle == nullptr) cost_.work().deposits += 1;
   }
 
