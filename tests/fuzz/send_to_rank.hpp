@@ -3,6 +3,7 @@
 // another, and let only those refusals pass that end all ranks with a reason.
 #pragma once
 
+#include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <iostream>
@@ -14,7 +15,7 @@
 #include "host_tools/study/rank_hands.hpp"
 #include "host_tools/study/results.hpp"
 #include "host_tools/study/serve.hpp"
-#include "tests/fuzz/send_messages.hpp"
+#include "tests/fuzz/fuzzed_bytes.hpp"
 
 namespace torolux {
 

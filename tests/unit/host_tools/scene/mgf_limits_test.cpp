@@ -61,7 +61,7 @@ TEST(MgfLimits, Copies) {
   Texts twice{{"a.mgf", kQuad + "i 0.inc\n"}, {"24.inc", "f a b c\n"}};
   for (int i = 0; i < 24; ++i) twice[std::to_string(i) + ".inc"] = times(2, "i " + std::to_string(i + 1) + ".inc\n");
   EXPECT_THAT(beyond({10'000'000, 5'000'000}, twice),
-              HasSubstr("inc:1: arrays (-a) and files that are included again"));
+              HasSubstr(".inc:2: arrays (-a) and files that are included again"));
   // Statements of very many words count as several.
   EXPECT_THAT(beyond({100, 50}, {{"a.mgf", "xf -a 10\nthing" + times(640, " a") + "\nxf\n"}}),
               HasSubstr("a.mgf:2: arrays (-a) and files that are included again repeat more than 50 statements"));
@@ -116,7 +116,7 @@ TEST(MgfLimits, Materials) {
       "c x =\ncxy .2 .3\nc y =\ncxy .3 .3\nxf -a 1000000\nc z =\ncmix 1000000 x 1 y\nc x = z\nm q =\nc x\nrd .4\n"
       "f a b c\nxf\n";
   EXPECT_EQ(refused(kQuad + drift),
-            "a.mgf:21: more than 10000 materials of one name: a statement repeats with other values each time; make "
+            "a.mgf:19: more than 10000 materials of one name: a statement repeats with other values each time; make "
             "arrays (-a) smaller");
   EXPECT_THAT(refused(kQuad + "xf -a 100000 -t 0 0 .0001\nrd 7\nf a b c\nxf\n"),
               HasSubstr("a.mgf:12: 'rd' is 7; allowed are 0 to 1"));
