@@ -133,7 +133,7 @@ class IesReader {
     gammas_ = count("the number of vertical angles", 2, kMostAngles);
     turns_ = count("the number of horizontal angles", 1, kMostAngles);
     if (gammas_ * turns_ > kMostIntensities)
-      refuse(place(), "more than " + std::to_string(kMostIntensities) + " intensities");
+      refuse(place(), "more than " + std::to_string(kMostIntensities) + " intensities; leave angles out");
     if (const std::size_t type = count("the photometric type", 1, 3); type != 1)
       refuse(place(), std::string("photometry of type ") + (type == 2 ? "B" : "A") +
                           "; only type C (1) is read. Have the file converted to type C");

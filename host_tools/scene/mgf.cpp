@@ -38,7 +38,8 @@ class MgfReader {
     const std::string name = path.lexically_normal().string();
     if (std::ranges::find(running_, name) != running_.end())
       refuse(asked_at, "'" + name + "' includes itself, by way of " + std::to_string(running_.size()) + " files");
-    if (running_.size() == kMostDepth) refuse(asked_at, "more than 100 files that include one another");
+    if (running_.size() == kMostDepth)
+      refuse(asked_at, "more than 100 files that include one another; join some of them");
     auto entry = texts_.find(name);
     if (entry == texts_.end()) {
       std::string text = plain_text(files_.read(path, asked_at, kMostMeshBytes), name, notices_);
@@ -135,9 +136,9 @@ class MgfReader {
   void hang_lamp(const MgfStatement& statement) {
     const MgfLamp lamp(statement, folder_of(statement), files_, notices_);
     const auto line = static_cast<std::uint32_t>(line_);
-    if (lamp.transform() == statement.count()) return lamp.hang(transforms_.current(), line, mesh_);
+    if (lamp.transform() == statement.count()) return lamp.hang(transforms_.current(), line, limits_.triangles, mesh_);
     transforms_.open(statement, lamp.transform());
-    do lamp.hang(transforms_.current(), line, mesh_);
+    do lamp.hang(transforms_.current(), line, limits_.triangles, mesh_);
     while (next_copy(statement));
   }
 

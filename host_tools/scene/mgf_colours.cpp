@@ -60,7 +60,7 @@ Chromaticity MgfColours::spectrum(const MgfStatement& statement) {
   const double last = statement.number(1);
   if (!(first > 0 && first < last && last <= 1e6))
     statement.refuse_with("the spectrum runs from " + std::string(statement.word(0)) + " to " +
-                          std::string(statement.word(1)) + " nm; it must run upwards");
+                          std::string(statement.word(1)) + " nm; it must run upwards, within 1e6 nm");
   std::vector<double> values;
   for (std::size_t i = 2; i < statement.count(); ++i) values.push_back(statement.number(i));
   return of_tristimulus(statement, tristimulus(first, last, values));

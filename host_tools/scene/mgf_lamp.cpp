@@ -38,15 +38,14 @@ MgfLamp::MgfLamp(const MgfStatement& statement, const std::filesystem::path& fol
   emission_ = {radiance, radiance, radiance};
 }
 
-void MgfLamp::hang(const MgfPlacement& placement, std::uint32_t line, ImportedMesh& mesh) const {
+void MgfLamp::hang(const MgfPlacement& placement, std::uint32_t line, std::size_t most, ImportedMesh& mesh) const {
   SceneLamp lamp = hung_lamp(measured_, {0, 0, -1}, std::nullopt);
   lamp.x = placement.direction(lamp.x);
   lamp.y = placement.direction(lamp.y);
   lamp.nadir = placement.direction(lamp.nadir);
   const ShapeMesh opening = opening_of(measured_, lamp, placement.point({0, 0, 0}), placement.scale);
-  if (mesh.triangles.size() + opening.triangles.size() > kMostTriangles)
-    refuse(place_, "more than " + std::to_string(kMostTriangles) +
-                       " triangles; make arrays (xf -a) smaller, or leave parts out");
+  if (mesh.triangles.size() + opening.triangles.size() > most)
+    refuse(place_, "more than " + std::to_string(most) + " triangles; make arrays (xf -a) smaller, or leave parts out");
   lamp.web = number_among(mesh.webs, measured_.web);
   const std::uint32_t material = material_of(lamp, {mesh.file, line}, mesh);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());

@@ -21,8 +21,8 @@ class MgfLamp {
   /// Number of the argument with which its transform begins.
   std::size_t transform() const { return transform_; }
   /// Centre at the origin, nadir along -z, turn from x to y, all placed. line: of the mesh's own file. Throws
-  /// InputError: more than kMostTriangles triangles.
-  void hang(const MgfPlacement& placement, std::uint32_t line, ImportedMesh& mesh) const;
+  /// InputError: the mesh would have more than `most` triangles, or too many lamps that hang differently.
+  void hang(const MgfPlacement& placement, std::uint32_t line, std::size_t most, ImportedMesh& mesh) const;
 
  private:
   std::uint32_t material_of(const SceneLamp& lamp, const Place& place, ImportedMesh& mesh) const;

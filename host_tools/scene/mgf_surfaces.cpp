@@ -84,8 +84,11 @@ std::string MgfSurfaces::too_many() const {
 
 /// Each curved surface makes twelve triangles or more. Faces of many corners and few triangles count by their corners.
 void MgfSurfaces::check_count(const MgfStatement& statement) const {
-  if (std::max(mesh_.triangles.size(), mesh_.positions.size() / 3) + 12 * curved_.size() > most_)
-    statement.refuse_with(too_many());
+  const std::size_t curved = 12 * curved_.size();
+  if (mesh_.triangles.size() + curved > most_) statement.refuse_with(too_many());
+  if (mesh_.positions.size() / 3 + curved > most_)
+    statement.refuse_with("more than " + std::to_string(3 * most_) +
+                          " corners of faces and curved surfaces; make arrays (xf -a) smaller, or leave parts out");
 }
 
 MgfSurfaces::Corner MgfSurfaces::corner(const MgfStatement& statement, std::string_view name) {

@@ -146,7 +146,9 @@ void MgfTransforms::place(Open& open) {
 }
 
 void MgfTransforms::open(const MgfStatement& statement, std::size_t first) {
-  if (open_.size() == kMostDepth) statement.refuse_with("more than 1000 transforms one inside the other");
+  if (open_.size() == kMostDepth)
+    statement.refuse_with(
+        "more than 1000 transforms one inside the other; close some (xf without arguments), or join them");
   Open fresh{{Group{1}}, {}, statement.place()};
   Arguments arguments(statement, first);
   while (arguments.more()) {
@@ -156,7 +158,8 @@ void MgfTransforms::open(const MgfStatement& statement, std::size_t first) {
       const std::uint64_t count = arguments.count();
       if (text == "-a" && count == 0) statement.refuse_with("an array of no copies; -a COUNT is a number from 1 on");
       if (fresh.groups.size() > kMostCounts)
-        statement.refuse_with("more than 100 arrays and repetitions (-a, -i) in one transform");
+        statement.refuse_with(
+            "more than 100 arrays and repetitions (-a, -i) in one transform; put some into a transform around it");
       fresh.groups.push_back({text == "-a" ? 0 : count, text == "-a" ? count : 0});
     } else {
       MgfPlacement& once = fresh.groups.back().once;

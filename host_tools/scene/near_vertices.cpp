@@ -13,8 +13,10 @@ std::array<long, 3> NearVertices::cell_of(const Vec3d& point) const {
 }
 
 void NearVertices::add(std::uint32_t position) {
-  auto& cell = cells_[cell_of(scene_.positions[position])];
-  if (std::ranges::find(cell, position) == cell.end()) cell.push_back(position);
+  if (known_.size() <= position) known_.resize(position + std::size_t{1});
+  if (known_[position]) return;
+  known_[position] = true;
+  cells_[cell_of(scene_.positions[position])].push_back(position);
 }
 
 std::uint32_t NearVertices::at(const Vec3d& point) {
@@ -35,13 +37,12 @@ void NearVertices::forget_from(std::size_t position) {
   for (std::size_t p = position; p < scene_.positions.size(); ++p)
     std::erase(cells_[cell_of(scene_.positions[p])], static_cast<std::uint32_t>(p));
   scene_.positions.resize(position);
+  known_.resize(std::min(known_.size(), position));
 }
 
-std::vector<std::pair<double, std::uint32_t>> NearVertices::by_x() const {
-  std::vector<std::pair<double, std::uint32_t>> all;
-  for (const auto& [cell, members] : cells_)
-    for (const std::uint32_t p : members) all.emplace_back(scene_.positions[p][0], p);
-  std::ranges::sort(all);
+std::vector<std::uint32_t> NearVertices::all() const {
+  std::vector<std::uint32_t> all;
+  for (const auto& [cell, members] : cells_) all.insert(all.end(), members.begin(), members.end());
   return all;
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "host_tools/scene/scene.hpp"
@@ -24,8 +23,8 @@ class NearVertices {
   std::uint32_t at(const Vec3d& point);
   /// Takes positions back, from this number on.
   void forget_from(std::size_t position);
-  /// All that were added or made, with their x, ascending.
-  std::vector<std::pair<double, std::uint32_t>> by_x() const;
+  /// All that were added or made.
+  std::vector<std::uint32_t> all() const;
 
  private:
   std::array<long, 3> cell_of(const Vec3d& point) const;
@@ -34,6 +33,7 @@ class NearVertices {
   Vec3d low_;
   double near_;
   std::map<std::array<long, 3>, std::vector<std::uint32_t>> cells_;
+  std::vector<bool> known_;  ///< by position: it stands in a cell
 };
 
 }  // namespace torolux

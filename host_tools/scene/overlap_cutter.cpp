@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host_tools/scene/point_tree.hpp"
 #include "host_tools/scene/polygon_triangles.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -12,11 +13,13 @@ namespace {
 
 /// Of one triangle: beyond that it stays as it is.
 constexpr std::size_t kMostPieces = 4096;
-/// Of all cuts, counted as comparisons of a corner with an edge: some seconds.
+/// Of all cuts, and of all that is divided, counted as comparisons of a corner with an edge: some seconds.
 constexpr std::size_t kMostWork = 500'000'000;
 /// What else costs, in such comparisons: a piece that is cut up, a triangle whose border is looked for.
 constexpr std::size_t kCutWork = 500;
 constexpr std::size_t kBorderWork = 50;
+/// Corners on an edge: each with each, since the polygon that has them is cut into triangles.
+constexpr std::size_t kDivideWork = 10;
 
 }  // namespace
 
@@ -155,26 +158,38 @@ void OverlapCutter::divide_edges(const std::vector<std::uint32_t>& involved) {
   }
   std::ranges::sort(edges);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  const auto by_x = vertices_.by_x();
-  for (const Edge& edge : edges) divide(edge, by_x);
+  const PointTree corners(scene_.positions, vertices_.all());
+  std::vector<std::uint32_t> around;
+  work_left_ = kMostWork;
+  for (const Edge& edge : edges) {
+    corners.find_near(at(edge.first), at(edge.second), near_, around);
+    if (!spend(around.size())) {
+      leaves_whole_ = true;
+      return;
+    }
+    divide(edge, around);
+  }
 }
 
-void OverlapCutter::divide(const Edge& edge, const std::vector<std::pair<double, std::uint32_t>>& by_x) {
+void OverlapCutter::divide(const Edge& edge, std::span<const std::uint32_t> around) {
   const Vec3d a = at(edge.first);
   const Vec3d along = vec::subtract(at(edge.second), a);
   const double length = vec::length(along);
   std::vector<std::pair<double, std::uint32_t>> on;
-  const double low = std::min(a[0], at(edge.second)[0]) - near_;
-  const double high = std::max(a[0], at(edge.second)[0]) + near_;
-  for (auto i = std::ranges::lower_bound(by_x, std::pair(low, std::uint32_t{0})); i != by_x.end() && i->first <= high;
-       ++i) {
-    if (i->second == edge.first || i->second == edge.second) continue;
-    const Vec3d to = vec::subtract(at(i->second), a);
+  for (const std::uint32_t p : around) {
+    if (p == edge.first || p == edge.second) continue;
+    const Vec3d to = vec::subtract(at(p), a);
     const double way = vec::dot(to, along) / length;
     if (way <= near_ || way >= length - near_) continue;
-    if (vec::length(vec::cross(along, to)) / length <= near_) on.emplace_back(way, i->second);
+    if (vec::length(vec::cross(along, to)) / length <= near_) on.emplace_back(way, p);
   }
   if (on.empty()) return;
+  const std::size_t work = kDivideWork * on.size() * on.size();
+  if (work >= work_left_) {
+    leaves_whole_ = true;
+    return;
+  }
+  spend(work);
   std::ranges::sort(on);
   for (const auto& [way, p] : on) points_on_[edge].push_back(p);
 }

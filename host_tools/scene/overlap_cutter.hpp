@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,8 @@ class OverlapCutter {
 
   /// Puts the pieces in their triangles' places. involved: surfaces that take part. Returns of which triangle each is.
   std::vector<std::uint32_t> finish(const std::vector<std::uint32_t>& involved);
+  /// Whether `finish` has left edges undivided on which more corners lie than a scene is worth.
+  bool leaves_whole() const { return leaves_whole_; }
 
  private:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -46,7 +49,8 @@ class OverlapCutter {
   /// Counter-clockwise seen from the surface's front: its border where that is one convex loop, else its triangles.
   std::vector<PositionPolygon> convex_outlines(std::uint32_t surface) const;
   void divide_edges(const std::vector<std::uint32_t>& involved);
-  void divide(const Edge& edge, const std::vector<std::pair<double, std::uint32_t>>& by_x);
+  /// around: all corners on the edge, and others.
+  void divide(const Edge& edge, std::span<const std::uint32_t> around);
   PositionPolygon divided(const PositionPolygon& polygon) const;
   void add_triangles(const SceneTriangle& whole, const PositionPolygon& piece, std::vector<SceneTriangle>& triangles);
   /// Normal and texture point of a part's corner, from those of the whole.
@@ -60,6 +64,7 @@ class OverlapCutter {
   std::map<std::uint32_t, std::vector<PositionPolygon>> pieces_;  ///< of triangles that are cut
   std::map<Edge, PositionPolygon> points_on_;
   std::size_t work_left_;  ///< comparisons of a corner with an edge
+  bool leaves_whole_ = false;
 };
 
 }  // namespace torolux

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "host_tools/scene/flat_surfaces.hpp"
 #include "host_tools/scene/overlap_cutter.hpp"
@@ -64,6 +65,7 @@ class Parting {
     std::vector<std::uint32_t> origin(scene_.triangles.size());
     std::iota(origin.begin(), origin.end(), std::uint32_t{0});
     if (any_cut_) origin = cutter_.finish(involved);
+    if (cutter_.leaves_whole()) tell_too_many();
     move_apart(scene_, origin, steps_);
   }
 
@@ -72,7 +74,11 @@ class Parting {
     return scene_.materials[scene_.triangles[surfaces_[surface].triangles[0]].material];
   }
   void tell_too_many() {
-    notices_.note("so many surfaces lie in one plane that not all were looked at: some may overlap", place_);
+    if (std::exchange(told_too_many_, true)) return;
+    notices_.note(
+        "so many surfaces lie in one plane that not all were looked at: take out what lies below others, or it may "
+        "show",
+        place_);
   }
   std::string name(std::uint32_t surface) const { return "'" + material(surface).name + "'"; }
 
@@ -121,8 +127,10 @@ class Parting {
         tell_too_many();
         break;
       case OverlapCutter::Found::too_many_pieces:
-        notices_.note("so much lies on one triangle that it stays whole below it: they overlap in one plane", place_,
-                      name(upper) + " on " + name(lower));
+        notices_.note(
+            "so much lies on one triangle that it stays whole below it: they overlap in one plane; divide it, or move "
+            "it down",
+            place_, name(upper) + " on " + name(lower));
         break;
       case OverlapCutter::Found::cut:
         if (are_opposite(surfaces_[upper], surfaces_[lower]) &&
@@ -144,7 +152,7 @@ class Parting {
   PlanePairs pairs_;
   OverlapCutter cutter_;
   std::map<std::uint32_t, Vec3d> steps_;  ///< by triangle
-  bool any_cut_ = false;
+  bool any_cut_ = false, told_too_many_ = false;
 };
 
 }  // namespace

@@ -52,11 +52,19 @@ std::optional<Json> ResultFolder::read(const KeyedRun& run) const {
   std::ifstream stream(name, std::ios::binary);
   if (!stream) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (from_output()) return row_of_csv(text);
+  return from_output() ? row_of_csv(text) : statistics_of(text, run.settings, name.string());
+}
+
+std::optional<Json> statistics_of(const std::string& text, const std::string& settings, const std::string& file) {
   Json result = Json::parse(text, nullptr, false);
   if (result.is_discarded() || !result.is_object()) return std::nullopt;
-  if (!result.contains("settings") || determining(result["settings"]).dump() != run.settings)
-    throw InputError(name.string() + ": these are statistics of another run; remove the file");
+  bool same = false;
+  try {
+    same = result.contains("settings") && determining(result["settings"]).dump() == settings;
+  } catch (const Json::exception&) {
+    // Settings that are none: of no run.
+  }
+  if (!same) throw InputError(file + ": these are statistics of another run; remove the file");
   return result;
 }
 

@@ -42,6 +42,10 @@ std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolde
 std::vector<std::string> words_for_result(const KeyedRun& run, const ResultFolder& folder, unsigned threads,
                                           const std::filesystem::path& file);
 
+/// What a render or run has left. Absent where it is no JSON object. settings: of the run that it should be of
+/// (KeyedRun). Throws InputError, which names the file: of another.
+std::optional<Json> statistics_of(const std::string& text, const std::string& settings, const std::string& file);
+
 /// Header and row; numbers where they read as such. Absent where there is not just one row.
 std::optional<Json> row_of_csv(const std::string& text);
 

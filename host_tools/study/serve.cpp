@@ -57,6 +57,8 @@ class Server {
   }
 
   void take(const ranks::Message& message) {
+    if (message.from != 0)
+      throw InputError("rank " + std::to_string(message.from) + " has sent a message; only rank 0 gives orders");
     switch (static_cast<FarmMessage>(message.kind)) {
       case FarmMessage::order:
         return begin(content_of<FarmOrder>(message.bytes));
@@ -64,8 +66,7 @@ class Server {
         hands_.stop();
         return send(FarmMessage::ready, {});
       case FarmMessage::close:
-        close_ = content_of<FarmClose>(message.bytes);
-        return;
+        return close(content_of<FarmClose>(message.bytes));
       case FarmMessage::greeting:
       case FarmMessage::answer:
       case FarmMessage::leaving:
@@ -73,6 +74,14 @@ class Server {
         break;
     }
     throw InputError("rank 0 has sent a message of kind " + std::to_string(message.kind));
+  }
+
+  void close(FarmClose asked) {
+    const unsigned count = transport_.ranks().count;
+    for (const unsigned rank : asked.lost)
+      if (rank >= count)
+        throw InputError("rank 0 counts rank " + std::to_string(rank) + " as lost; there are " + std::to_string(count));
+    close_ = std::move(asked);
   }
 
   void begin(const FarmOrder& order) {

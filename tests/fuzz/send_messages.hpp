@@ -3,39 +3,17 @@
 // and messages to a PE, and let only the refusals pass that each may make.
 #pragma once
 
-#include <cstring>
 #include <span>
 #include <string>
 
 #include "emulator/errors.hpp"
 #include "host_tools/stages/radiosity_phase.hpp"
 #include "host_tools/stages/tile_phase.hpp"
+#include "tests/fuzz/fuzzed_bytes.hpp"
 #include "tests/unit/firmware/pe/fake_machine.hpp"
 #include "tests/unit/host_tools/stages/fake_port.hpp"
 
 namespace torolux {
-
-/// Takes bytes off the front, zeros where there are none left.
-class FuzzedBytes {
- public:
-  explicit FuzzedBytes(std::span<const std::byte> bytes) : left_(bytes) {}
-  bool empty() const { return left_.empty(); }
-  std::span<const std::byte> next(std::size_t count) {
-    const auto taken = left_.first(std::min(count, left_.size()));
-    left_ = left_.subspan(taken.size());
-    return taken;
-  }
-  template <class T>
-  T as() {
-    T value{};
-    const auto bytes = next(sizeof value);
-    if (!bytes.empty()) std::memcpy(&value, bytes.data(), bytes.size());
-    return value;
-  }
-
- private:
-  std::span<const std::byte> left_;
-};
 
 /// Each message: source, kind, a length of 16 bits, contents. True: the phase took them all; false: it failed the run.
 inline bool send_to_host(std::span<const std::byte> bytes) {

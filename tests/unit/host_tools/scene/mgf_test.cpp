@@ -218,51 +218,6 @@ TEST(Mgf, TransformsEndWithTheirFile) {
               HasSubstr("b.inc:1: xf without arguments closes"));
 }
 
-// What would take longer than anybody waits, or more memory than there is, ends with a reason.
-TEST(Mgf, ArraysBeyondAllBoundsAreRefused) {
-  EXPECT_THAT(refused(kQuad + "xf -a 1000000000 -t 0 0 1\nsph a 1\nxf\n"), HasSubstr("more than 4000000 triangles"));
-  EXPECT_THAT(refused("xf -a 1000000000 -t 0 0 1e-9\nxf\n"), HasSubstr("repeat more than 5000000 statements"));
-  EXPECT_THAT(refused(kQuad + "xf -i 4000000000 -t 0 0 1e9\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
-  EXPECT_THAT(refused(kQuad + "xf -i 4000 -s 2\nf a b c d\nxf\n"), HasSubstr("beyond 1e-15 to 1e15"));
-}
-
-// Nor do copies of files in which nothing stands, or of faces that make no triangles.
-TEST(Mgf, ArraysOfNothingAreRefused) {
-  const auto beyond = [](const MgfLimits& limits, const Texts& texts) -> std::string {
-    MemoryFiles files(texts);
-    Notices notices;
-    try {
-      import_mgf("a.mgf", files, {}, notices, limits);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "(accepted)";
-  };
-  const Texts empty{{"a.mgf", kQuad + "i b.inc -a 1000\n"}, {"b.inc", "# nothing\n"}};
-  EXPECT_EQ(beyond({100, 1000}, empty), "(accepted)");
-  EXPECT_THAT(beyond({100, 999}, empty), HasSubstr("repeat more than 999 statements"));
-  const Texts flat{{"a.mgf", kQuad + "xf -a 10\nf a a a a a a\nxf\n"}};
-  EXPECT_EQ(beyond({20, 100}, flat), "(accepted)");
-  EXPECT_THAT(beyond({19, 100}, flat), HasSubstr("more than 19 triangles"));
-  std::string words;
-  for (int i = 0; i < 640; ++i) words += " a";
-  EXPECT_THAT(beyond({100, 50}, {{"a.mgf", "xf -a 10\nthing" + words + "\nxf\n"}}),
-              HasSubstr("more than 50 statements"));
-}
-
-// What differs in each copy is compared with all that came before; what is wrong alike in all is one.
-TEST(Mgf, CopiesThatAllDifferAreRefused) {
-  const std::string drift =
-      "c x =\ncxy .2 .3\nc y =\ncxy .3 .3\nxf -a 1000000\nc z =\ncmix 1000000 x 1 y\nc x = z\nm q =\nc x\nrd .4\n"
-      "f a b c\nxf\n";
-  EXPECT_THAT(refused(kQuad + drift), HasSubstr("more than 10000 materials of one name"));
-  EXPECT_THAT(refused(kQuad + "xf -a 100000 -t 0 0 .0001\nrd 7\nf a b c\nxf\n"),
-              HasSubstr("a.mgf:12: 'rd' is 7; allowed are 0 to 1"));
-  std::string counts = "xf";
-  for (int i = 0; i < 101; ++i) counts += " -i 2 -rx 90";
-  EXPECT_THAT(refused(kQuad + counts + "\nf a b c\nxf\n"), HasSubstr("more than 100 arrays and repetitions"));
-}
-
 TEST(Mgf, MistakesSayWhereTheyAre) {
   const std::vector<std::pair<std::string, std::string>> mistakes{
       {"f a b\n", "a.mgf:11: 'f' has 2 arguments; it is written f VERTEX VERTEX VERTEX ..."},

@@ -6,12 +6,14 @@
 #include <map>
 #include <sstream>
 
+#include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/ray_cast.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
 namespace torolux {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -256,11 +258,45 @@ TEST(Overlaps, WhatIsTooMuchIsTold) {
   for (int i = 0; i < 50; ++i)
     for (int k = 0; k < 50; ++k) tiles += sheet("other", i + 0.2, k + 0.3, i + 0.7, k + 0.6, 3);
   EXPECT_THAT(loaded(tiles).warnings,
-              Contains(HasSubstr("stays whole below it: they overlap in one plane: 'other' on 'wall'")));
+              Contains(HasSubstr("stays whole below it: they overlap in one plane; divide it, or move it down: "
+                                 "'other' on 'wall'")));
   // 10,100 strips, each beside all others along the longest axis: 51 million pairs.
   std::string strips;
   for (int i = 0; i < 10'100; ++i) strips += sheet("wall", 0, i, 20'000, i + 0.5, 3);
-  EXPECT_THAT(loaded(strips).warnings, Contains(HasSubstr("not all were looked at")));
+  EXPECT_THAT(loaded(strips).warnings, Contains(HasSubstr("not all were looked at: take out what lies below")));
+}
+
+// Each strip's edges have the corners of all others on them: as many triangles as strips times strips, if all were cut.
+TEST(Overlaps, ThousandsThatAreShiftedAlongOneLineEndSoon) {
+  std::string strips;
+  for (int i = 0; i < 2000; ++i) strips += sheet(i % 2 == 0 ? "wall" : "other", i, 0, i + 5000, 1, 3);
+  const Scene scene = loaded(strips);
+  EXPECT_THAT(scene.warnings, Contains(AllOf(HasSubstr("a.obj: so many surfaces lie in one plane that not all were "
+                                                       "looked at: take out what lies below others, or it may show"),
+                                             Not(HasSubstr("more)")))));
+  EXPECT_LT(scene.triangles.size(), kMostTriangles);
+}
+
+// 7,200 corners of tiles beside a floor lie on its edge, which is not divided for so many; for half of them it is.
+TEST(Overlaps, AnEdgeWithTooManyCornersStaysWhole) {
+  const auto floor = [](int tiles) {
+    std::string text = sheet("wall", 0, 0, 8000, 10, 3) + sheet("other", 1, 1, 2, 2, 3);
+    for (int i = 0; i < tiles; ++i)
+      text +=
+          sheet("wall", 2 * i + 0.5, -1, 2 * i + 1.5, 0, 3) + sheet("other", 2 * i + 0.6, -0.9, 2 * i + 1.4, -0.1, 3);
+    return loaded(text);
+  };
+  const auto of_floor = [](const Scene& scene) {
+    return std::ranges::count_if(scene.triangles, [&scene](const SceneTriangle& triangle) {
+      return std::ranges::all_of(triangle.position, [&scene](std::uint32_t p) { return scene.positions[p][2] >= 0; });
+    });
+  };
+  const Scene divided = floor(1800);
+  EXPECT_THAT(divided.warnings, Not(Contains(HasSubstr("not all were looked at"))));
+  const Scene whole = floor(3600);
+  EXPECT_THAT(whole.warnings, Contains(HasSubstr("not all were looked at")));
+  EXPECT_GT(of_floor(divided), 2 * 1800);
+  EXPECT_LT(of_floor(whole), 100);
 }
 
 }  // namespace

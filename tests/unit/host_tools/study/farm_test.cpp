@@ -223,6 +223,26 @@ TEST(Farm, MessagesThatAreNotWholeAreRefused) {
   EXPECT_THROW(content_of<FarmAnswer>(longer), InputError);
 }
 
+// Bytes from another rank are bytes from outside.
+TEST(Farm, OrdersThatCannotBeEndAll) {
+  const auto ends_where_told = [](unsigned from, FarmMessage kind, const std::vector<std::byte>& bytes) {
+    return ranks::run_as_threads(3, {}, [&](Transport& transport) {
+      if (transport.ranks().own == 1) {
+        LocalHands own("/bin/sh", 1, true);
+        serve(transport, own, kProgram, kTimes);
+      } else if (transport.ranks().own == from) {
+        transport.send(1, static_cast<std::uint32_t>(kind), bytes);
+      }
+    })[1];
+  };
+  EXPECT_EQ(ends_where_told(2, FarmMessage::order, bytes_of(FarmOrder{"/", {0, {"-c", "true"}, true}})),
+            "rank 1: rank 2 has sent a message; only rank 0 gives orders");
+  EXPECT_EQ(ends_where_told(0, FarmMessage::close, bytes_of(FarmClose{{2, 3}, 0})),
+            "rank 1: rank 0 counts rank 3 as lost; there are 3");
+  EXPECT_EQ(ends_where_told(0, FarmMessage::ready, {}), "rank 1: rank 0 has sent a message of kind 6");
+  EXPECT_EQ(ends_where_told(0, FarmMessage::close, {}), "rank 1: a message between ranks is too short");
+}
+
 // Statistics do not go into a file: kilobytes more than a pipe holds, and the output beside them.
 TEST(Farm, ResultsComeThroughAStreamOfTheirOwn) {
   LocalHands hands("/bin/sh", 1, true);

@@ -51,6 +51,18 @@ TEST(Figures, OfACsvAreItsColumns) {
   EXPECT_FALSE(row_of_csv("offered\n"));
   EXPECT_FALSE(row_of_csv("offered\n0.1\n0.2\n")) << "several rates at once are several runs";
   EXPECT_FALSE(row_of_csv("a,b\n1\n"));
+  EXPECT_FALSE(row_of_csv(""));
+  EXPECT_FALSE(row_of_csv("\n\n"));
+}
+
+TEST(Results, OfAnotherRunAreRefusedWhateverTheyAre) {
+  const auto of = [](const std::string& text) { return statistics_of(text, R"({"seed":1,"inputs":[]})", "a.json"); };
+  EXPECT_TRUE(of(R"({"settings":{"seed":1,"scene":"x","inputs":[],"automatic":["pes"],"pes":4}})"));
+  for (const char* text : {"", "7", "{", "\xff"}) EXPECT_FALSE(of(text)) << text;
+  for (const char* settings :
+       {R"({"seed":2,"inputs":[]})", "7", "[]", R"({"automatic":[7]})", R"({"automatic":3})", R"({"inputs":[7]})"})
+    EXPECT_THROW(of(R"({"settings":)" + std::string(settings) + "}"), InputError) << settings;
+  EXPECT_THROW(of("{}"), InputError);
 }
 
 TEST(Cells, AreExact) {
