@@ -184,9 +184,13 @@ class BlockQueue {
   }
   BlockIndex pop(BlockPool& pool) {
     const BlockIndex index = head_;
-    head_ = pool[index].next;
-    --size_;
+    pop(pool[index]);
     return index;
+  }
+  /// first: the block at the front.
+  void pop(const Block& first) {
+    head_ = first.next;
+    --size_;
   }
 
  private:

@@ -44,8 +44,7 @@ bool crc_detects_flip(const Block& block, std::uint32_t bit) {
 LinkFaults::LinkFaults(const MachineDescription::Torus& torus)
     : error_threshold_(static_cast<std::uint32_t>(std::clamp(torus.link_error_rate, 0.0, 0.5) * 4294967296.0)) {}
 
-std::uint32_t LinkFaults::bad_copies(const Block& block) {
-  if (error_threshold_ == 0) return 0;
+std::uint32_t LinkFaults::count_bad_copies(const Block& block) {
   std::uint32_t bad = 0;
   while (hash(block, Purpose::error, bad) < error_threshold_) {
     const auto bits = static_cast<std::uint32_t>(block.payload().size() * 8);

@@ -134,23 +134,34 @@ class Torus {
   void tail(const Event& event);
   void line(const Event& event);
   void head(unsigned router, std::size_t input, Cycles now);
-  void request(unsigned router, std::size_t input, Cycles now);
+  void request(unsigned router, std::size_t input, const Block& block, Cycles now);
   void ask(unsigned router, std::size_t output, Cycles now);
-  void schedule(unsigned router, std::size_t output, Cycles when);
+  void schedule(unsigned router, std::size_t output, Output& out, Cycles when) {
+    if (out.scheduled <= when) return;
+    out.scheduled = when;
+    events_.push(when, sources_.arbiters + router, EventKind::arbitrate, static_cast<std::uint16_t>(router),
+                 static_cast<std::uint8_t>(output), 0);
+  }
 
   void arbitrate(unsigned router, std::size_t output, Cycles now);
-  std::size_t choose(unsigned router, std::size_t output) const;
-  bool may_go(unsigned router, std::size_t input, std::size_t output) const;
+  std::size_t choose(const Router& here, unsigned router, std::size_t output) const;
+  bool may_go(const Output& out, unsigned router, std::size_t input, std::size_t output) const;
   void look_for_starving(unsigned router, std::size_t output, Cycles now);
   void cease_starving(unsigned router, std::size_t output, Cycles now);
-  void withdraw(unsigned router, std::size_t input, std::size_t output, Cycles now);
-  void grant(unsigned router, std::size_t input, std::size_t output, Cycles now);
-  Cycles send(unsigned router, std::size_t output, BlockIndex index, Cycles start);
-  void look_ahead(unsigned router, std::size_t output, Block& block);
+  void withdraw(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now);
+  void grant(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now);
+  Cycles send(Output& out, unsigned router, std::size_t output, BlockIndex index, Cycles start);
+  void look_ahead(unsigned next, std::size_t input, Block& block);
   void send_copy(unsigned router, std::size_t output, BlockIndex index, Cycles start);
-  void eject(unsigned router, BlockIndex index, Cycles tail);
+  void eject(Router& here, unsigned router, BlockIndex index, Cycles tail);
   void free_slot(unsigned router, std::size_t input, Cycles when, Cycles now);
-  void collect_returns(unsigned router, std::size_t output, Cycles now);
+  void collect_returns(unsigned router, std::size_t output, Output& out, Cycles now) {
+    while (out.returns != 0 && return_time(router, output, out.first_return) <= now) {
+      ++out.slots;
+      --out.returns;
+      if (++out.first_return == buffer_) out.first_return = 0;
+    }
+  }
 
   static bool goes_on(std::size_t input, std::size_t output) {
     return static_cast<Port>(input) == opposite(static_cast<Port>(output));
@@ -162,8 +173,9 @@ class Torus {
   Cycles router_delay(const Block& block) const {
     return jitter_.delay(Jitter::What::router, block.number, block.hops);
   }
+  /// index: up to twice what there are, less one.
   Cycles& return_time(unsigned router, std::size_t output, std::uint32_t index) {
-    return return_times_[(router * kLinks + output) * buffer_ + index % buffer_];
+    return return_times_[(router * kLinks + output) * buffer_ + (index < buffer_ ? index : index - buffer_)];
   }
   std::uint32_t source(unsigned router) const { return sources_.routers + router; }
 
