@@ -84,17 +84,6 @@ void Torus::cease_starving(unsigned router, std::size_t output, Cycles now) {
   lines_.end(router, static_cast<Port>(output), now);
 }
 
-/// The first packet of an input no longer asks for this output.
-void Torus::withdraw(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now) {
-  Output& out = here.outputs[output];
-  out.waiting &= static_cast<std::uint8_t>(~(1U << input));
-  if (out.waiting == 0 && out.stalled_at != kNotYet) {
-    here.seldom[output].stalled += now - out.stalled_at;
-    out.stalled_at = kNotYet;
-  }
-  if (out.starving == input) cease_starving(router, output, now);
-}
-
 void Torus::grant(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now) {
   Input& in = here.inputs[input];
   Output& out = here.outputs[output];
