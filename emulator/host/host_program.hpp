@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "emulator/description/host_work.hpp"
-#include "emulator/niu/record_kinds.hpp"
+#include "emulator/torus/record_kinds.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/niu_window.hpp"
 

@@ -13,9 +13,9 @@
 #include <string_view>
 
 #include "emulator/niu/byte_ring.hpp"
-#include "emulator/niu/record_kinds.hpp"
 #include "emulator/time/slices.hpp"
 #include "emulator/torus/payload.hpp"
+#include "emulator/torus/record_kinds.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
 
