@@ -65,7 +65,7 @@ void FrameBufferController::add_pixels(BlockIndex index) {
   const Block& block = pool_[index];
   for (std::size_t at = 0; at < block.bytes; at += sizeof(PixelAdd)) {
     PixelAdd pixel{};
-    std::memcpy(&pixel, &block.data[at], sizeof pixel);
+    std::memcpy(&pixel, &block.payload()[at], sizeof pixel);
     const auto plane = static_cast<std::uint32_t>(pixel.plane);
     if (plane >= protocol::kPlanes || pixel.pixel >= frame_buffer_.planes[plane].size()) {
       throw MachineFailure("PE " + std::to_string(block.source) + ": added to pixel " + std::to_string(pixel.pixel) +
@@ -86,9 +86,9 @@ void FrameBufferController::add_pixels(BlockIndex index) {
 }
 
 void FrameBufferController::answer(BlockIndex index) {
-  Block& block = pool_[index];
+  const Block& block = pool_[index];
   FrameRead read{};
-  std::memcpy(&read, block.data.data(), sizeof read);
+  std::memcpy(&read, block.payload().data(), sizeof read);
   const auto plane = static_cast<std::uint32_t>(read.plane);
   const std::size_t pixels = plane < protocol::kPlanes ? frame_buffer_.planes[plane].size() : 0;
   if (read.count > pixels || read.first > pixels - read.count) {
@@ -96,7 +96,8 @@ void FrameBufferController::answer(BlockIndex index) {
                          std::to_string(read.first) + " on of plane " + std::to_string(plane) +
                          " of the frame buffer, which has " + std::to_string(pixels) + " of them");
   }
-  std::memcpy(&block.data[sizeof read], &frame_buffer_.planes[plane][read.first], read.count * sizeof(PixelSums));
+  std::memcpy(&block.payload_to_write()[sizeof read], &frame_buffer_.planes[plane][read.first],
+              read.count * sizeof(PixelSums));
   --places_used_;
 }
 

@@ -46,7 +46,7 @@ BlockIndex HostActor::make_message(std::uint16_t destination, std::uint16_t kind
   }
   const BlockIndex block = pool_.take();
   pool_[block].message_kind = kind;
-  pool_[block].set_payload(contents);
+  pool_.set_payload(block, contents);
   return block;
 }
 
@@ -61,7 +61,7 @@ void HostActor::send_records(PeNumber pe, std::span<const std::byte> records, st
   }
   const BlockIndex block = pool_.take();
   pool_[block].records = static_cast<std::uint16_t>(count);
-  pool_[block].set_payload(records);
+  pool_.set_payload(block, records);
   queue_for(pe, block);
   ++lines_[pe].made;
 }
@@ -72,11 +72,10 @@ void HostActor::read_pixels(const FrameRead& read) {
     throw MachineFailure("the host program reads " + std::to_string(read.count) +
                          " pixels of the frame buffer at once: 1 to " + std::to_string(kMostPixelsRead) + " can be");
   }
+  std::array<std::byte, kMostBlockBytes> message{};
+  std::memcpy(message.data(), &read, sizeof read);
   const BlockIndex index = pool_.take();
-  Block& block = pool_[index];
-  block.data.fill({});
-  block.set_payload(std::as_bytes(std::span(&read, 1)));
-  block.bytes += read.count * static_cast<std::uint32_t>(sizeof(PixelSums));
+  pool_.set_payload(index, std::span(message).first(sizeof read + read.count * sizeof(PixelSums)));
   queue_for(protocol::kFrameBuffer, index);
 }
 
@@ -138,9 +137,9 @@ void HostActor::tell_program(const Block& block) {
     return;
   }
   FrameRead read{};
-  std::memcpy(&read, block.data.data(), sizeof read);
+  std::memcpy(&read, block.payload().data(), sizeof read);
   std::array<PixelSums, kMostPixelsRead> sums{};
-  std::memcpy(sums.data(), &block.data[sizeof read], read.count * sizeof(PixelSums));
+  std::memcpy(sums.data(), &block.payload()[sizeof read], read.count * sizeof(PixelSums));
   program_->on_pixels(*this, read, std::span(sums).first(read.count));
 }
 

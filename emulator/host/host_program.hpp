@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/description/host_work.hpp"
+#include "emulator/torus/record_kinds.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
@@ -69,9 +70,8 @@ class HostPort {
   virtual std::size_t queued(PeNumber pe) const = 0;
 };
 
-class HostProgram {
+class HostProgram : public RecordKinds {
  public:
-  virtual ~HostProgram() = default;
   virtual void start(HostPort& port) = 0;
   /// Called in order of virtual time. Diverted records do not come here: the machine sends them again by itself.
   virtual void on_message(HostPort& port, PeNumber source, std::uint16_t kind, std::span<const std::byte> contents) = 0;
@@ -79,8 +79,6 @@ class HostProgram {
   virtual void on_pixels(HostPort& /*port*/, const FrameRead& /*read*/, std::span<const PixelSums> /*sums*/) {}
   /// Names of the kinds of records that the PEs send each other; the machine knows none of itself.
   virtual std::span<const std::string_view> record_kinds() const { return {}; }
-  /// Which of them a record is. Called for every record that a PE sends.
-  virtual std::size_t record_kind(std::span<const std::byte> /*record*/) const { return 0; }
   /// The run ends when this is true, nothing is in flight and the FBC has drained.
   virtual bool finished() const = 0;
   /// For the deadlock report: what the program waits for.

@@ -65,12 +65,23 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
   events_.watch(this);
   torus_.watch_hops(setup.hop_watcher);
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
+  lend_to_near_pes();
   stages_.push_back({"run", network_figures(0)});
   if (setup.watcher == nullptr) return;
   watch_.emplace(*setup.watcher, WatchedMachine{setup.description, setup.columns, setup.rows, phases_}, nius_, torus_,
                  WatchedActors{[this](unsigned pe) { return parts_[pe].outgoing.size(); },
                                [this] { return controller_.waiting(); },
                                [this] { return static_cast<std::uint32_t>(host_.inbox()); }});
+}
+
+/// What processors in this process send stays where they put it, and they tell the kinds of records.
+void Emulation::lend_to_near_pes() {
+  const bool tells_kinds = !kinds_.empty() && kinds_.size() <= kMostToldKinds;
+  for (NiuChannel* channel : channels_) {
+    if (channel->near == 0) continue;
+    channel->payloads = &pool_.payloads();
+    channel->record_kinds = tells_kinds ? program_ : nullptr;
+  }
 }
 
 void Emulation::handle(const Event& event) {
@@ -166,7 +177,7 @@ void Emulation::command(unsigned pe, const PendingCommand& command) {
       break;
     case CommandKind::set_slots: {
       SlotsCommand slots{};
-      std::memcpy(&slots, pool_[command.block].data.data(), sizeof slots);
+      std::memcpy(&slots, pool_[command.block].payload().data(), sizeof slots);
       if (niu.slots_used() != 0) {
         return fail(describe_fault(pe, NiuFault{NiuFaultCode::slots_in_use, {niu.slots_used(), 0, 0}}, stacks_), "");
       }
@@ -202,7 +213,7 @@ void Emulation::send_message(unsigned pe, BlockIndex block) {
 
 void Emulation::fail_program(unsigned pe, BlockIndex block) {
   protocol::Fault fault{};
-  std::memcpy(&fault, pool_[block].data.data(), sizeof fault);
+  std::memcpy(&fault, pool_[block].payload().data(), sizeof fault);
   if (!failure_.empty()) return;
   const bool trap = static_cast<protocol::FaultCode>(fault.code) == protocol::FaultCode::trap;
   fail(describe_fault(pe, fault, stacks_), trap ? stacks_.of_trap(pe, fault.detail[1]) : stacks_.of_pe(pe));
@@ -210,7 +221,7 @@ void Emulation::fail_program(unsigned pe, BlockIndex block) {
 
 void Emulation::fail_niu(unsigned pe, BlockIndex block) {
   NiuFault fault{};
-  std::memcpy(&fault, pool_[block].data.data(), sizeof fault);
+  std::memcpy(&fault, pool_[block].payload().data(), sizeof fault);
   if (!failure_.empty()) return;
   fail(describe_fault(pe, fault, stacks_), calls_to(pe, fault, stacks_));
 }
@@ -411,8 +422,9 @@ void Emulation::bus_done(BlockIndex index) {
 void Emulation::host_message(BlockIndex index) {
   const Block& message = pool_[index];
   if (!message.is_broadcast()) return nius_[message.destination].deliver(index, now_, pool_, times_);
+  pool_.begin_sharing(index);
   for (NiuNetworkSide& niu : nius_) niu.deliver_copy(message, now_, pool_, times_);
-  pool_.give_back(index);
+  pool_.end_sharing(index);
 }
 
 void Emulation::pixels_done(BlockIndex block) {

@@ -69,6 +69,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
 
  private:
   // ---- Scheduling ----
+  void lend_to_near_pes();
   bool next_event(Event& event);
   void await(unsigned pe, Cycles wanted);
   Cycles end_of_turn(unsigned pe, Cycles time) const;

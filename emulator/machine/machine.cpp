@@ -97,7 +97,10 @@ PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, con
                    here ? SharedMemory::Use::here : SharedMemory::Use::shared, pe % kCacheColours * kCacheLine),
       setup.local_memory_bytes};
   NiuChannel& channel = *niu_channel_at(memory.channel.bytes().data());
-  if (here) channel.ring_bytes = kLeastRingBytes;
+  if (here) {
+    channel.ring_bytes = kLeastRingBytes;
+    channel.near = 1;
+  }
   if (setup.watcher != nullptr) {
     channel.state_log = static_cast<std::uint32_t>(bytes - sizeof(StateLog));
     state_log_of(channel)->set_grain_shift(setup.watcher->grain_shift());

@@ -153,6 +153,7 @@ bool Emulation::stops_before_end() {
 void Emulation::go_on_with(HostProgram& program) {
   resumed_ = false;
   program_ = &program;
+  lend_to_near_pes();
   host_.go_on_with(program, now_);
 }
 

@@ -15,6 +15,12 @@ namespace torolux {
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "shared between processes");
 
+/// Of an entry in its ring.
+template <class Header>
+std::span<const std::byte> payload_behind(const Header& header) {
+  return {reinterpret_cast<const std::byte*>(&header) + sizeof header, header.bytes};
+}
+
 /// Header: a struct that begins with `std::uint64_t time` and has `std::uint32_t bytes`, the payload's length.
 /// Zeroed memory is an empty ring. kMostBytes: a power of two. An entry that finds the ring empty lies at its start: a
 /// thousand rings that are mostly empty then live in the caches, and not each of their bytes in turn. Its bytes lie
@@ -78,9 +84,7 @@ class ByteRing {
     }
     return reinterpret_cast<const Header*>(&data()[place(at)]);
   }
-  static std::span<const std::byte> payload(const Header& header) {
-    return {reinterpret_cast<const std::byte*>(&header) + sizeof header, header.bytes};
-  }
+  static std::span<const std::byte> payload(const Header& header) { return payload_behind(header); }
   /// Calls `each` with every entry, oldest first, which all stay.
   template <class Each>
   void for_each(Each each) const {

@@ -17,14 +17,16 @@ std::size_t small_niu_channel_bytes() {
   return channel_bytes(kLeastRingBytes);
 }
 std::uint64_t niu_channel_layout() {
-  const std::array<std::size_t, 8> facts{sizeof(NiuChannel),
-                                         offsetof(NiuChannel, wanted),
-                                         offsetof(NiuChannel, asleep),
-                                         offsetof(NiuChannel, processor),
-                                         sizeof(ProcessorState),
-                                         offsetof(ProcessorState, first_free),
-                                         sizeof(StateLog),
-                                         protocol::kProtocolVersion};
+  const std::array<std::size_t, 10> facts{sizeof(NiuChannel),
+                                          offsetof(NiuChannel, wanted),
+                                          offsetof(NiuChannel, asleep),
+                                          offsetof(NiuChannel, processor),
+                                          sizeof(ProcessorState),
+                                          offsetof(ProcessorState, first_free),
+                                          sizeof(StateLog),
+                                          sizeof(Command),
+                                          sizeof(Arrival),
+                                          protocol::kProtocolVersion};
   std::uint64_t layout = 0;
   for (const std::size_t fact : facts) layout = layout * 0x1'0000'01B3U + fact;
   return layout;

@@ -9,10 +9,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include "emulator/niu/byte_ring.hpp"
 #include "emulator/time/slices.hpp"
+#include "emulator/torus/payload.hpp"
+#include "emulator/torus/record_kinds.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
 
@@ -65,14 +68,14 @@ constexpr std::uint64_t copy_cycles(std::uint64_t bytes, std::uint32_t bytes_per
 }
 
 enum class CommandKind : std::uint16_t {
-  send_records,  ///< payload: the records
-  send_message,  ///< payload: the contents
+  send_records,  ///< contents: the records
+  send_message,  ///< contents: of the message
   release,       ///< only `released` counts
   received,      ///< a message has been received: its control buffer is free
-  set_slots,     ///< payload: SlotsCommand
+  set_slots,     ///< contents: SlotsCommand
   halt,
-  fail,   ///< payload: protocol::Fault, from the program
-  fault,  ///< payload: NiuFault, from this side of the NIU
+  fail,   ///< contents: protocol::Fault, from the program
+  fault,  ///< contents: NiuFault, from this side of the NIU
 };
 
 /// Processor -> network. `time` of successive commands never falls.
@@ -82,10 +85,18 @@ struct Command {
   std::uint16_t destination;   ///< send_*
   std::uint16_t message_kind;  ///< send_message
   std::uint16_t records;       ///< send_records: 1..kMostRecordsPerPacket
-  std::uint32_t released;      ///< NIU slots that became free
-  std::uint32_t bytes;         ///< of the payload
+  std::uint16_t released;      ///< NIU slots that became free
+  std::uint16_t lent;          ///< bytes of `payload`
+  std::uint32_t bytes;         ///< that follow in the ring
+  std::uint64_t kinds = 0;     ///< of the records, 4 bits for each, the first one's the lowest: kind + 1; 0: not told
+  /// The contents, where both sides are in one process and one was free; with the command it becomes the network's.
+  /// nullptr: they follow in the ring.
+  Payload* payload = nullptr;
 };
-static_assert(sizeof(Command) == 24);
+static_assert(sizeof(Command) == 40 && kMostNiuSlots < 1U << 16U && kMostBlockBytes < 1U << 16U);
+/// Kinds of records that Command::kinds can tell.
+inline constexpr std::size_t kMostToldKinds = 15;
+static_assert(protocol::kMostRecordsPerPacket * 4 <= 64);
 
 struct SlotsCommand {
   std::uint32_t niu;    ///< slots of the NIU
@@ -123,10 +134,20 @@ struct Arrival {
   std::uint16_t source;        ///< PE or kHost
   std::uint16_t count;         ///< records
   std::uint16_t message_kind;  ///< message
-  std::uint32_t bytes;         ///< of the payload: records or contents
-  std::uint32_t stage;         ///< of the host's program, counted from 0, when it came
+  std::uint32_t bytes;         ///< that follow in the ring: records or contents
+  std::uint8_t stage;          ///< of the host's program, counted from 0, when it came
+  bool shared = false;         ///< other PEs hold `payload`, too
+  std::uint16_t lent = 0;      ///< bytes of `payload`
+  Payload* payload = nullptr;  ///< records or contents, likewise; it becomes the processor's, who gives it back
 };
-static_assert(sizeof(Arrival) == 24);
+static_assert(sizeof(Arrival) == 32);
+
+/// Of a Command or an Arrival in its ring, wherever they are; valid until it is popped.
+template <class Entry>
+std::span<const std::byte> contents_of(const Entry& entry) {
+  if (entry.payload != nullptr) return std::span(entry.payload->bytes).first(entry.lent);
+  return payload_behind(entry);
+}
 
 /// What a processor waits for. While it waits, no command will come until the network side gives it that.
 enum class WaitKind : std::uint8_t {
@@ -217,6 +238,9 @@ struct NiuChannel {
   std::uint32_t ring_bytes;   ///< there is memory for so many in each ring; 0: kMostRingBytes
   std::uint32_t state_log;    ///< bytes from here to its StateLog; 0: nobody watches
   std::uint32_t takes_turns;  ///< 1: its bound tells its clock, not when its next command may come at the earliest
+  std::uint32_t near;         ///< 1: the processor is in the emulator's process
+  PayloadPool* payloads;      ///< of a near one, from the network's side; nullptr: all contents go through the rings
+  const RecordKinds* record_kinds;  ///< likewise; nullptr: kinds are not told
 
   // Written by the processor's side.
   alignas(64) std::atomic<std::uint64_t> bound;  ///< no command with an earlier time will come

@@ -18,13 +18,18 @@ inline void archive_arrivals(SnapshotWriter& archive, NiuChannel& channel) {
   channel.arrivals.for_each([&count](const Arrival&) { ++count; });
   archive(count);
   channel.arrivals.for_each([&](const Arrival& arrival) {
+    const auto contents = contents_of(arrival);
     Arrival header = arrival;
+    header.payload = nullptr;
+    header.shared = false;
+    header.lent = 0;
+    header.bytes = static_cast<std::uint32_t>(contents.size());
     archive(header);
-    archive.append(channel.arrivals.payload(arrival));
+    archive.append(contents);
   });
 }
 
-/// The ring is empty, and as large as the one that was saved.
+/// The ring is empty.
 inline void archive_arrivals(SnapshotReader& archive, NiuChannel& channel) {
   std::uint64_t count = 0;
   archive(count);
@@ -32,10 +37,21 @@ inline void archive_arrivals(SnapshotReader& archive, NiuChannel& channel) {
   for (std::uint64_t i = 0; i < count; ++i) {
     Arrival header{};
     archive(header);
-    if (!channel.arrivals.has_room(header.bytes)) refuse_snapshot("a PE has more arrivals than there is room for");
-    payload.resize(header.bytes);
-    archive.bytes(payload);
-    channel.arrivals.push(header, payload);
+    if (header.bytes > kMostBlockBytes) refuse_snapshot("an arrival is longer than any can be");
+    const bool lends = channel.payloads != nullptr && header.bytes != 0;
+    if (!channel.arrivals.has_room(lends ? 0 : header.bytes)) {
+      refuse_snapshot("a PE has more arrivals than there is room for");
+    }
+    if (lends) {
+      header.payload = channel.payloads->take_or_make();
+      header.lent = static_cast<std::uint16_t>(header.bytes);
+      archive.bytes(std::span(header.payload->bytes).first(header.lent));
+      channel.arrivals.push(header, {});
+    } else {
+      payload.resize(header.bytes);
+      archive.bytes(payload);
+      channel.arrivals.push(header, payload);
+    }
   }
 }
 

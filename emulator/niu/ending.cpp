@@ -15,7 +15,7 @@ bool end_with_fault(NiuChannel& channel, std::uint64_t clock, const NiuFault& fa
   // A phase marker in the loop may have promised a later time.
   const std::uint64_t time =
       std::max(command_time(channel.processor, clock), channel.bound.load(std::memory_order_relaxed));
-  channel.commands.push({time, CommandKind::fault, 0, 0, 0, 0, 0}, std::as_bytes(std::span(&fault, 1)));
+  channel.commands.push({time, CommandKind::fault, 0, 0, 0, 0, 0, 0}, std::as_bytes(std::span(&fault, 1)));
   channel.clock.store(time - kCommandCycles, std::memory_order_relaxed);
   publish_bound(channel, time, pack_wait(WaitKind::halted, 0));
   return true;

@@ -73,17 +73,22 @@ void HintRun::take(const Arrival& arrival) {
   window_.arrival.kind = static_cast<protocol::ArrivalKind>(arrival.kind);
   window_.arrival.source = arrival.source;
   window_.arrival.count = arrival.count;
-  const auto payload = channel_.arrivals.payload(arrival);
+  const auto contents = contents_of(arrival);
   if (window_.arrival.kind == protocol::ArrivalKind::records) {
-    take_records(arrival, payload);
+    take_records(arrival, contents);
   } else {
     // From its control buffer into the window, while the processor waits for it.
-    wait_until(clock_ + copy_cycles(sizeof window_.message + payload.size(), channel_.copy_bytes), WaitReason::copy);
-    window_.message = {arrival.message_kind, arrival.source, arrival.bytes};
-    if (!payload.empty()) std::memcpy(window_.message_bytes.data(), payload.data(), payload.size());
+    wait_until(clock_ + copy_cycles(sizeof window_.message + contents.size(), channel_.copy_bytes), WaitReason::copy);
+    window_.message = {arrival.message_kind, arrival.source, static_cast<std::uint32_t>(contents.size())};
+    if (!contents.empty()) std::memcpy(window_.message_bytes.data(), contents.data(), contents.size());
     push(CommandKind::received);
   }
   channel_.taken.store(channel_.taken.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  if (arrival.shared) {
+    channel_.payloads->let_go(arrival.payload);
+  } else if (arrival.payload != nullptr) {
+    channel_.payloads->give_back(arrival.payload);
+  }
   channel_.arrivals.pop(arrival);
 }
 

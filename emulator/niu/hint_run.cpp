@@ -22,6 +22,12 @@ namespace {
 /// The most that one HINT puts into the command ring.
 constexpr std::size_t kLargestCommands = kMostMessageBytes + 4 * sizeof(Command);
 
+/// As in Command::kinds; what is unknown is left to the network.
+std::uint64_t told_kind(const RecordKinds& kinds, std::span<const std::byte> record) {
+  const std::size_t kind = kinds.record_kind(record);
+  return kind < kMostToldKinds ? kind + 1 : 0;
+}
+
 }  // namespace
 
 void wake_network(NiuChannel& channel) {
@@ -177,22 +183,37 @@ void HintRun::send_records() {
                                WaitKind::torus_place, WaitReason::torus_place)) {
     return;
   }
-  std::array<std::byte, kMostPacketBytes> records;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
-  std::uint32_t released = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t slot = send.slots[i];
-    if (slot >= state_.own_slots + state_.niu_slots) {
-      return end_with_fault(NiuFaultCode::bad_slot, slot, state_.own_slots, state_.niu_slots);
-    }
-    std::memcpy(&records[std::size_t{i} * state_.slot_bytes], slot_bytes(slot), state_.slot_bytes);
-    if (slot < state_.own_slots) continue;
-    if (!give_back(slot)) return;
-    ++released;
+  std::array<std::byte, kMostPacketBytes> ring;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
+  Payload* const payload = take_payload();
+  const std::span<std::byte> records = payload != nullptr ? std::span(payload->bytes) : std::span(ring);
+  Command command{0, CommandKind::send_records, send.destination, 0, static_cast<std::uint16_t>(count), 0, 0, 0};
+  if (!gather(records.first(bytes), command)) {
+    if (payload != nullptr) channel_.payloads->give_back(payload);
+    return;
   }
   ++state_.packets_sent;
-  push({command_time(state_, copy_out(bytes)), CommandKind::send_records, send.destination, 0,
-        static_cast<std::uint16_t>(count), released, 0},
-       std::span(records).first(bytes));
+  command.time = command_time(state_, copy_out(bytes));
+  command.payload = payload;
+  command.lent = static_cast<std::uint16_t>(payload != nullptr ? bytes : 0);
+  push(command, payload != nullptr ? std::span<std::byte>() : records.first(bytes));
+}
+
+/// From the slots that are to be sent; what becomes free, and what kinds there are, is noted. False: a fault.
+bool HintRun::gather(std::span<std::byte> records, Command& command) {
+  for (std::uint32_t i = 0; i < command.records; ++i) {
+    const std::uint32_t slot = window_.send.slots[i];
+    if (slot >= state_.own_slots + state_.niu_slots) {
+      end_with_fault(NiuFaultCode::bad_slot, slot, state_.own_slots, state_.niu_slots);
+      return false;
+    }
+    const auto record = records.subspan(std::size_t{i} * state_.slot_bytes, state_.slot_bytes);
+    std::memcpy(record.data(), slot_bytes(slot), state_.slot_bytes);
+    if (channel_.record_kinds != nullptr) command.kinds |= told_kind(*channel_.record_kinds, record) << (4 * i);
+    if (slot < state_.own_slots) continue;
+    if (!give_back(slot)) return false;
+    ++command.released;
+  }
+  return true;
 }
 
 void HintRun::send_message() {
@@ -215,9 +236,20 @@ void HintRun::send_message() {
     return;
   }
   ++state_.messages_sent;
-  push({command_time(state_, copy_out(sizeof header + header.bytes)), CommandKind::send_message, send.destination,
-        header.kind, 0, 0, 0},
-       std::span<const std::byte>(at(send.address) + sizeof header, header.bytes));
+  const std::span<const std::byte> contents(at(send.address) + sizeof header, header.bytes);
+  Command command{command_time(state_, copy_out(sizeof header + header.bytes)),
+                  CommandKind::send_message,
+                  send.destination,
+                  header.kind,
+                  0,
+                  0,
+                  0,
+                  0};
+  command.payload = contents.empty() ? nullptr : take_payload();
+  if (command.payload == nullptr) return push(command, contents);
+  command.lent = static_cast<std::uint16_t>(contents.size());
+  std::memcpy(command.payload->bytes.data(), contents.data(), contents.size());
+  push(command, {});
 }
 
 }  // namespace torolux

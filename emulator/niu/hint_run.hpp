@@ -47,6 +47,7 @@ class HintRun {
 
  private:
   void send_records();
+  bool gather(std::span<std::byte> records, Command& command);
   void send_message();
   void receive();
   void poll(std::uint64_t by);
@@ -76,10 +77,13 @@ class HintRun {
     return at(state_.slots_address + std::uint64_t{slot} * state_.slot_bytes);
   }
 
-  void push(CommandKind kind, std::uint32_t released = 0, std::span<const std::byte> payload = {}) {
-    push({command_time(state_, clock_), kind, 0, 0, 0, released, 0}, payload);
+  void push(CommandKind kind, std::uint32_t released = 0, std::span<const std::byte> contents = {}) {
+    push({command_time(state_, clock_), kind, 0, 0, 0, static_cast<std::uint16_t>(released), 0, 0}, contents);
   }
-  void push(const Command& command, std::span<const std::byte> payload) { channel_.commands.push(command, payload); }
+  /// contents: follow in the ring.
+  void push(const Command& command, std::span<const std::byte> contents) { channel_.commands.push(command, contents); }
+  /// A place for contents, which then need not go through the ring; nullptr: there is none.
+  Payload* take_payload() { return channel_.payloads != nullptr ? channel_.payloads->take() : nullptr; }
   void end_with_fault(NiuFaultCode code, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0) {
     end_with_fault({code, {a, b, c}});
   }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "emulator/niu/futex.hpp"
@@ -186,9 +187,9 @@ void NiuNetworkSide::drain(EventQueue& events, BlockPool& pool) {
   while (const Command* command = ring.front()) {
     any = true;
     BlockIndex index = kNoBlock;
-    const auto payload = ring.payload(*command);
+    const auto contents = contents_of(*command);
     const bool sends = command->kind == CommandKind::send_records || command->kind == CommandKind::send_message;
-    if (sends || !payload.empty()) {
+    if (sends || !contents.empty()) {
       index = pool.take();
       Block& block = pool[index];
       block.number = (std::uint64_t{pe_} << 32U) | sends_++;
@@ -196,8 +197,14 @@ void NiuNetworkSide::drain(EventQueue& events, BlockPool& pool) {
       block.destination = command->destination;
       block.message_kind = command->message_kind;
       block.records = command->records;
-      block.released = static_cast<std::uint16_t>(command->released);
-      block.set_payload(payload);
+      block.released = command->released;
+      block.kinds = command->kinds;
+      if (command->payload != nullptr) {
+        block.contents = command->payload;
+        block.bytes = command->lent;
+      } else {
+        pool.set_payload(index, contents);
+      }
     }
     if (command->kind == CommandKind::release) index = command->released;
     events.push(command->time, pe_, EventKind::command, static_cast<std::uint16_t>(pe_),
@@ -264,13 +271,13 @@ std::optional<HostQueue> NiuNetworkSide::grant_slots() {
 // ---- Towards the processor ----
 
 void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, PeTimes& times) {
-  const Block& block = pool[index];
+  Block& block = pool[index];
   gather(block, now);
   if (goes_into_ring(block)) {
     push_arrival(block, now, stage_);
     pool.give_back(index);
   } else {
-    overflow_.push_back({now, stage_, index});
+    overflow_.push_back({now, index, stage_});
   }
   arrived(times);
 }
@@ -278,13 +285,20 @@ void NiuNetworkSide::deliver(BlockIndex index, Cycles now, BlockPool& pool, PeTi
 void NiuNetworkSide::deliver_copy(const Block& message, Cycles now, BlockPool& pool, PeTimes& times) {
   gather(message, now);
   if (goes_into_ring(message)) {
-    push_arrival(message, now, stage_);
+    Arrival arrival = arrival_of(message, now, stage_);
+    if (lends(message)) {
+      message.contents->holders.fetch_add(1, std::memory_order_relaxed);
+      arrival.payload = message.contents;
+      arrival.lent = static_cast<std::uint16_t>(message.bytes);
+      arrival.shared = true;
+    }
+    channel_->arrivals.push(arrival, lends(message) ? std::span<const std::byte>() : message.payload());
   } else {
     const BlockIndex copy = pool.take();
     pool[copy].message_kind = message.message_kind;
     pool[copy].source = message.source;
-    pool[copy].set_payload(message.payload());
-    overflow_.push_back({now, stage_, copy});
+    pool.set_payload(copy, message.payload());
+    overflow_.push_back({now, copy, stage_});
   }
   arrived(times);
 }
@@ -303,16 +317,24 @@ void NiuNetworkSide::arrived(PeTimes& times) {
   if (says() == WaitKind::poll) wake_processor();
 }
 
-void NiuNetworkSide::push_arrival(const Block& block, Cycles time, std::uint32_t stage) {
+Arrival NiuNetworkSide::arrival_of(const Block& block, Cycles time, std::uint8_t stage) {
   const auto kind = block.records != 0 ? protocol::ArrivalKind::records : protocol::ArrivalKind::message;
-  channel_->arrivals.push(
-      {time, static_cast<std::uint16_t>(kind), block.source, block.records, block.message_kind, 0, stage},
-      block.payload());
+  return {time, static_cast<std::uint16_t>(kind), block.source, block.records, block.message_kind, 0, stage};
+}
+
+/// The payload of a processor that is near becomes its own: it is not even looked at here.
+void NiuNetworkSide::push_arrival(Block& block, Cycles time, std::uint8_t stage) {
+  Arrival arrival = arrival_of(block, time, stage);
+  if (lends(block)) {
+    arrival.payload = std::exchange(block.contents, nullptr);
+    arrival.lent = static_cast<std::uint16_t>(block.bytes);
+  }
+  channel_->arrivals.push(arrival, block.payload());
 }
 
 void NiuNetworkSide::refill(BlockPool& pool) {
   bool any = false;
-  while (!overflow_.empty() && channel_->arrivals.has_room(pool[overflow_.front().block].bytes)) {
+  while (!overflow_.empty() && has_room_for(pool[overflow_.front().block])) {
     push_arrival(pool[overflow_.front().block], overflow_.front().time, overflow_.front().stage);
     pool.give_back(overflow_.front().block);
     overflow_.pop_front();

@@ -124,14 +124,15 @@ class alignas(64) NiuNetworkSide {
   void fetch_departures_ahead() const { channel_->torus_departures.fetch_ahead(departed_torus_, torus_places_); }
   /// A packet or message, its room reserved, has come at `now`. The block belongs to the NIU from here on.
   void deliver(BlockIndex block, Cycles now, BlockPool& pool, PeTimes& times);
-  /// The same of a message that others get, too: the block stays the caller's.
+  /// The same of a message that others get, too, between BlockPool::begin_sharing and end_sharing: the block stays the
+  /// caller's.
   void deliver_copy(const Block& message, Cycles now, BlockPool& pool, PeTimes& times);
   /// A place in an outgoing queue comes free at `when`, which is not before now.
   void left_torus_queue(Cycles when, PeTimes& times) { left(channel_->torus_departures, departed_torus_, when, times); }
   void left_bus_queue(Cycles when, PeTimes& times) { left(channel_->bus_departures, departed_bus_, when, times); }
 
   /// What comes from now on belongs to this stage of the host's program.
-  void set_stage(std::uint32_t stage) { stage_ = stage; }
+  void set_stage(std::uint32_t stage) { stage_ = static_cast<std::uint8_t>(stage); }
 
   /// What the processor tells of its states goes there, as far as its log has come at each refresh. states: outlives
   /// this.
@@ -155,11 +156,13 @@ class alignas(64) NiuNetworkSide {
   void drain(EventQueue& events, BlockPool& pool);
   bool drain_states();
   void refill(BlockPool& pool);
-  bool goes_into_ring(const Block& block) const {
-    return overflow_.empty() && channel_->arrivals.has_room(block.bytes);
-  }
+  bool goes_into_ring(const Block& block) const { return overflow_.empty() && has_room_for(block); }
+  bool has_room_for(const Block& block) const { return channel_->arrivals.has_room(lends(block) ? 0 : block.bytes); }
+  /// Whether the processor gets the payload itself, and no copy.
+  bool lends(const Block& block) const { return channel_->payloads != nullptr && block.contents != nullptr; }
   void gather(const Block& block, Cycles now);
-  void push_arrival(const Block& block, Cycles time, std::uint32_t stage);
+  static Arrival arrival_of(const Block& block, Cycles time, std::uint8_t stage);
+  void push_arrival(Block& block, Cycles time, std::uint8_t stage);
   void arrived(PeTimes& times);
   void left(Departures& departures, std::uint64_t& departed, Cycles when, PeTimes& times);
   void wake_processor();
@@ -170,8 +173,8 @@ class alignas(64) NiuNetworkSide {
 
   struct Overflow {
     Cycles time;
-    std::uint32_t stage;
     BlockIndex block;
+    std::uint8_t stage;
   };
 
   /// An arrival that the processor has not taken.
@@ -196,7 +199,7 @@ class alignas(64) NiuNetworkSide {
   std::uint64_t taken_ = 0;
   std::uint64_t wakes_ = 0;  // as in the channel
   unsigned pe_;
-  std::uint32_t stage_ = 0;
+  std::uint8_t stage_ = 0;
   // Arrivals.
   alignas(64) Fifo<Gathered> gathered_;  // numbers taken_ and up
   Fifo<Overflow> overflow_;              // delivered, but the ring was full

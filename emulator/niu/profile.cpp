@@ -30,7 +30,7 @@ void report_mismatch(NiuChannel& channel, std::uint8_t phase, bool enters, std::
   const ProcessorState& state = channel.processor;
   const std::uint32_t open = state.phase_depth != 0 ? state.phases[state.phase_depth - 1] : protocol::kPhases;
   const NiuFault fault{NiuFaultCode::phase_mismatch, {phase, open, enters ? 1U : 0U}};
-  channel.commands.push({command_time(channel.processor, clock), CommandKind::fault, 0, 0, 0, 0, 0},
+  channel.commands.push({command_time(channel.processor, clock), CommandKind::fault, 0, 0, 0, 0, 0, 0},
                         std::as_bytes(std::span(&fault, 1)));
 }
 

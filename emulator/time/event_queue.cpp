@@ -2,51 +2,66 @@
 // The queue of events: what few of them need. Pushed in any order, popped by (time, source, sequence number).
 #include "emulator/time/event_queue.hpp"
 
+#include <span>
 #include <utility>
 
 namespace torolux {
 
 namespace {
 constexpr std::size_t kChildren = 4;
-/// Of as few as this, each is inserted in its turn.
-constexpr std::size_t kFew = 16;
+/// Events of a time that each is moved by, on average, when they are put in order one by one: of more it is dear.
+constexpr std::size_t kMostMoves = 8;
 }  // namespace
+
+/// A node that is of no list, and the only one.
+std::uint32_t EventQueue::make_node() {
+  nodes_.push_back({{}, kNobody});
+  return static_cast<std::uint32_t>(nodes_.size() - 1);
+}
 
 /// The events of this time, the earliest of all, with what the heap has of it, in order.
 void EventQueue::open(Cycles time) {
-  now_ = near_ = time;
+  now_ = open_time_ = time;
   if (time / kSpan != span_) advance(time / kSpan);
-  popped_ = 0;
-  open_ = true;
-  opened_.clear();
+  window_ = (span_ + 2) * kSpan - time;
+  popped_ = opened_end_ = 0;
   const std::size_t number = time % kWindow;
   for (std::uint32_t node = std::exchange(lists_[number], kNobody); node != kNobody;) {
-    opened_.push_back(nodes_[node].event);
+    if (opened_end_ == opened_.size()) make_room();
+    opened_[opened_end_++] = nodes_[node].event;
     const std::uint32_t next = std::exchange(nodes_[node].next, free_);
     free_ = std::exchange(node, next);
   }
-  while (heap_least_ == time) opened_.push_back(pop_heap());
+  while (heap_least_ == time) {
+    if (opened_end_ == opened_.size()) make_room();
+    opened_[opened_end_++] = pop_heap();
+  }
   filled_[number / kWord] &= ~(std::uint64_t{1} << (number % kWord));
-  if (opened_.size() > 1) sort_opened();
+  if (opened_end_ > 1) sort_opened();
 }
 
+/// Mostly they were pushed in their order, and a list has the last one first.
 void EventQueue::sort_opened() {
-  if (opened_.size() > kFew) {
-    std::ranges::sort(opened_, [](const Event& a, const Event& b) { return a.order < b.order; });
-    return;
-  }
-  for (std::size_t i = 1; i < opened_.size(); ++i) {
-    if (opened_[i - 1].order < opened_[i].order) continue;
-    const Event event = opened_[i];
+  const std::span<Event> events = std::span(opened_).first(opened_end_);
+  std::ranges::reverse(events);
+  std::size_t moves = 0;
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    if (events[i - 1].order < events[i].order) continue;
+    if (moves > kMostMoves * events.size()) {
+      std::ranges::sort(events, {}, &Event::order);
+      return;
+    }
+    const Event event = events[i];
     std::size_t at = i;
-    for (; at != 0 && event.order < opened_[at - 1].order; --at) opened_[at] = opened_[at - 1];
-    opened_[at] = event;
+    for (; at != 0 && event.order < events[at - 1].order; --at) events[at] = events[at - 1];
+    events[at] = event;
+    moves += i - at;
   }
 }
 
-/// The earliest time after now_ with an event in a list.
+/// The earliest time from now_ on with an event in a list.
 Cycles EventQueue::next_near() const {
-  const std::size_t first = (now_ + 1) % kWindow;
+  const std::size_t first = now_ % kWindow;
   std::size_t word = first / kWord;
   std::uint64_t bits = filled_[word] & (~std::uint64_t{0} << (first % kWord));
   for (std::size_t looked = 0; bits == 0; ++looked) {
@@ -55,14 +70,17 @@ Cycles EventQueue::next_near() const {
     bits = filled_[word];
   }
   const std::size_t number = word * kWord + static_cast<std::size_t>(std::countr_zero(bits));
-  return now_ + 1 + (number + kWindow - first) % kWindow;
+  return now_ + (number + kWindow - first) % kWindow;
 }
 
 // ---- Later spans ----
 
-void EventQueue::push_far(const Event& event) {
-  const std::uint64_t span = event.time / kSpan;
-  if (event.time < now_ || span - span_ > kSpans + 1) return push_heap(event);
+void EventQueue::push_far(Cycles time, std::uint64_t order, std::uint64_t rest) {
+  Event event{};
+  fill(event, time, order, rest);
+  next_ = std::min(next_, time);
+  const std::uint64_t span = time / kSpan;
+  if (time < now_ || span - span_ > kSpans + 1) return push_heap(event);
   const std::size_t number = span % kSpans;
   later_[number].push_back(event);
   later_filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
@@ -111,6 +129,13 @@ void EventQueue::push_heap(const Event& event) {
   }
   heap_[at] = event;
   heap_least_ = heap_.front().time;
+}
+
+/// Earlier than what was popped last.
+Event EventQueue::pop_earlier() {
+  const Event result = pop_heap();
+  next_ = std::min(open_time_ != kNone ? open_time_ : next_near(), std::min(later_least_, heap_least_));
+  return result;
 }
 
 Event EventQueue::pop_heap() {

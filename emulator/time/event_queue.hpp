@@ -68,35 +68,30 @@ class EventQueue {
 
   /// watcher: outlives this, or nullptr.
   void watch(EventWatcher* watcher) { watcher_ = watcher; }
-  bool empty() const { return next_time() == kNone; }
+  bool empty() const { return next_ == kNone; }
   /// Of the event that comes next; kNone: there is none.
-  Cycles next_time() const { return std::min(std::min(near_, later_least_), heap_least_); }
+  Cycles next_time() const { return next_; }
   void push(Cycles time, std::uint32_t source, EventKind kind, std::uint16_t actor, std::uint8_t port,
             std::uint32_t block) {
     const std::uint64_t order = (std::uint64_t{source} << 32U) | sequence_[source]++;
-    const std::uint64_t ahead = time / kSpan - span_;  // earlier spans: the difference wraps
-    if (time >= now_ && ahead <= 1) {
-      if (open_ && time == now_) return fill(push_open(order), time, order, kind, actor, port, block);
-      return fill(push_near(time), time, order, kind, actor, port, block);
-    }
-    Event event{};
-    fill(event, time, order, kind, actor, port, block);
-    push_far(event);
+    const std::uint64_t rest =
+        block | std::uint64_t{actor} << 32U | std::uint64_t{port} << 48U | static_cast<std::uint64_t>(kind) << 56U;
+    if (time - now_ >= window_) return push_far(time, order, rest);  // an earlier time: the difference wraps
+    fill(time == open_time_ ? push_open(order) : push_near(time), time, order, rest);
   }
   /// Only if there is one.
   Event pop() {
-    const Cycles time = next_time();
-    if (time < now_) return pop_heap();
-    if (!open_) open(time);
-    const Event& result = opened_[popped_++];
-    if (popped_ == opened_.size()) close();
-    return result;  // still there
+    if (next_ < now_) return pop_earlier();
+    if (next_ != open_time_) open(next_);
+    const Event result = opened_[popped_++];
+    if (popped_ == opened_end_) close();
+    return result;
   }
   /// All of it that a run changes.
   template <class Archive>
   void archive(Archive& archive) {
-    archive(lists_, filled_, nodes_, free_, open_, now_, span_, near_, later_least_, heap_least_, popped_, opened_,
-            later_, later_filled_, heap_, sequence_);
+    archive(lists_, filled_, nodes_, free_, open_time_, now_, span_, window_, next_, later_least_, heap_least_, popped_,
+            opened_end_, opened_, later_, later_filled_, heap_, sequence_);
   }
 
  private:
@@ -104,6 +99,7 @@ class EventQueue {
   static constexpr std::size_t kSpans = 128;  // beyond the window
   static constexpr std::size_t kWord = 64;
   static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+  static constexpr std::size_t kLeastRoom = 64;
   struct Node {
     Event event;
     std::uint32_t next;
@@ -112,46 +108,42 @@ class EventQueue {
   static bool before(const Event& a, const Event& b) { return a.time != b.time ? a.time < b.time : a.order < b.order; }
   /// In as few stores as there are loads when it is copied: a load of what several stores have just written waits for
   /// all of them.
-  static void fill(Event& event, Cycles time, std::uint64_t order, EventKind kind, std::uint16_t actor,
-                   std::uint8_t port, std::uint32_t block) {
+  static void fill(Event& event, Cycles time, std::uint64_t order, std::uint64_t rest) {
     static_assert(std::endian::native == std::endian::little && offsetof(Event, block) == 16 &&
                   offsetof(Event, actor) == 20 && offsetof(Event, port) == 22 && offsetof(Event, kind) == 23);
     event.time = time;
     event.order = order;
-    const std::uint64_t rest =
-        block | std::uint64_t{actor} << 32U | std::uint64_t{port} << 48U | static_cast<std::uint64_t>(kind) << 56U;
     std::memcpy(reinterpret_cast<std::byte*>(&event) + offsetof(Event, block), &rest, sizeof rest);
   }
 
   /// Places for an event of this order in the cycle that is open, or of this time in a list; to be filled.
   Event& push_open(std::uint64_t order) {
-    opened_.emplace_back();
-    std::size_t at = opened_.size() - 1;
+    if (opened_end_ == opened_.size()) make_room();
+    std::size_t at = opened_end_++;
     for (; at > popped_ && order < opened_[at - 1].order; --at) opened_[at] = opened_[at - 1];
     return opened_[at];
   }
   Event& push_near(Cycles time) {
     std::uint32_t node = free_;
-    if (node == kNobody) {
-      node = static_cast<std::uint32_t>(nodes_.size());
-      nodes_.emplace_back();
-    } else {
-      free_ = nodes_[node].next;
-    }
+    if (node == kNobody) node = make_node();
+    free_ = nodes_[node].next;
     const std::size_t number = time % kWindow;
     nodes_[node].next = lists_[number];
     lists_[number] = node;
     filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
-    near_ = std::min(near_, time);
+    next_ = std::min(next_, time);
     return nodes_[node].event;
   }
   void close() {
-    open_ = false;
-    near_ = next_near();
+    open_time_ = kNone;
+    next_ = std::min(next_near(), std::min(later_least_, heap_least_));
   }
-  void push_far(const Event& event);
+  std::uint32_t make_node();
+  void make_room() { opened_.resize(2 * opened_.size() + kLeastRoom); }
+  void push_far(Cycles time, std::uint64_t order, std::uint64_t rest);
   void push_heap(const Event& event);
   Event pop_heap();
+  Event pop_earlier();
   void open(Cycles time);
   void sort_opened();
   void advance(std::uint64_t span);
@@ -163,14 +155,15 @@ class EventQueue {
   std::array<std::uint64_t, kWindow / kWord> filled_{};  // a bit for each list that is not empty
   std::vector<Node> nodes_;                              // of lists
   std::uint32_t free_ = kNobody;                         // nodes that are of none
-  bool open_ = false;
-  Cycles now_ = 0;              // of the last event popped that was not from the heap alone
-  std::uint64_t span_ = 0;      // now_ / kSpan
-  Cycles near_ = kNone;         // earliest time with an event in lists_ or opened_
-  Cycles later_least_ = kNone;  // the same of later_ and heap_
+  Cycles open_time_ = kNone;                             // now_, while opened_ holds what is left of it
+  Cycles now_ = 0;                                       // of the last event popped that was not from the heap alone
+  std::uint64_t span_ = 0;                               // now_ / kSpan
+  Cycles window_ = kWindow;                              // from now_ to (span_ + 2) * kSpan: lists_ are for these times
+  Cycles next_ = kNone;                                  // earliest time with an event
+  Cycles later_least_ = kNone;                           // the same of later_ and heap_
   Cycles heap_least_ = kNone;
-  std::size_t popped_ = 0;                                    // of opened_, those that have gone
-  std::vector<Event> opened_;                                 // those of now_, in order, if open_
+  std::size_t popped_ = 0, opened_end_ = 0;                   // of opened_, those that have gone, and all
+  std::vector<Event> opened_;                                 // those of open_time_, in order; then room for more
   std::vector<std::vector<Event>> later_;                     // [time / kSpan % kSpans], for the spans behind lists_
   std::array<std::uint64_t, kSpans / kWord> later_filled_{};  // a bit for each that is not empty
   std::vector<Event> heap_;

@@ -8,39 +8,39 @@
 namespace torolux {
 
 void Torus::arbitrate(unsigned router, std::size_t output, Cycles now) {
-  Output& out = routers_[router].outputs[output];
+  Router& here = routers_[router];
+  Output& out = here.outputs[output];
   if (out.starving == kAnyone && !anyone_enters(out.waiting, output)) cease_starving(router, output, now);
   if (out.waiting == 0) return;
-  if (out.free_at > now) return schedule(router, output, out.free_at);
+  if (out.free_at > now) return schedule(router, output, out, out.free_at);
   const bool local = output == index_of(Port::local);
-  if (!local) collect_returns(router, output, now);
-  std::size_t input = choose(router, output);
+  if (!local) collect_returns(router, output, out, now);
+  std::size_t input = choose(here, router, output);
   // The NIU takes packets in the order of their ages: a small one does not overtake.
-  if (local && !client_.accept(router, routers_[router].inputs[input].queue.front())) input = kNobody;
-  if (input != kNobody) grant(router, input, output, now);
+  if (local && !client_.accept(router, here.inputs[input].queue.front())) input = kNobody;
+  if (input != kNobody) grant(here, router, input, output, now);
   if (!local && out.waiting != 0) look_for_starving(router, output, now);
   if (input != kNobody) {
-    if (out.waiting != 0 || out.starving != kNobody) schedule(router, output, out.free_at);
+    if (out.waiting != 0 || out.starving != kNobody) schedule(router, output, out, out.free_at);
     return;
   }
   if (out.stalled_at == kNotYet) out.stalled_at = now;
-  if (out.returns != 0) schedule(router, output, return_time(router, output, out.first_return));
+  if (out.returns != 0) schedule(router, output, out, return_time(router, output, out.first_return));
 }
 
 /// The oldest packet of those that may go; equal ones in turn. kNobody: none may.
-std::size_t Torus::choose(unsigned router, std::size_t output) const {
-  const Router& here = routers_[router];
+inline std::size_t Torus::choose(const Router& here, unsigned router, std::size_t output) const {
   const Output& out = here.outputs[output];
   // Not has_single_bit, which counts bits: a call, where the computer is not known to have an instruction for it.
   if ((out.waiting & (out.waiting - 1U)) == 0) {
-    const auto input = static_cast<std::size_t>(std::countr_zero(out.waiting));
-    return may_go(router, input, output) ? input : kNobody;
+    const auto input = static_cast<std::size_t>(std::countr_zero(std::uint32_t{out.waiting}));
+    return may_go(out, router, input, output) ? input : kNobody;
   }
   std::size_t best = kNobody;
   Cycles oldest = kNotYet;
   for (std::size_t i = 0; i < kPorts; ++i) {
     const std::size_t input = out.next_input + i < kPorts ? out.next_input + i : out.next_input + i - kPorts;
-    if ((out.waiting >> input & 1U) == 0 || !may_go(router, input, output)) continue;
+    if ((out.waiting >> input & 1U) == 0 || !may_go(out, router, input, output)) continue;
     const Cycles entered = pool_[here.inputs[input].queue.front()].entered;
     if (best != kNobody && entered >= oldest) continue;
     best = input;
@@ -51,9 +51,8 @@ std::size_t Torus::choose(unsigned router, std::size_t output) const {
 
 /// Bubble flow control: to enter a ring leaves at least one of its buffers' slots free, to go on needs one. Who enters
 /// lets those go first who starve; who goes on waits for nobody. At the local output the NIU decides.
-bool Torus::may_go(unsigned router, std::size_t input, std::size_t output) const {
+inline bool Torus::may_go(const Output& out, unsigned router, std::size_t input, std::size_t output) const {
   if (output == index_of(Port::local)) return true;
-  const Output& out = routers_[router].outputs[output];
   if (!bubble_ || goes_on(input, output)) return out.slots >= 1;
   if (out.slots < 2) return false;
   if (out.starving == kNobody) return !lines_.seen(router, static_cast<Port>(output));
@@ -85,50 +84,40 @@ void Torus::cease_starving(unsigned router, std::size_t output, Cycles now) {
   lines_.end(router, static_cast<Port>(output), now);
 }
 
-/// The first packet of an input no longer asks for this output.
-void Torus::withdraw(unsigned router, std::size_t input, std::size_t output, Cycles now) {
-  Output& out = routers_[router].outputs[output];
-  out.waiting &= static_cast<std::uint8_t>(~(1U << input));
-  if (out.waiting == 0 && out.stalled_at != kNotYet) {
-    routers_[router].seldom[output].stalled += now - out.stalled_at;
-    out.stalled_at = kNotYet;
-  }
-  if (out.starving == input) cease_starving(router, output, now);
-}
-
-void Torus::grant(unsigned router, std::size_t input, std::size_t output, Cycles now) {
-  Router& here = routers_[router];
+void Torus::grant(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now) {
   Input& in = here.inputs[input];
   Output& out = here.outputs[output];
-  const BlockIndex index = in.queue.pop(pool_);
+  const BlockIndex index = in.queue.front();
   const Block& block = pool_[index];
+  in.queue.pop(block);
   const bool in_slot_of_good_copy = block.copy == Copy::bad;
   const bool local = output == index_of(Port::local);
   const Cycles start = now + (local ? 0 : jitter_.delay(Jitter::What::link, block.number, block.hops));
-  const Cycles tail = start + block.flits;
+  const std::uint32_t flits = block.flits;
+  const Cycles tail = start + flits;
   if (out.starving != kNobody && !goes_on(input, output)) {
     out.starving = kAnyone;
     if (--out.may_enter == 0) cease_starving(router, output, now);
   }
-  withdraw(router, input, output, now);
+  withdraw(here, router, input, output, now);
   if (out.stalled_at != kNotYet) here.seldom[output].stalled += now - out.stalled_at;
   out.stalled_at = kNotYet;
-  out.next_input = static_cast<std::uint8_t>((input + 1) % kPorts);
+  out.next_input = static_cast<std::uint8_t>(input + 1 == kPorts ? 0 : input + 1);
   in.free_at = tail;
   if (input == index_of(Port::local)) {
     LinkFigures& figures = here.injection;
     ++figures.packets;
-    figures.flits += block.flits;
+    figures.flits += flits;
     figures.busy += tail - now;
     figures.stalled += now - in.asked_at;
   }
   if (local) {
-    eject(router, index, tail);
+    eject(here, router, index, tail);
     out.free_at = tail;
   } else {
-    out.free_at = send(router, output, index, start);
+    out.free_at = send(out, router, output, index, start);
   }
-  const Cycles beyond = out.free_at - now - (block.copy == Copy::good ? block.flits : 0);
+  const Cycles beyond = out.free_at - now - (block.copy == Copy::good ? flits : 0);
   if (beyond != 0) here.seldom[output].busy_beyond += beyond;
   if (!in.queue.empty()) head(router, input, now);
   if (input == index_of(Port::local)) {
@@ -140,16 +129,20 @@ void Torus::grant(unsigned router, std::size_t input, std::size_t output, Cycles
 
 /// Over a link, again and again until a copy arrives whole. Returns when the output is free. The link's sender keeps
 /// what it has sent until the answer comes (docs/machine.md), so the input and its slot are free after the first tail.
-Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles start) {
-  Output& out = routers_[router].outputs[output];
+inline Cycles Torus::send(Output& out, unsigned router, std::size_t output, BlockIndex index, Cycles start) {
   Block& block = pool_[index];
   const unsigned next = neighbours_[router][output];
-  const std::size_t port = index_of(opposite(static_cast<Port>(output)));
+  const std::size_t input = index_of(opposite(static_cast<Port>(output)));
   --out.slots;
   ++out.held;
-  look_ahead(router, output, block);
-  if (block.copy == Copy::bad) block.copy = Copy::poisoned;
-  const std::uint32_t bad = block.copy == Copy::good ? faults_.bad_copies(block) : 0;
+  look_ahead(next, input, block);
+  if (block.copy != Copy::good) {
+    block.copy = Copy::poisoned;
+    ++block.hops;
+    send_copy(router, output, index, start);
+    return start + block.flits;
+  }
+  const std::uint32_t bad = faults_.bad_copies(block);
   ++block.hops;
   for (std::uint32_t i = 0; i < bad; ++i) {
     const BlockIndex copy = pool_.take();
@@ -157,26 +150,22 @@ Cycles Torus::send(unsigned router, std::size_t output, BlockIndex index, Cycles
     send_copy(router, output, copy, start);
     start += block.flits + retry_cycles_;
   }
-  if (block.copy != Copy::good) {
-    send_copy(router, output, index, start);
-    return start + block.flits;
-  }
   ++out.packets;
   out.flits += block.flits;
   if (hop_watcher_ != nullptr) hop_watcher_->leaves(router, output, block, start, start + hop_cycles_);
   events_.push(start + hop_cycles_, source(router), EventKind::arrive, static_cast<std::uint16_t>(next),
-               static_cast<std::uint8_t>(port), index);
+               static_cast<std::uint8_t>(input), index);
   return start + block.flits;
 }
 
 /// The output that it will ask for at the next router, and what is needed there a few events from now, fetched into the
 /// caches meanwhile.
-void Torus::look_ahead(unsigned router, std::size_t output, Block& block) {
-  const unsigned next = neighbours_[router][output];
+inline void Torus::look_ahead(unsigned next, std::size_t input, Block& block) {
   const Port port = shape_.route(places_[next], places_[block.destination]);
   block.output = static_cast<std::uint8_t>(port);
-  __builtin_prefetch(&routers_[next].inputs[index_of(opposite(static_cast<Port>(output)))], 1);
-  __builtin_prefetch(&routers_[next].outputs[index_of(port)], 1);
+  Router& there = routers_[next];
+  __builtin_prefetch(&there.inputs[input], 1);
+  __builtin_prefetch(&there.outputs[index_of(port)], 1);
   if (port == Port::local) return client_.coming(next);
   __builtin_prefetch(&return_time(next, index_of(port), 0), 1);
 }
@@ -192,10 +181,10 @@ void Torus::send_copy(unsigned router, std::size_t output, BlockIndex index, Cyc
   events_.push(start + hop_cycles_ + block.flits - 1, source(router), EventKind::tail, next, port, index);
 }
 
-void Torus::eject(unsigned router, BlockIndex index, Cycles tail) {
+void Torus::eject(Router& here, unsigned router, BlockIndex index, Cycles tail) {
   const Block& block = pool_[index];
   const Cycles delivered = tail - 1 + hop_cycles_;
-  Output& out = routers_[router].outputs[index_of(Port::local)];
+  Output& out = here.outputs[index_of(Port::local)];
   if (block.copy == Copy::good) {
     --inside_;
     packet_figures_.add(block.hops, delivered - block.entered, block.records, block.bytes);
@@ -205,7 +194,7 @@ void Torus::eject(unsigned router, BlockIndex index, Cycles tail) {
       hop_watcher_->leaves(router, index_of(Port::local), block, tail - block.flits, delivered);
     }
   } else {
-    routers_[router].seldom[index_of(Port::local)].wasted_flits += block.flits;
+    here.seldom[index_of(Port::local)].wasted_flits += block.flits;
   }
   events_.push(delivered, source(router), EventKind::deliver, static_cast<std::uint16_t>(router), 0, index);
 }

@@ -2,14 +2,15 @@
 // What is on its way through torus or bus, a packet of records or a message, and the pool from which all of them come.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "emulator/torus/payload.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux {
@@ -17,9 +18,6 @@ namespace torolux {
 using BlockIndex = std::uint32_t;
 inline constexpr BlockIndex kNoBlock = 0xFFFF'FFFFU;
 
-/// Greatest payload of packet and message alike.
-inline constexpr std::size_t kMostBlockBytes = protocol::kMostMessageBytes;
-static_assert(kMostBlockBytes >= protocol::kMostPacketBytes);
 /// What the torus carries beside the records [bytes]: destination, source, number of records, length, age, CRC-32.
 inline constexpr std::uint32_t kPacketHeaderBytes = 16;
 /// Flits of a packet with so many bytes of records.
@@ -37,10 +35,12 @@ enum class Copy : std::uint8_t {
   poisoned,  ///< a bad one that has been passed on, in a slot of its own
 };
 
-/// What routers look at lies in one line of the caches.
-struct alignas(64) Block {
+/// The header, one line of the caches. What it is a header of stays where it is.
+struct alignas(kCacheLine) Block {
   std::uint64_t number;   ///< the source's own count in the lower half, the source in the upper: a name for hashes
   std::uint64_t entered;  ///< the outgoing queue to the torus [cycle]
+  std::uint64_t kinds;    ///< of a PE's records, as in Command
+  Payload* contents;      ///< the pool's that gives it back with the block; nullptr: none, or a bad copy
   BlockIndex next;        ///< of the queue that it stands in
   std::uint16_t source;
   std::uint16_t destination;
@@ -52,10 +52,9 @@ struct alignas(64) Block {
   std::uint16_t released;      ///< of a command: NIU slots that became free with it
   Copy copy;
   std::uint8_t output;  ///< of the router where it is, or to which it is on its way: that it asks for
-  std::array<std::byte, kMostBlockBytes> data;
 
   bool is_broadcast() const { return destination == kEveryPe; }
-  /// All that routers and NIUs look at; the data stay as they are.
+  /// All that routers and NIUs look at, without contents.
   void become_bad_copy_of(const Block& good) {
     number = good.number;
     entered = good.entered;
@@ -69,38 +68,57 @@ struct alignas(64) Block {
     output = good.output;
     copy = Copy::bad;
   }
-  std::span<const std::byte> payload() const { return std::span(data).first(bytes); }
-  void set_payload(std::span<const std::byte> contents) {
-    bytes = static_cast<std::uint32_t>(contents.size());
-    if (!contents.empty()) std::memcpy(data.data(), contents.data(), contents.size());
+  std::span<const std::byte> payload() const { return payload_to_write(); }
+  std::span<std::byte> payload_to_write() const {
+    return contents != nullptr ? std::span(contents->bytes).first(bytes) : std::span<std::byte>();
   }
 };
+static_assert(sizeof(Block) == kCacheLine);
 
-/// Blocks by number. Grows as needed and reuses; addresses stay.
+/// Blocks by number. Grows as needed and reuses; addresses stay. For one thread, but for the payloads' pool.
 class BlockPool {
  public:
+  PayloadPool& payloads() { return payloads_; }
   Block& operator[](BlockIndex index) { return chunks_[index / kChunk][index % kChunk]; }
   const Block& operator[](BlockIndex index) const { return chunks_[index / kChunk][index % kChunk]; }
 
-  /// A block with everything but its data zero.
+  /// A block with everything zero.
   BlockIndex take() {
     if (free_.empty()) grow();
     const BlockIndex index = free_.back();
     free_.pop_back();
     Block& block = (*this)[index];
-    block.number = block.entered = 0;
-    block.copy = Copy::good;
-    block.output = 0;
+    block = {};
     block.next = kNoBlock;
-    block.source = block.destination = block.records = block.message_kind = block.released = 0;
-    block.flits = block.hops = block.bytes = 0;
     return index;
+  }
+  /// Of one that has none, a copy of these.
+  void set_payload(BlockIndex index, std::span<const std::byte> contents) {
+    Block& block = (*this)[index];
+    block.bytes = static_cast<std::uint32_t>(contents.size());
+    if (contents.empty()) return;
+    block.contents = payloads_.take_or_make();
+    std::memcpy(block.contents->bytes.data(), contents.data(), contents.size());
   }
   /// Into the caches: what routers look at.
   void fetch_ahead(BlockIndex index) const { __builtin_prefetch(&(*this)[index], 1); }
-  void give_back(BlockIndex index) { free_.push_back(index); }
+  /// Its payload is for several, each of whom adds one to `holders` and lets it go in the end.
+  void begin_sharing(BlockIndex index) {
+    if (Payload* const shared = (*this)[index].contents) shared->holders.store(1, std::memory_order_relaxed);
+  }
+  /// Gives the block back.
+  void end_sharing(BlockIndex index) {
+    if (Payload* const shared = std::exchange((*this)[index].contents, nullptr)) payloads_.let_go(shared);
+    give_back(index);
+  }
+  /// With its payload.
+  void give_back(BlockIndex index) {
+    Block& block = (*this)[index];
+    if (block.contents != nullptr) payloads_.give_back(std::exchange(block.contents, nullptr));
+    free_.push_back(index);
+  }
   std::size_t in_use() const { return chunks_.size() * kChunk - free_.size(); }
-  /// All of it that a run changes: of the data, only what is payload.
+  /// All of it that a run changes.
   template <class Archive>
   void archive(Archive& archive) {
     std::uint64_t chunks = chunks_.size();
@@ -121,11 +139,15 @@ class BlockPool {
 
   /// first: of kChunk.
   template <class Archive>
-  static void archive_chunk(Archive& archive, Block& first) {
+  void archive_chunk(Archive& archive, Block& first) {
     for (Block& block : std::span(&first, kChunk)) {
-      archive.bytes(std::as_writable_bytes(std::span(&block, 1)).first(offsetof(Block, data)));
+      Payload* const contents = std::exchange(block.contents, nullptr);  // a place of this process
+      bool has_contents = contents != nullptr;
+      archive.bytes(std::as_writable_bytes(std::span(&block, 1)));
+      archive(has_contents);
+      block.contents = Archive::kReads && has_contents ? payloads_.take_or_make() : contents;
       if (block.bytes > kMostBlockBytes) block.bytes = 0;
-      archive.bytes(std::span(block.data).first(block.bytes));
+      archive.bytes(block.payload_to_write());
     }
   }
 
@@ -135,6 +157,7 @@ class BlockPool {
     for (BlockIndex i = kChunk; i-- > 0;) free_.push_back(first + i);
   }
 
+  PayloadPool payloads_;
   std::vector<std::unique_ptr<Block[]>> chunks_;
   std::vector<BlockIndex> free_;
 };
@@ -161,9 +184,13 @@ class BlockQueue {
   }
   BlockIndex pop(BlockPool& pool) {
     const BlockIndex index = head_;
-    head_ = pool[index].next;
-    --size_;
+    pop(pool[index]);
     return index;
+  }
+  /// first: the block at the front.
+  void pop(const Block& first) {
+    head_ = first.next;
+    --size_;
   }
 
  private:

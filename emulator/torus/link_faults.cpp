@@ -5,6 +5,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/random.hpp"
@@ -29,9 +31,12 @@ std::uint32_t crc(std::span<const std::byte> data) {
 
 /// Whether a receiver notices that bit `bit` of the block's data has been flipped: compares CRC-32 sums.
 bool crc_detects_flip(const Block& block, std::uint32_t bit) {
-  Block received = block;
-  received.data[bit / 8] ^= std::byte{1} << (bit % 8);
-  return crc(received.payload()) != crc(block.payload());
+  const std::span<const std::byte> sent = block.payload();
+  std::array<std::byte, kMostBlockBytes> bytes{};
+  const std::span<std::byte> received = std::span(bytes).first(sent.size());
+  std::ranges::copy(sent, received.begin());
+  received[bit / 8] ^= std::byte{1} << (bit % 8);
+  return crc(received) != crc(sent);
 }
 
 }  // namespace
@@ -39,11 +44,10 @@ bool crc_detects_flip(const Block& block, std::uint32_t bit) {
 LinkFaults::LinkFaults(const MachineDescription::Torus& torus)
     : error_threshold_(static_cast<std::uint32_t>(std::clamp(torus.link_error_rate, 0.0, 0.5) * 4294967296.0)) {}
 
-std::uint32_t LinkFaults::bad_copies(const Block& block) {
-  if (error_threshold_ == 0) return 0;
+std::uint32_t LinkFaults::count_bad_copies(const Block& block) {
   std::uint32_t bad = 0;
   while (hash(block, Purpose::error, bad) < error_threshold_) {
-    const std::uint32_t bits = block.bytes * 8;
+    const auto bits = static_cast<std::uint32_t>(block.payload().size() * 8);
     if (bits != 0 && !crc_detects_flip(block, hash(block, Purpose::bit, bad) % bits)) {
       throw MachineFailure("a link's CRC-32 did not see a flipped bit");
     }

@@ -46,7 +46,9 @@ void Torus::handle(const Event& event) {
     case EventKind::head: {
       const Input& input = routers_[event.actor].inputs[event.port];
       // What it was for may have been dropped; what came after that asks by itself.
-      if (!input.queue.empty() && input.free_at <= event.time) request(event.actor, event.port, event.time);
+      if (!input.queue.empty() && input.free_at <= event.time) {
+        request(event.actor, event.port, pool_[input.queue.front()], event.time);
+      }
       return;
     }
     case EventKind::tail:
@@ -90,7 +92,7 @@ void Torus::tail(const Event& event) {
   Input& input = routers_[event.actor].inputs[event.port];
   if (input.queue.back() != event.block) return;  // nothing comes behind it before its tail
   if (input.queue.size() == 1) {
-    withdraw(event.actor, event.port, input.output, event.time);
+    withdraw(routers_[event.actor], event.actor, event.port, input.output, event.time);
     ask(event.actor, input.output, event.time);  // nobody may be left who starves
   }
   input.queue.remove_back(pool_);
@@ -109,66 +111,6 @@ void Torus::line(const Event& event) {
     ask(router, event.port, event.time);
     router = shape_.neighbour(router, port);
   } while (router != event.actor);
-}
-
-/// A packet has become the first of its input. It may ask once the tail of the one before has left.
-void Torus::head(unsigned router, std::size_t input, Cycles now) {
-  const Input& in = routers_[router].inputs[input];
-  const Cycles at = std::max(now, in.free_at) + router_delay(pool_[in.queue.front()]);
-  if (at == now) return request(router, input, now);
-  events_.push(at, source(router), EventKind::head, static_cast<std::uint16_t>(router),
-               static_cast<std::uint8_t>(input), 0);
-}
-
-/// The first packet of an input asks for its output.
-void Torus::request(unsigned router, std::size_t input, Cycles now) {
-  Input& in = routers_[router].inputs[input];
-  const std::size_t output = pool_[in.queue.front()].output;
-  Output& out = routers_[router].outputs[output];
-  const auto bit = static_cast<std::uint8_t>(1U << input);
-  if ((out.waiting & bit) != 0) return;
-  in.output = static_cast<std::uint8_t>(output);
-  in.asked_at = now;
-  out.waiting |= bit;
-  ask(router, output, now);
-}
-
-/// An output has something to look at: at the end of this cycle, or when it is free.
-void Torus::ask(unsigned router, std::size_t output, Cycles now) {
-  const Output& out = routers_[router].outputs[output];
-  if (out.waiting != 0 || out.starving != kNobody) schedule(router, output, std::max(now, out.free_at));
-}
-
-void Torus::schedule(unsigned router, std::size_t output, Cycles when) {
-  Output& out = routers_[router].outputs[output];
-  if (out.scheduled <= when) return;
-  out.scheduled = when;
-  events_.push(when, sources_.arbiters + router, EventKind::arbitrate, static_cast<std::uint16_t>(router),
-               static_cast<std::uint8_t>(output), 0);
-}
-
-// ---- Slots ----
-
-void Torus::collect_returns(unsigned router, std::size_t output, Cycles now) {
-  Output& out = routers_[router].outputs[output];
-  while (out.returns != 0 && return_time(router, output, out.first_return) <= now) {
-    ++out.slots;
-    --out.returns;
-    out.first_return = (out.first_return + 1) % buffer_;
-  }
-}
-
-/// The slot of a packet that has left is known to be free upstream a little later.
-void Torus::free_slot(unsigned router, std::size_t input, Cycles when, Cycles now) {
-  const unsigned upstream = neighbours_[router][input];
-  const std::size_t output = index_of(opposite(static_cast<Port>(input)));
-  Output& out = routers_[upstream].outputs[output];
-  --out.held;
-  return_time(upstream, output, out.first_return + out.returns) = when + slot_return_cycles_;
-  ++out.returns;
-  if (out.waiting != 0) {
-    schedule(upstream, output, std::max({now, out.free_at, return_time(upstream, output, out.first_return)}));
-  }
 }
 
 }  // namespace torolux

@@ -3,6 +3,7 @@
 // routing, virtual cut-through, bubble flow control; docs/machine.md has the timing.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -134,23 +135,34 @@ class Torus {
   void tail(const Event& event);
   void line(const Event& event);
   void head(unsigned router, std::size_t input, Cycles now);
-  void request(unsigned router, std::size_t input, Cycles now);
+  void request(unsigned router, std::size_t input, const Block& block, Cycles now);
   void ask(unsigned router, std::size_t output, Cycles now);
-  void schedule(unsigned router, std::size_t output, Cycles when);
+  void schedule(unsigned router, std::size_t output, Output& out, Cycles when) {
+    if (out.scheduled <= when) return;
+    out.scheduled = when;
+    events_.push(when, sources_.arbiters + router, EventKind::arbitrate, static_cast<std::uint16_t>(router),
+                 static_cast<std::uint8_t>(output), 0);
+  }
 
   void arbitrate(unsigned router, std::size_t output, Cycles now);
-  std::size_t choose(unsigned router, std::size_t output) const;
-  bool may_go(unsigned router, std::size_t input, std::size_t output) const;
+  std::size_t choose(const Router& here, unsigned router, std::size_t output) const;
+  bool may_go(const Output& out, unsigned router, std::size_t input, std::size_t output) const;
   void look_for_starving(unsigned router, std::size_t output, Cycles now);
   void cease_starving(unsigned router, std::size_t output, Cycles now);
-  void withdraw(unsigned router, std::size_t input, std::size_t output, Cycles now);
-  void grant(unsigned router, std::size_t input, std::size_t output, Cycles now);
-  Cycles send(unsigned router, std::size_t output, BlockIndex index, Cycles start);
-  void look_ahead(unsigned router, std::size_t output, Block& block);
+  void withdraw(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now);
+  void grant(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now);
+  Cycles send(Output& out, unsigned router, std::size_t output, BlockIndex index, Cycles start);
+  void look_ahead(unsigned next, std::size_t input, Block& block);
   void send_copy(unsigned router, std::size_t output, BlockIndex index, Cycles start);
-  void eject(unsigned router, BlockIndex index, Cycles tail);
+  void eject(Router& here, unsigned router, BlockIndex index, Cycles tail);
   void free_slot(unsigned router, std::size_t input, Cycles when, Cycles now);
-  void collect_returns(unsigned router, std::size_t output, Cycles now);
+  void collect_returns(unsigned router, std::size_t output, Output& out, Cycles now) {
+    while (out.returns != 0 && return_time(router, output, out.first_return) <= now) {
+      ++out.slots;
+      --out.returns;
+      if (++out.first_return == buffer_) out.first_return = 0;
+    }
+  }
 
   static bool goes_on(std::size_t input, std::size_t output) {
     return static_cast<Port>(input) == opposite(static_cast<Port>(output));
@@ -162,8 +174,9 @@ class Torus {
   Cycles router_delay(const Block& block) const {
     return jitter_.delay(Jitter::What::router, block.number, block.hops);
   }
+  /// index: up to twice what there are, less one.
   Cycles& return_time(unsigned router, std::size_t output, std::uint32_t index) {
-    return return_times_[(router * kLinks + output) * buffer_ + index % buffer_];
+    return return_times_[(router * kLinks + output) * buffer_ + (index < buffer_ ? index : index - buffer_)];
   }
   std::uint32_t source(unsigned router) const { return sources_.routers + router; }
 
@@ -185,5 +198,61 @@ class Torus {
   std::size_t inside_ = 0;
   HopWatcher* hop_watcher_ = nullptr;
 };
+
+// ---- What each hop does, in several files ----
+
+/// A packet has become the first of its input. It may ask once the tail of the one before has left.
+inline void Torus::head(unsigned router, std::size_t input, Cycles now) {
+  const Input& in = routers_[router].inputs[input];
+  const Block& block = pool_[in.queue.front()];
+  const Cycles at = std::max(now, in.free_at) + router_delay(block);
+  if (at == now) return request(router, input, block, now);
+  events_.push(at, source(router), EventKind::head, static_cast<std::uint16_t>(router),
+               static_cast<std::uint8_t>(input), 0);
+}
+
+/// The first packet of an input asks for its output.
+inline void Torus::request(unsigned router, std::size_t input, const Block& block, Cycles now) {
+  Router& here = routers_[router];
+  Input& in = here.inputs[input];
+  const std::size_t output = block.output;
+  Output& out = here.outputs[output];
+  const auto bit = static_cast<std::uint8_t>(1U << input);
+  if ((out.waiting & bit) != 0) return;
+  in.output = static_cast<std::uint8_t>(output);
+  in.asked_at = now;
+  out.waiting |= bit;
+  schedule(router, output, out, std::max(now, out.free_at));
+}
+
+/// An output has something to look at: at the end of this cycle, or when it is free.
+inline void Torus::ask(unsigned router, std::size_t output, Cycles now) {
+  Output& out = routers_[router].outputs[output];
+  if (out.waiting != 0 || out.starving != kNobody) schedule(router, output, out, std::max(now, out.free_at));
+}
+
+/// The slot of a packet that has left is known to be free upstream a little later.
+inline void Torus::free_slot(unsigned router, std::size_t input, Cycles when, Cycles now) {
+  const unsigned upstream = neighbours_[router][input];
+  const std::size_t output = index_of(opposite(static_cast<Port>(input)));
+  Output& out = routers_[upstream].outputs[output];
+  --out.held;
+  return_time(upstream, output, out.first_return + out.returns) = when + slot_return_cycles_;
+  ++out.returns;
+  if (out.waiting != 0) {
+    schedule(upstream, output, out, std::max({now, out.free_at, return_time(upstream, output, out.first_return)}));
+  }
+}
+
+/// The first packet of an input no longer asks for this output.
+inline void Torus::withdraw(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now) {
+  Output& out = here.outputs[output];
+  out.waiting &= static_cast<std::uint8_t>(~(1U << input));
+  if (out.waiting == 0 && out.stalled_at != kNotYet) {
+    here.seldom[output].stalled += now - out.stalled_at;
+    out.stalled_at = kNotYet;
+  }
+  if (out.starving == input) cease_starving(router, output, now);
+}
 
 }  // namespace torolux

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// `torolux bench engine`: scenes enter, the engines' speeds in the machine and alone leave, on standard output.
+// `torolux bench`: scenes enter; the engines' speeds in the machine and alone, or what the emulator itself costs, leave
+// on standard output.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "emulator/errors.hpp"
+#include "host_tools/bench/emulator_bench.hpp"
 #include "host_tools/bench/engine_bench.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/firmware_image.hpp"
@@ -27,7 +30,7 @@ constexpr const char* kKernel = "triangles.elf";
 struct BenchOptions {
   std::vector<std::string> scenes;
   std::optional<std::string> machine;
-  std::string pes = "4x4";
+  std::vector<std::string> pes = {"4x4"};
   unsigned max_shots = 200;
   unsigned size = 64;
   unsigned repetitions = 3;
@@ -86,20 +89,30 @@ void print_render(const std::string& scene, const RenderBenchResult& result) {
   std::cout << std::flush;
 }
 
-RenderBenchResult bench_scene(const Scene& scene, const BenchOptions& options, const BenchStep& step) {
+RenderBenchJob job_of(const Scene& scene, const BenchOptions& options, const std::string& machine_pes) {
   check_renderable(scene);
   RenderBenchJob job{scene, scene.camera.value_or(Camera{}), {}, {}, firmware_image()};
   job.quality.width = job.quality.height = options.size;
   job.quality.max_shots = options.max_shots;
   job.repetitions = options.repetitions;
-  const auto pes = parse_pes(options.pes);
+  const auto pes = parse_pes(machine_pes);
   job.machine.columns = pes[0];
   job.machine.rows = pes[1];
   job.machine.threads = options.threads;
   if (options.machine) {
     job.machine.description = load_machine_description(*options.machine);
   }
-  return bench_render(job, step, [](const RenderProgress&) { return !interrupted(); });
+  return job;
+}
+
+bool go_on(const RenderProgress& /*progress*/) {
+  return !interrupted();
+}
+
+Scene scene_of(const std::string& name) {
+  Scene scene = load_scene(name, {});
+  for (const std::string& warning : scene.warnings) std::cerr << "torolux: note: " << warning << "\n";
+  return scene;
 }
 
 int run_bench_engine(const BenchOptions& options) {
@@ -111,9 +124,8 @@ int run_bench_engine(const BenchOptions& options) {
     scenes = {own_scene("cornell_box"), own_scene("interior")};
   }
   for (const std::string& name : scenes) {
-    const Scene scene = load_scene(name, {});
-    for (const std::string& warning : scene.warnings) std::cerr << "torolux: note: " << warning << "\n";
-    const RenderBenchResult result = bench_scene(scene, options, tell(scene.name));
+    const Scene scene = scene_of(name);
+    const RenderBenchResult result = bench_render(job_of(scene, options, options.pes.front()), tell(scene.name), go_on);
     if (interrupted()) {
       return kInterrupted;
     }
@@ -133,35 +145,78 @@ int run_bench_engine(const BenchOptions& options) {
   return 0;
 }
 
+void print_cost(const std::string& pes, const EmulatorCost& cost) {
+  const double nanoseconds = 1e9 * cost.scheduler_seconds / std::max(1.0, static_cast<double>(cost.packets));
+  const double links = static_cast<double>(cost.hops) / std::max(1.0, static_cast<double>(cost.packets));
+  std::cout << left("  " + pes + " PEs", kLabel) << right(significant(cost.scheduler_seconds, 4), 10)
+            << right(significant(cost.pe_seconds, 4), 10) << right(percent(cost.share()), 9)
+            << right(grouped(cost.packets), 14) << right(significant(links, 3), 8)
+            << right(significant(nanoseconds, 4), 13) << "\n"
+            << std::flush;
+}
+
+int run_bench_emulator(const BenchOptions& options) {
+  const std::vector<std::string> scenes = options.scenes.empty() ? std::vector{own_scene("interior")} : options.scenes;
+  for (const std::string& name : scenes) {
+    const Scene scene = scene_of(name);
+    std::cout << scene.name << "\n"
+              << left("", kLabel) << "emulator s     PEs s    share       packets   links  ns a packet\n";
+    for (const std::string& pes : options.pes) {
+      const EmulatorCost cost = bench_emulator(job_of(scene, options, pes), go_on);
+      if (interrupted()) return kInterrupted;
+      print_cost(pes, cost);
+    }
+  }
+  return 0;
+}
+
+void add_job_options(CLI::App* bench, BenchOptions& options) {
+  bench->add_option("--size", options.size, "Pixels along each side of the picture")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 4096U))
+      ->capture_default_str();
+  bench->add_option("--max-shots", options.max_shots, "Patches shot in all; 0: no limit")
+      ->type_name("N")
+      ->capture_default_str();
+  bench->add_option("--repetitions", options.repetitions, "Measurements of each, by turns; the fastest counts")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 1000U))
+      ->capture_default_str();
+  bench->add_option("--machine", options.machine, "Parameters of the machine [built in]")->type_name("FILE.toml");
+  bench->add_option("--threads", options.threads, "Threads of this computer that work for the machine [all cores]")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 4096U));
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app, CommandAction& action) {
-  const auto options = std::make_shared<BenchOptions>();
   CLI::App* bench = app.add_subcommand("bench", "Measure this program");
   bench->require_subcommand(1);
+
+  const auto options = std::make_shared<BenchOptions>();
   CLI::App* engine = bench->add_subcommand(
       "engine",
       "Instructions per second of each engine: the PEs in a render, and the same PEs with nothing around them");
   engine->add_option("SCENE", options->scenes, "As for render [the Cornell box and the interior]")->type_name("");
   engine->add_option("--pes", options->pes, "PEs of the torus, columns x rows")
       ->type_name("PxQ")
+      ->expected(1)
       ->capture_default_str();
-  engine->add_option("--size", options->size, "Pixels along each side of the picture")
-      ->type_name("N")
-      ->check(CLI::Range(1U, 4096U))
-      ->capture_default_str();
-  engine->add_option("--max-shots", options->max_shots, "Patches shot in all; 0: no limit")
-      ->type_name("N")
-      ->capture_default_str();
-  engine->add_option("--repetitions", options->repetitions, "Measurements of each, by turns; the fastest counts")
-      ->type_name("N")
-      ->check(CLI::Range(1U, 1000U))
-      ->capture_default_str();
-  engine->add_option("--machine", options->machine, "Parameters of the machine [built in]")->type_name("FILE.toml");
-  engine->add_option("--threads", options->threads, "Threads of this computer that work for the machine [all cores]")
-      ->type_name("N")
-      ->check(CLI::Range(1U, 4096U));
+  add_job_options(engine, *options);
   engine->callback([options, &action] { action = [options] { return run_bench_engine(*options); }; });
+
+  const auto costs = std::make_shared<BenchOptions>();
+  costs->pes = {"4x4", "16x16", "32x32"};
+  CLI::App* emulator = bench->add_subcommand(
+      "emulator", "What the emulator itself costs beside the PEs of the translated engine, by number of PEs");
+  emulator->add_option("SCENE", costs->scenes, "As for render [the interior]")->type_name("");
+  emulator->add_option("--pes", costs->pes, "PEs of the torus, columns x rows; may be repeated")
+      ->type_name("PxQ")
+      ->take_all()
+      ->capture_default_str();
+  add_job_options(emulator, *costs);
+  emulator->callback([costs, &action] { action = [costs] { return run_bench_emulator(*costs); }; });
 }
 
 }  // namespace torolux

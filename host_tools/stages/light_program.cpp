@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "emulator/errors.hpp"
 #include "firmware/protocol/records.hpp"
 
 namespace torolux {
@@ -20,7 +19,7 @@ std::size_t LightProgram::record_kind(std::span<const std::byte> record) const {
     const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RadiosityRecord, kind)]);
     return kind == RecordKind::deposit ? 2 : kind == RecordKind::point ? 1 : 0;
   }
-  if (record.size() != sizeof(protocol::RayRecord)) throw MachineFailure("a PE sends records of another size");
+  if (record.size() != sizeof(protocol::RayRecord)) return kUnknown;
   const auto flags = std::to_integer<std::uint8_t>(record[offsetof(protocol::RayRecord, flags)]);
   return (flags & protocol::kShadow) != 0 ? 4 : 3;
 }

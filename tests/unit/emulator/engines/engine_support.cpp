@@ -48,7 +48,7 @@ std::optional<TakenCommand> BarePes::next_command(std::size_t pe) {
   while (std::chrono::steady_clock::now() < deadline) {
     auto& commands = channel(pe).commands;
     if (const Command* command = commands.front()) {
-      const auto payload = commands.payload(*command);
+      const auto payload = contents_of(*command);
       TakenCommand taken{*command, {payload.begin(), payload.end()}};
       commands.pop(*command);
       return taken;

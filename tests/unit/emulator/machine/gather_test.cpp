@@ -230,7 +230,6 @@ TEST(Gather, AProcessorThatGoesOnByItselfIsNotThoughtToSleep) {
   network.refresh(events, pool, times);
   const BlockIndex block = pool.take();
   pool[block].message_kind = kGo;
-  pool[block].set_payload({});
   network.deliver(block, 50, pool, times);
   const std::uint64_t waited = channel.wait.load();
   ASSERT_EQ(processor.hint(kReceive, 10, 0).clock, 50U + 1);  // its header of 8 bytes is copied

@@ -221,7 +221,7 @@ TEST(ByteRing, LiesInItsOwnMemory) {
     const std::vector<std::byte> payload(500, std::byte{7});
     std::uint32_t pushed = 0;
     while (channel.commands.has_room(payload.size())) {
-      channel.commands.push({pushed, CommandKind::release, 0, 0, 0, 0, 0}, payload);
+      channel.commands.push({pushed, CommandKind::release, 0, 0, 0, 0, 0, 0}, payload);
       channel.arrivals.push({pushed, 0, 0, 0, 0, 0, 0}, payload);
       ++pushed;
     }

@@ -2,6 +2,8 @@
 // Synthetic traffic straight on the torus: a pattern, a rate and packet sizes in, latencies and throughput out.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -40,7 +42,8 @@ class TorusDriver final : private TorusClient {
     block.source = static_cast<std::uint16_t>(from);
     block.destination = static_cast<std::uint16_t>(to);
     block.flits = flits;
-    block.bytes = 16;
+    constexpr std::array<std::byte, 16> kContents{};
+    pool_.set_payload(index, kContents);
     events_.push(when, from, EventKind::command, static_cast<std::uint16_t>(from), 0, index);
   }
 
