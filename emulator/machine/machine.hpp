@@ -32,6 +32,9 @@ class Pacer;           // emulator/trace/pacer.hpp
 class HopWatcher;      // emulator/torus/hop_watcher.hpp
 class SnapshotKeeper;  // emulator/snapshot/keeper.hpp
 class SnapshotReader;  // emulator/snapshot/archive.hpp
+namespace remote {
+class PeRanks;  // emulator/remote/pe_ranks.hpp
+}
 namespace profile {
 class CycleProfile;  // emulator/profile/cycle_profile.hpp
 }
@@ -57,6 +60,7 @@ struct MachineSetup {
   SnapshotKeeper* keeper = nullptr;         ///< given the machine's state whenever it wants that; likewise
   profile::CycleProfile* profile =
       nullptr;  ///< told of each instruction; likewise. With the engine `interpreted` alone
+  remote::PeRanks* ranks = nullptr;  ///< these run the PEs; likewise. Null: this process does
 };
 
 struct PeFigures {
