@@ -44,6 +44,7 @@ PeBlock::PeBlock(BlockSetup setup)
     : setup_(std::move(setup)),
       threads_(threads_of(setup_)),
       is_active_(setup_.numbers.size()),
+      is_told_(setup_.numbers.size()),
       begin_cpu_(cpu_seconds()) {
   const MachineSetup& machine = setup_.machine;
   const unsigned pes = machine.columns * machine.rows;
@@ -99,13 +100,22 @@ void PeBlock::take_words(std::span<const std::byte> bytes) {
     collect(index);  // what there was no room for, or what it says meanwhile
     if (stays_active(index)) activate(index);
   }
-  if (begin.wanted != kNoPe && is_active_[index_of(begin.wanted)]) wanted_ = index_of(begin.wanted);
+  if (begin.wanted == kNoPe) return;
+  const unsigned wanted = index_of(begin.wanted);
+  if (is_told_[wanted]) {
+    has_wanted_news_ = true;
+  } else if (is_active_[wanted]) {
+    wanted_ = wanted;
+  }
 }
 
 void PeBlock::collect(unsigned index) {
   const std::size_t before = news_.size();
   ends_[index].collect(news_);
-  if (news_.size() == before || wanted_ != index) return;
+  if (news_.size() == before) return;
+  if (!is_told_[index]) told_.push_back(index);
+  is_told_[index] = true;
+  if (wanted_ != index) return;
   has_wanted_news_ = true;
   wanted_.reset();
 }
@@ -144,6 +154,8 @@ bool PeBlock::run() {
 
 void PeBlock::forget_news() {
   news_.clear();
+  for (const unsigned index : told_) is_told_[index] = false;
+  told_.clear();
   has_wanted_news_ = false;
 }
 

@@ -66,6 +66,8 @@ class PeBlock {
   std::map<unsigned, unsigned> index_of_;  // by the PE's number
   std::deque<unsigned> active_;            // those that may have news
   std::vector<bool> is_active_;
+  std::vector<unsigned> told_;  // those in news_
+  std::vector<bool> is_told_;
   std::optional<unsigned> wanted_;
   bool has_wanted_news_ = false;
   bool running_ = false;

@@ -12,7 +12,7 @@
 namespace torolux::remote {
 namespace {
 
-constexpr std::chrono::milliseconds kSleep{5};
+constexpr std::chrono::milliseconds kSleep{1};
 
 std::vector<unsigned> all_but_first(unsigned count) {
   std::vector<unsigned> others(count - 1);

@@ -23,8 +23,8 @@ constexpr std::chrono::microseconds kGather{500};
 constexpr std::size_t kManyBytes = 64U << 10U;
 /// While other threads run PEs, their news are looked for so often.
 constexpr std::chrono::microseconds kBetweenLooks{50};
-/// A sleep where nothing can run.
-constexpr std::chrono::milliseconds kSleep{100};
+/// A sleep where nothing can run; and where there is no machine. Transports sleep the longer the longer nothing comes.
+constexpr std::chrono::milliseconds kSleep{1}, kLongSleep{100};
 
 class Server {
  public:
@@ -46,7 +46,7 @@ class Server {
           return true;
         });
       } else {
-        transport_.wait(kSleep);
+        transport_.wait(runs_ ? kSleep : kLongSleep);
       }
     }
     return *close_;

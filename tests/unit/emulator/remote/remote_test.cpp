@@ -80,6 +80,83 @@ TEST(RemotePes, DoTheSameWithMoreRanksThanPes) {
   EXPECT_EQ(wander_on_ranks({.count = 9}), expected);
 }
 
+TEST(RemotePes, GatherAsInOneProcess) {
+  const NativeProgram program = gatherers(25, 6, 4000, 8);
+  CountingHost host(kWanderers);
+  const std::string expected = all_of(run(wandering_machine(), host, program));
+  for (const std::uint64_t seed : {0U, 1U}) {
+    CountingHost again(kWanderers);
+    const RanksChoice choice{.count = 3, .placing = Placing::random, .delays = {seed, 500us * seed}};
+    EXPECT_EQ(all_of(run_on(choice, wandering_machine(), again, program)), expected) << seed;
+  }
+}
+
+TEST(RemotePes, EndWhereTheRunIsCut) {
+  MachineSetup setup = wandering_machine();
+  setup.until = 40'000;
+  CountingHost host(kWanderers);
+  const MachineOutcome expected = run(setup, host, wandering());
+  EXPECT_TRUE(expected.raw.stopped);
+  CountingHost again(kWanderers);
+  EXPECT_EQ(all_of(run_on({.count = 3}, setup, again, wandering())), all_of(expected));
+}
+
+/// More packets for one PE than its rings hold, and more commands than may be under way.
+TEST(RemotePes, WaitForRoomAsInOneProcess) {
+  constexpr std::uint32_t kEach = 200;
+  const NativeProgram program = [](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, niu.pe() == 0 ? 2048 : 0);
+    if (niu.pe() == 0) {
+      niu.gather(1'000'000, 4096);
+      std::uint32_t records = 0;
+      while (records < 5 * kEach) {
+        for (const auto* arrival = &niu.receive(); arrival->kind != ArrivalKind::none; arrival = &niu.receive_more())
+          records += arrival->count;
+      }
+      niu.send(static_cast<protocol::MessageKind>(kDone), records);
+    } else {
+      for (std::uint32_t i = 0; i < kEach; ++i) {
+        record(niu, i % kOwnSlots) = {};
+        send_one(niu, 0, static_cast<std::uint16_t>(i % kOwnSlots));
+      }
+      for (std::uint32_t i = 0; i < 2000; ++i) set_test_slots(niu, 0);
+    }
+    clock.spend(1);
+    sleep_for_ever(niu);
+  };
+  MachineSetup setup = small_machine(3, 2);
+  setup.description.torus.send_queue_packets = 256;
+  ListeningHost host(1);
+  const std::string expected = all_of(run(setup, host, program));
+  for (const unsigned ranks : {2U, 4U}) {
+    ListeningHost again(1);
+    EXPECT_EQ(all_of(run_on({.count = ranks, .delays = {ranks, 200us}}, setup, again, program)), expected) << ranks;
+  }
+}
+
+TEST(RemotePes, ShowTheirMemoryAfterTheEnd) {
+  register_native_engine([](Niu& niu, NativeClock& /*clock*/) {
+    set_test_slots(niu, 16);
+    record(niu, 3) = {niu.pe(), 77, 0, 0, {}};
+    niu.send(static_cast<protocol::MessageKind>(kDone));
+    sleep_for_ever(niu);
+  });
+  with_ranks({.count = 3}, [](remote::PeRanks& others) {
+    MachineSetup setup = small_machine(3, 2);
+    setup.ranks = &others;
+    ListeningHost host(6);
+    Machine machine(setup, empty_image());
+    machine.run(host);
+    const std::uint32_t stores = empty_image().stores_begin - protocol::kLocalMemoryBase;
+    for (const unsigned pe : {1U, 5U}) {
+      TestRecord seen{};
+      std::memcpy(&seen, machine.local_memory(pe).subspan(stores + 3 * sizeof seen).data(), sizeof seen);
+      EXPECT_EQ(seen.source, pe);
+      EXPECT_EQ(seen.number, 77U);
+    }
+  });
+}
+
 TEST(Placing, GivesEachPeARankBesideTheFirst) {
   for (const Placing placing : {Placing::block, Placing::cyclic, Placing::random}) {
     for (const unsigned ranks : {2U, 3U, 8U}) {
