@@ -14,9 +14,9 @@
 #include "emulator/errors.hpp"
 #include "emulator/machine/emulation.hpp"
 #include "emulator/machine/pe_memory.hpp"
+#include "emulator/machine/pes_elsewhere.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
-#include "emulator/remote/remote_pes.hpp"
 #include "emulator/snapshot/keeper.hpp"
 #include "emulator/snapshot/memory.hpp"
 
@@ -152,7 +152,7 @@ struct Machine::Parts {
 
 Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_unique<Parts>()) {
   check(setup);
-  if (setup.ranks != nullptr) remote::check_goes_with_ranks(setup);
+  if (setup.ranks != nullptr) setup.ranks->check(setup);
   Parts& p = *parts_;
   p.setup = setup;
   p.images = std::move(images);
@@ -164,7 +164,7 @@ Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_
   for (const PeMemory& pe : p.memory.pes) p.channels.push_back(niu_channel_at(pe.channel.bytes().data()));
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
   if (setup.ranks != nullptr) {
-    p.engine = remote::make_remote_pes(setup, p.images, p.memory.pes);
+    p.engine = setup.ranks->make_engine(setup, p.images, p.memory.pes);
   } else {
     p.engine =
         make_engine(setup.engine,

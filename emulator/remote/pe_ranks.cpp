@@ -3,11 +3,13 @@
 #include "emulator/remote/pe_ranks.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 
 #include "emulator/errors.hpp"
 #include "emulator/ranks/content.hpp"
 #include "emulator/ranks/launched.hpp"
+#include "emulator/remote/remote_pes.hpp"
 
 namespace torolux::remote {
 namespace {
@@ -29,6 +31,15 @@ PeRanks::PeRanks(ranks::Transport& transport, Placing placing, std::string progr
       hosts_(transport.ranks().count),
       life_(std::in_place, transport, all_but_first(transport.ranks().count), times) {}
 
+void PeRanks::check(const MachineSetup& setup) const {
+  check_goes_with_ranks(setup);
+}
+
+std::unique_ptr<Engine> PeRanks::make_engine(const MachineSetup& setup, const ImageSet& images,
+                                             std::vector<PeMemory>& pes) {
+  return make_remote_pes(*this, setup, images, pes);
+}
+
 std::vector<unsigned> PeRanks::place(unsigned pes) const {
   return place_pes(pes, count(), placing_);
 }
@@ -37,7 +48,7 @@ unsigned PeRanks::sharers(unsigned rank, const std::vector<unsigned>& of) {
   const auto unknown = [this](unsigned one) { return hosts_[one].empty(); };
   while (std::ranges::any_of(of, unknown)) {
     if (!poll()) wait();
-    check();
+    check_lost();
   }
   const auto same = [&](unsigned one) { return hosts_[one] == hosts_[rank]; };
   return static_cast<unsigned>(std::ranges::count_if(of, same));
@@ -83,7 +94,7 @@ void PeRanks::wait() {
   transport_.wait(kSleep);
 }
 
-void PeRanks::check() const {
+void PeRanks::check_lost() const {
   const std::vector<unsigned> silent = life_->silent_ones();
   if (!silent.empty()) throw ranks::RankFailure(name_of(silent.front()) + " is silent and counts as lost");
 }

@@ -3,13 +3,14 @@
 // that fails or falls silent ends the run and is named.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "emulator/machine/pes_elsewhere.hpp"
 #include "emulator/ranks/life_signs.hpp"
 #include "emulator/remote/placing.hpp"
 #include "emulator/remote/wire.hpp"
@@ -17,10 +18,14 @@
 namespace torolux::remote {
 
 /// For one thread.
-class PeRanks {
+class PeRanks final : public PesElsewhere {
  public:
   /// transport: of rank 0 of at least two; outlives this. program: which build this is.
   PeRanks(ranks::Transport& transport, Placing placing, std::string program, ranks::LifeTimes times = {});
+
+  void check(const MachineSetup& setup) const override;
+  std::unique_ptr<Engine> make_engine(const MachineSetup& setup, const ImageSet& images,
+                                      std::vector<PeMemory>& pes) override;
 
   /// Of each PE.
   std::vector<unsigned> place(unsigned pes) const;
@@ -37,7 +42,7 @@ class PeRanks {
   /// Sleeps until there is one, for some milliseconds at most.
   void wait();
   /// Throws RankFailure where one is lost.
-  void check() const;
+  void check_lost() const;
   bool is_lost(unsigned rank) const { return life_->silent(rank); }
   std::string name_of(unsigned rank) const;
 

@@ -27,7 +27,7 @@ void translate_once(const MachineSetup& setup, const ImageSet& images) {
 
 class RemotePes final : public Engine, private ProcessorWaker {
  public:
-  RemotePes(const MachineSetup& setup, const ImageSet& images, std::vector<PeMemory>& pes);
+  RemotePes(PeRanks& ranks, const MachineSetup& setup, const ImageSet& images, std::vector<PeMemory>& pes);
   RemotePes(const RemotePes&) = delete;
   RemotePes& operator=(const RemotePes&) = delete;
   ~RemotePes() override { stop(); }
@@ -36,7 +36,7 @@ class RemotePes final : public Engine, private ProcessorWaker {
   void start() override {
     for (const Rank& rank : ranks_) others_.send(rank.number, Kind::start);
   }
-  void check() override { others_.check(); }
+  void check() override { others_.check_lost(); }
   void stop() override;
 
   std::optional<StackRegisters> stack_registers(unsigned pe) override;
@@ -90,8 +90,8 @@ class RemotePes final : public Engine, private ProcessorWaker {
   ByteWriter words_;
 };
 
-RemotePes::RemotePes(const MachineSetup& setup, const ImageSet& images, std::vector<PeMemory>& pes)
-    : name_(setup.engine), others_(*setup.ranks), pes_(pes), place_(pes.size()), is_marked_(pes.size()) {
+RemotePes::RemotePes(PeRanks& ranks, const MachineSetup& setup, const ImageSet& images, std::vector<PeMemory>& pes)
+    : name_(setup.engine), others_(ranks), pes_(pes), place_(pes.size()), is_marked_(pes.size()) {
   for (const PeMemory& pe : pes) ends_.emplace_back(*niu_channel_at(pe.channel.bytes().data()));
   const std::vector<unsigned> rank_of = others_.place(static_cast<unsigned>(pes.size()));
   for (unsigned pe = 0; pe < pes.size(); ++pe) {
@@ -119,7 +119,7 @@ void RemotePes::begin(const MachineSetup& setup, const ImageSet& images) {
     others_.send(numbers[i], Kind::setup, bytes_of_setup(setup, images, ranks_[i].pes, sharers[i]));
   while (!std::ranges::all_of(ranks_, &Rank::ready)) {
     if (!receive()) others_.wait();
-    others_.check();
+    others_.check_lost();
   }
 }
 
@@ -136,7 +136,7 @@ void RemotePes::stop() {
   while (!std::ranges::all_of(ranks_, &Rank::stopped) && failures <= ranks_.size()) {
     try {
       if (!receive()) others_.wait();
-      others_.check();
+      others_.check_lost();
     } catch (const ranks::RankFailure&) {
       ++failures;  // each can fail once; one that is lost does so again and again
     }
@@ -223,7 +223,7 @@ ranks::Message RemotePes::answer_of(unsigned rank, Kind kind) {
       if (message->from == rank && message->kind == static_cast<std::uint32_t>(kind)) return std::move(*message);
       take(*message);
     }
-    others_.check();
+    others_.check_lost();
     others_.wait();
   }
 }
@@ -237,7 +237,7 @@ void RemotePes::bring_figures() {
   }
   while (!std::ranges::all_of(ranks_, &Rank::told_figures)) {
     if (!receive()) others_.wait();
-    others_.check();
+    others_.check_lost();
   }
 }
 
@@ -300,8 +300,9 @@ void check_goes_with_ranks(const MachineSetup& setup) {
   refuse(setup.keeper != nullptr, "saving the machine's state", alone);
 }
 
-std::unique_ptr<Engine> make_remote_pes(const MachineSetup& setup, const ImageSet& images, std::vector<PeMemory>& pes) {
-  return std::make_unique<RemotePes>(setup, images, pes);
+std::unique_ptr<Engine> make_remote_pes(PeRanks& ranks, const MachineSetup& setup, const ImageSet& images,
+                                        std::vector<PeMemory>& pes) {
+  return std::make_unique<RemotePes>(ranks, setup, images, pes);
 }
 
 }  // namespace torolux::remote
