@@ -160,7 +160,7 @@ Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_
   const std::vector<bool> on_qemu = setup.debugging.on_qemu(pes);
   std::vector<unsigned> numbers(pes);
   std::iota(numbers.begin(), numbers.end(), 0U);
-  p.memory = setup.ranks != nullptr ? mirrors_of(setup) : make_pes(setup, p.images, numbers, on_qemu);
+  p.memory = setup.ranks != nullptr ? mirrors_of(setup, p.images) : make_pes(setup, p.images, numbers, on_qemu);
   for (const PeMemory& pe : p.memory.pes) p.channels.push_back(niu_channel_at(pe.channel.bytes().data()));
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
   if (setup.ranks != nullptr) {

@@ -88,12 +88,18 @@ PeMemories make_pes(const MachineSetup& setup, const ImageSet& images, std::span
   return made;
 }
 
-PeMemories mirrors_of(const MachineSetup& setup) {
+PeMemories mirrors_of(const MachineSetup& setup, const ImageSet& images) {
   PeMemories made;
   const unsigned pes = setup.columns * setup.rows;
   made.channels = make_channels(setup, pes);
   made.pes.reserve(pes);
-  for (unsigned pe = 0; pe < pes; ++pe) made.pes.push_back(make_memory(pe, pe, setup, made.channels, true));
+  std::vector<bool> is_tried(images.images().size());
+  for (unsigned pe = 0; pe < pes; ++pe) {
+    made.pes.push_back(make_memory(pe, pe, setup, made.channels, true));
+    // What is wrong with an image is told here, as in one process.
+    if (!is_tried[images.number_of(pe)]) fill_in(made.pes.back(), pe, setup, images.of(pe));
+    is_tried[images.number_of(pe)] = true;
+  }
   return made;
 }
 

@@ -23,7 +23,8 @@ struct PeMemories {
 PeMemories make_pes(const MachineSetup& setup, const ImageSet& images, std::span<const unsigned> numbers,
                     const std::vector<bool>& on_qemu);
 
-/// Of all PEs, which other ranks run: their local memories are empty, and take none of this computer's.
-PeMemories mirrors_of(const MachineSetup& setup);
+/// Of all PEs, which other ranks run: their local memories are not used, and take nearly none of this computer's.
+/// Throws as make_pes would.
+PeMemories mirrors_of(const MachineSetup& setup, const ImageSet& images);
 
 }  // namespace torolux
