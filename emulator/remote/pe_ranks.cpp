@@ -14,7 +14,7 @@
 namespace torolux::remote {
 namespace {
 
-constexpr std::chrono::milliseconds kSleep{1};
+constexpr std::chrono::milliseconds kSleep{2};
 
 std::vector<unsigned> all_but_first(unsigned count) {
   std::vector<unsigned> others(count - 1);

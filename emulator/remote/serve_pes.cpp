@@ -24,7 +24,7 @@ constexpr std::size_t kManyBytes = 64U << 10U;
 /// While other threads run PEs, their news are looked for so often.
 constexpr std::chrono::microseconds kBetweenLooks{50};
 /// A sleep where nothing can run; and where there is no machine. Transports sleep the longer the longer nothing comes.
-constexpr std::chrono::milliseconds kSleep{1}, kLongSleep{100};
+constexpr std::chrono::milliseconds kSleep{2}, kLongSleep{100};
 
 class Server {
  public:
