@@ -59,6 +59,7 @@ CallStacks::CallStacks(const ImageSet& images, const std::vector<PeMemory>& pes,
     : images_(images), pes_(pes), engine_(engine), debug_infos_(images.images().size()) {}
 
 std::span<const std::byte> CallStacks::memory_of(unsigned pe) const {
+  engine_.bring(pe, 0, pes_[pe].local_memory_bytes);
   return pes_[pe].local.bytes().first(pes_[pe].local_memory_bytes);
 }
 
@@ -78,6 +79,7 @@ const DebugInfo& CallStacks::debug_info_of(unsigned pe) {
 std::optional<std::uint32_t> CallStacks::word(unsigned pe, std::uint32_t address) const {
   const std::uint64_t offset = std::uint64_t{address} - protocol::kLocalMemoryBase;
   if (address < protocol::kLocalMemoryBase || offset + kWord > pes_[pe].local_memory_bytes) return std::nullopt;
+  engine_.bring(pe, static_cast<std::uint32_t>(offset), kWord);
   std::uint32_t value = 0;
   std::memcpy(&value, pes_[pe].local.bytes().data() + offset, sizeof value);
   return value;

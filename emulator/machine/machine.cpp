@@ -5,24 +5,20 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstring>
 #include <ctime>
 #include <numeric>
 #include <optional>
 #include <thread>
 
-#include "emulator/cache_line.hpp"
 #include "emulator/engines/mixed_engine.hpp"
 #include "emulator/errors.hpp"
-#include "emulator/machine/arguments.hpp"
 #include "emulator/machine/emulation.hpp"
+#include "emulator/machine/pe_memory.hpp"
+#include "emulator/machine/pes_elsewhere.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/processor_side.hpp"
-#include "emulator/niu/state_log.hpp"
 #include "emulator/snapshot/keeper.hpp"
 #include "emulator/snapshot/memory.hpp"
-#include "emulator/trace/watcher.hpp"
-#include "firmware/protocol/niu_window.hpp"
 
 namespace torolux {
 
@@ -30,10 +26,6 @@ namespace {
 
 /// The calls of `progress` need not be further apart than asked for because one came a little early.
 constexpr double kEarly = 0.95;
-/// Of a computer's caches. Which set of a cache a line goes to hangs on where in its page it lies: were it the same
-/// place for all PEs, a thousand of them would share a few lines of the cache.
-constexpr std::size_t kCacheColours = protocol::kPageBytes / kCacheLine;
-
 double clock_seconds(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
@@ -74,62 +66,12 @@ void check(const MachineSetup& setup) {
   check_queue("bus.send_queue_messages", setup.description.bus.send_queue_messages);
 }
 
-/// From one channel of a PE in this process to the next: dense, so that all of them are in a few large pages and need
-/// no place in each page's tables; and each a line further on in its page.
-std::size_t channel_stride(std::size_t bytes) {
-  return (bytes + protocol::kPageBytes - 1) / protocol::kPageBytes * protocol::kPageBytes + kCacheLine;
-}
-
-/// Of a PE that this process runs, or another: with its log of states, where somebody watches.
-std::size_t channel_bytes_of(const MachineSetup& setup, bool here) {
-  return (here ? small_niu_channel_bytes() : niu_channel_bytes()) + (setup.watcher != nullptr ? sizeof(StateLog) : 0);
-}
-
-/// channels: of the PEs that this process runs. on_qemu: other processes must be able to map it.
-PeMemory make_pe(unsigned pe, const MachineSetup& setup, const Image& image, const SharedMemory& channels,
-                 bool on_qemu) {
-  const std::string name = "torolux-pe" + std::to_string(pe);
-  const bool here = engine_runs_here(setup.engine) && !on_qemu;
-  const std::size_t bytes = channel_bytes_of(setup, here);
-  PeMemory memory{
-      here ? SharedMemory::part_of(channels, pe * channel_stride(bytes), bytes) : SharedMemory(name + "-niu", bytes),
-      SharedMemory(name, mapped_bytes_for(setup.local_memory_bytes),
-                   here ? SharedMemory::Use::here : SharedMemory::Use::shared, pe % kCacheColours * kCacheLine),
-      setup.local_memory_bytes};
-  NiuChannel& channel = *niu_channel_at(memory.channel.bytes().data());
-  if (here) {
-    channel.ring_bytes = kLeastRingBytes;
-    channel.near = 1;
-  }
-  if (setup.watcher != nullptr) {
-    channel.state_log = static_cast<std::uint32_t>(bytes - sizeof(StateLog));
-    state_log_of(channel)->set_grain_shift(setup.watcher->grain_shift());
-  }
-  const auto local = memory.local.bytes().first(setup.local_memory_bytes);
-  image.load_into(local);
-  const std::uint32_t offset = image.niu_window - protocol::kLocalMemoryBase;
-  if (image.niu_window < protocol::kLocalMemoryBase ||
-      std::uint64_t{offset} + protocol::kPageBytes > setup.local_memory_bytes) {
-    throw InputError(image.file.string() + ": its NIU window lies outside a local memory of " +
-                     std::to_string(setup.local_memory_bytes) + " bytes");
-  }
-  auto& window = *reinterpret_cast<protocol::NiuWindow*>(local.data() + offset);
-  window.protocol_version = protocol::kProtocolVersion;
-  window.pe = pe;
-  window.columns = setup.columns;
-  window.rows = setup.rows;
-  window.local_memory_bytes = setup.local_memory_bytes;
-  write_arguments(setup.arguments, image, local);
-  return memory;
-}
-
 }  // namespace
 
 struct Machine::Parts {
   MachineSetup setup;
   ImageSet images;
-  SharedMemory channel_memory;  // of the PEs that this process runs
-  std::vector<PeMemory> pes;
+  PeMemories memory;
   std::vector<NiuChannel*> channels;
   std::unique_ptr<Engine> engine;
   std::optional<CallStacks> stacks;
@@ -148,7 +90,7 @@ struct Machine::Parts {
     const double own_share = awake > 0 ? std::max(0.0, 1 - engine->help_seconds() / awake) : 1;
     out.scheduler_seconds = own_share * (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler);
     out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
-                         children_seconds() - begin_children;
+                         children_seconds() - begin_children + engine->seconds_elsewhere();
   }
   void begin(HostProgram& program, SnapshotReader* from) {
     if ((from != nullptr || setup.keeper != nullptr) && !engine->can_be_saved()) {
@@ -178,20 +120,20 @@ struct Machine::Parts {
   }
   void save(SnapshotWriter& archive) {
     emulation->save(archive);
-    for (unsigned pe = 0; pe < pes.size(); ++pe) {
+    for (unsigned pe = 0; pe < memory.pes.size(); ++pe) {
       archive.section("PE");
       PeRegisters registers = engine->save(pe);  // first: only then does the NIU driver know that its HINT waits
       archive(registers);
-      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
+      archive_memory(archive, memory.pes[pe].local.bytes().first(setup.local_memory_bytes));
     }
   }
   void restore(SnapshotReader& archive) {
     emulation->restore(archive);
-    for (unsigned pe = 0; pe < pes.size(); ++pe) {
+    for (unsigned pe = 0; pe < memory.pes.size(); ++pe) {
       archive.section("PE");
       PeRegisters registers{};
       archive(registers);
-      archive_memory(archive, pes[pe].local.bytes().first(setup.local_memory_bytes));
+      archive_memory(archive, memory.pes[pe].local.bytes().first(setup.local_memory_bytes));
       engine->restore(pe, registers);
     }
   }
@@ -210,25 +152,26 @@ struct Machine::Parts {
 
 Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_unique<Parts>()) {
   check(setup);
+  if (setup.ranks != nullptr) setup.ranks->check(setup);
   Parts& p = *parts_;
   p.setup = setup;
   p.images = std::move(images);
   const unsigned pes = setup.columns * setup.rows;
   const std::vector<bool> on_qemu = setup.debugging.on_qemu(pes);
-  if (engine_runs_here(setup.engine)) {
-    p.channel_memory =
-        SharedMemory("torolux-niu", pes * channel_stride(channel_bytes_of(setup, true)), SharedMemory::Use::densely);
-  }
-  p.pes.reserve(pes);
-  for (unsigned pe = 0; pe < pes; ++pe) {
-    p.pes.push_back(make_pe(pe, setup, p.images.of(pe), p.channel_memory, on_qemu[pe]));
-    p.channels.push_back(niu_channel_at(p.pes.back().channel.bytes().data()));
-  }
+  std::vector<unsigned> numbers(pes);
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  p.memory = setup.ranks != nullptr ? mirrors_of(setup, p.images) : make_pes(setup, p.images, numbers, on_qemu);
+  for (const PeMemory& pe : p.memory.pes) p.channels.push_back(niu_channel_at(pe.channel.bytes().data()));
   const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
-  p.engine = make_engine(setup.engine,
-                         {p.setup.description, p.images, p.pes, threads, {}, setup.profile, setup.debugging.debugger},
-                         setup.debugging);
-  p.stacks.emplace(p.images, p.pes, *p.engine);
+  if (setup.ranks != nullptr) {
+    p.engine = setup.ranks->make_engine(setup, p.images, p.memory.pes);
+  } else {
+    p.engine =
+        make_engine(setup.engine,
+                    {p.setup.description, p.images, p.memory.pes, threads, {}, setup.profile, setup.debugging.debugger},
+                    setup.debugging);
+  }
+  p.stacks.emplace(p.images, p.memory.pes, *p.engine);
 }
 
 Machine::~Machine() {
@@ -306,7 +249,8 @@ const FrameChanges& Machine::frame_changes() const {
 }
 
 std::span<const std::byte> Machine::local_memory(unsigned pe) const {
-  return parts_->pes.at(pe).local.bytes().first(parts_->setup.local_memory_bytes);
+  parts_->engine->bring(pe, 0, parts_->setup.local_memory_bytes);
+  return parts_->memory.pes.at(pe).local.bytes().first(parts_->setup.local_memory_bytes);
 }
 
 std::string Machine::where_pes_stand() const {

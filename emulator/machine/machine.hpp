@@ -32,6 +32,7 @@ class Pacer;           // emulator/trace/pacer.hpp
 class HopWatcher;      // emulator/torus/hop_watcher.hpp
 class SnapshotKeeper;  // emulator/snapshot/keeper.hpp
 class SnapshotReader;  // emulator/snapshot/archive.hpp
+class PesElsewhere;    // emulator/machine/pes_elsewhere.hpp
 namespace profile {
 class CycleProfile;  // emulator/profile/cycle_profile.hpp
 }
@@ -56,7 +57,8 @@ struct MachineSetup {
   HopWatcher* hop_watcher = nullptr;        ///< told of each hop of packets; likewise
   SnapshotKeeper* keeper = nullptr;         ///< given the machine's state whenever it wants that; likewise
   profile::CycleProfile* profile =
-      nullptr;  ///< told of each instruction; likewise. With the engine `interpreted` alone
+      nullptr;                    ///< told of each instruction; likewise. With the engine `interpreted` alone
+  PesElsewhere* ranks = nullptr;  ///< these run the PEs; likewise. Null: this process does
 };
 
 struct PeFigures {

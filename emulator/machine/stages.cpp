@@ -233,6 +233,7 @@ void Emulation::fill_in_stages(MachineFigures& all, unsigned pe, const Processor
 void Emulation::fill_in(MachineFigures& figures) {
   Cycles end = std::max(now_, host_.now());
   let_rest();
+  engine_.bring_figures();
   for (unsigned pe = 0; pe < pes_; ++pe) {
     end = std::max(end, nius_[pe].channel().clock.load(std::memory_order_acquire));
   }

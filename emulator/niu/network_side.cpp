@@ -26,15 +26,20 @@ NiuNetworkSide::NiuNetworkSide(NiuChannel& channel, unsigned pe, unsigned pes, c
       waker_(waker),
       pe_(pe),
       torus_places_(machine.torus.send_queue_packets),
-      control_buffers_(machine.bus.control_buffers) {
+      control_buffers_(machine.bus.control_buffers),
+      far_(waker != nullptr && waker->is_far()) {
+  set_up_channel(channel, pes, machine, waker != nullptr);
+}
+
+void set_up_channel(NiuChannel& channel, unsigned pes, const MachineDescription& machine, bool on_thread) {
   channel.torus_queue = machine.torus.send_queue_packets;
   channel.bus_queue = machine.bus.send_queue_messages;
   channel.torus_departures.set_places(channel.torus_queue);
   channel.bus_departures.set_places(channel.bus_queue);
   channel.pes = pes;
-  channel.copy_bytes = copy_bytes_;
+  channel.copy_bytes = machine.copy_bytes();
   channel.most_cycles_between_hints = machine.processor.most_cycles_between_hints;
-  const std::uint32_t ring_bytes = waker != nullptr || pes > kManyPes ? kLeastRingBytes : kMostRingBytes;
+  const std::uint32_t ring_bytes = on_thread || pes > kManyPes ? kLeastRingBytes : kMostRingBytes;
   channel.set_ring_bytes(channel.ring_bytes != 0 ? std::min(channel.ring_bytes, ring_bytes) : ring_bytes);
   channel.processor.first_free = kNoSlot;
   channel.bound.store(kCommandCycles);
@@ -293,6 +298,7 @@ void NiuNetworkSide::deliver_copy(const Block& message, Cycles now, BlockPool& p
       arrival.shared = true;
     }
     channel_->arrivals.push(arrival, lends(message) ? std::span<const std::byte>() : message.payload());
+    if (far_) waker_->told(pe_);
   } else {
     const BlockIndex copy = pool.take();
     pool[copy].message_kind = message.message_kind;
@@ -330,6 +336,7 @@ void NiuNetworkSide::push_arrival(Block& block, Cycles time, std::uint8_t stage)
     arrival.lent = static_cast<std::uint16_t>(block.bytes);
   }
   channel_->arrivals.push(arrival, block.payload());
+  if (far_) waker_->told(pe_);
 }
 
 void NiuNetworkSide::refill(BlockPool& pool) {
@@ -346,6 +353,7 @@ void NiuNetworkSide::refill(BlockPool& pool) {
 void NiuNetworkSide::left(Departures& departures, std::uint64_t& departed, Cycles when, PeTimes& times) {
   const bool waited = waits_for() != WaitKind::running;
   departures.add(departed++, when);
+  if (far_) waker_->told(pe_);
   if (waited && waits_for() == WaitKind::running) {
     floor_ = std::max(floor_, when + kCommandCycles);  // it goes on no earlier
     set_times(times);

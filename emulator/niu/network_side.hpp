@@ -42,6 +42,10 @@ struct PeTimes {
   BoundTree releases;  ///< once everything before is known, a PE that waits for just that may go on
 };
 
+/// What is the same on both sides, before the start. channel: zeroed. on_thread: its processor runs in this process, or
+/// on another rank.
+void set_up_channel(NiuChannel& channel, unsigned pes, const MachineDescription& machine, bool on_thread);
+
 /// Its members stand in lines of the caches by who needs them together: there are a thousand of these.
 class alignas(64) NiuNetworkSide {
  public:
@@ -209,6 +213,7 @@ class alignas(64) NiuNetworkSide {
   std::uint32_t torus_places_;
   std::uint32_t sends_ = 0;
   std::uint32_t control_buffers_, control_used_ = 0;
+  bool far_;                             // the waker is told of all that is new
   Fifo<StateChange>* states_ = nullptr;  // nobody watches
 };
 

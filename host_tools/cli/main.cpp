@@ -57,9 +57,12 @@ std::string first_steps() {
 /// What does not know of ranks would do the same work, and write the same files, once for each.
 void refuse_copies(const CLI::App& app) {
   const unsigned count = ranks::launched_ranks().count;
-  if (count == 1 || app.got_subcommand("study")) return;
+  if (count == 1) return;
+  for (const char* const name : {"study", "render", "run"}) {
+    if (app.got_subcommand(name)) return;
+  }
   throw UsageError("mpirun would run '" + app.get_subcommands().front()->get_name() + "' " + std::to_string(count) +
-                   " times: start it without mpirun; only 'study' shares its work out to ranks");
+                   " times: start it without mpirun; only 'render', 'run' and 'study' share their work out to ranks");
 }
 
 int run(CLI::App& app, const CommandAction& action, int argc, const char* const* argv) {

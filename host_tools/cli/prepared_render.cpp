@@ -24,6 +24,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_machine_options(command, options);
   add_engine_option(command, options);
   add_debugging_options(command, options.debugging, heading(OptionGroup::machine));
+  add_rank_options(command, options.ranks, heading(OptionGroup::machine));
   add_trace_options(command, options.trace, TracedRun::render, "Trace");
   add_display_options(command, options.display, "Display");
   add_checkpoint_options(command, options.checkpoint, "Saving and going on");

@@ -214,6 +214,28 @@ void walk_about(const PreparedRender& prepared, RenderSession& session, Display&
   });
 }
 
+/// What tells of PEs, or keeps them, as only their own process can.
+void check_goes_with_ranks(const RenderOptions& options) {
+  refuse_on_ranks(options.trace.file.has_value(), "--trace");
+  refuse_on_ranks(options.checkpoint.file.has_value(), "--checkpoint");
+  refuse_on_ranks(options.checkpoint.resume.has_value(), "--resume");
+  refuse_on_ranks(options.profile.has_value(), "--profile");
+  refuse_on_ranks(options.display.display, "--display");
+}
+
+/// ranks: run the PEs; null: this process does.
+int render_on(remote::PeRanks* ranks, const RenderOptions& options) {
+  if (ranks != nullptr) check_goes_with_ranks(options);
+  PreparedRender prepared = prepare_render(options);
+  prepared.resolved.machine.ranks = ranks;
+  try {
+    return run_prepared(prepared, options).exit_code;
+  } catch (const StateSaved&) {
+    tell_of_checkpoint(options);
+    return kInterrupted;
+  }
+}
+
 }  // namespace
 
 RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
@@ -255,7 +277,7 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   if (story) {
     for (const std::string& line : story->lines()) std::cout << line << "\n";
   }
-  if (!from) remember_speed(resolved.machine, result.figures);
+  if (!from && resolved.machine.ranks == nullptr) remember_speed(resolved.machine, result.figures);
   print_notes(result.notes, options.quiet);
   print_notes(findings_after(prepared.scene, result), options.quiet);
   if (growing) finish_growing(*growing, result, options.quiet);
@@ -276,13 +298,7 @@ void add_render_command(CLI::App& app, CommandAction& action) {
   command->footer("An option given outweighs the scene's own default, which outweighs the one in [brackets].");
   command->callback([options, &action] {
     action = [options] {
-      PreparedRender prepared = prepare_render(*options);
-      try {
-        return run_prepared(prepared, *options).exit_code;
-      } catch (const StateSaved&) {
-        tell_of_checkpoint(*options);
-        return kInterrupted;
-      }
+      return run_on_ranks(options->ranks, [&](remote::PeRanks* ranks) { return render_on(ranks, *options); });
     };
   });
 }

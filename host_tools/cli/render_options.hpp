@@ -15,6 +15,7 @@
 #include "host_tools/cli/display_options.hpp"
 #include "host_tools/cli/fault_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
+#include "host_tools/cli/rank_options.hpp"
 #include "host_tools/cli/trace_options.hpp"
 #include "host_tools/growing_picture/growing_picture.hpp"
 #include "host_tools/scene/gltf_units.hpp"
@@ -61,6 +62,7 @@ struct RenderOptions {
 
   // The machine.
   Debugging debugging;
+  RankOptions ranks;
   FaultOptions faults;
   MachineDescription::Ideal ideal;
   std::optional<std::filesystem::path> machine;

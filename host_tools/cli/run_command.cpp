@@ -129,8 +129,11 @@ ProgramFiles program_files(const RunOptions& options, const MachineSetup& setup,
   return inputs;
 }
 
-RunEnd run_prepared(const RunOptions& options) {
+RunEnd run_prepared(const RunOptions& options, remote::PeRanks* ranks) {
   MachineSetup setup = setup_from(options);
+  setup.ranks = ranks;
+  refuse_on_ranks(ranks != nullptr && options.trace.file, "--trace");
+  refuse_on_ranks(ranks != nullptr && options.display.display, "--display");
   std::vector<Input> read = read_inputs(options.program.inputs);
   const ProgramFiles inputs = program_files(options, setup, read);
   const ImageSet images = load_images(inputs.images);
@@ -156,7 +159,12 @@ void add_run_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run any firmware image and print what its PEs say");
   add_run_options(*command, *options);
-  command->callback([options, &action] { action = [options] { return run_prepared(*options).exit_code; }; });
+  command->callback([options, &action] {
+    action = [options] {
+      return run_on_ranks(options->ranks,
+                          [&](remote::PeRanks* ranks) { return run_prepared(*options, ranks).exit_code; });
+    };
+  });
 }
 
 }  // namespace torolux

@@ -36,6 +36,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--stats", options.stats, "Statistics of the run, as JSON")->type_name("FILE");
   command.add_option("--stats-csv", options.stats_csv, "The same as tables (.csv), into this folder")
       ->type_name("FOLDER");
+  add_rank_options(command, options.ranks, "");
   add_trace_options(command, options.trace, TracedRun::image, "");
   add_display_options(command, options.display, "");
   command.add_option("--report", options.report, "The run as one .html page: maps, time line, what limits it")

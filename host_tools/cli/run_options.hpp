@@ -14,6 +14,7 @@
 #include "host_tools/cli/image_options.hpp"
 #include "host_tools/cli/prepared_render.hpp"
 #include "host_tools/cli/program_options.hpp"
+#include "host_tools/cli/rank_options.hpp"
 #include "host_tools/cli/trace_options.hpp"
 #include "host_tools/report/settings_json.hpp"
 
@@ -32,6 +33,7 @@ struct RunOptions {
   std::optional<std::string> machine, stats, stats_csv, report;
   std::vector<std::string> machine_values;  ///< KEY=VALUE, checked, in the order given
   Debugging debugging;
+  RankOptions ranks;
   FaultOptions faults;
   MachineDescription::Ideal ideal;
   unsigned threads = 0;
@@ -53,7 +55,8 @@ RunOptions parse_run_options(const std::vector<std::string>& words);
 ProgramFiles program_files(const RunOptions& options, const MachineSetup& setup, const std::vector<Input>& read);
 
 /// Runs the image; writes and prints what the options ask for. Throws UsageError, InputError, MachineFailure.
-RunEnd run_prepared(const RunOptions& options);
+/// ranks: run the PEs; null: this process does.
+RunEnd run_prepared(const RunOptions& options, remote::PeRanks* ranks = nullptr);
 
 /// Reads the machine file, if one was named. Throws UsageError, InputError.
 MachineSetup setup_from(const RunOptions& options);

@@ -38,6 +38,7 @@ MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, con
   machine.engine = choice.engine;
   machine.debugging = choice.debugging;
   machine.threads = choice.threads;
+  machine.ranks = choice.ranks;
   machine.frame_width = quality.width;
   machine.frame_height = quality.height;
   machine.frame_layers = quality.layers;

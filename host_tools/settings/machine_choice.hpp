@@ -21,6 +21,7 @@ class HopWatcher;      // emulator/torus/hop_watcher.hpp
 namespace profile {
 class CycleProfile;  // emulator/profile/cycle_profile.hpp
 }
+class PesElsewhere;    // emulator/machine/pes_elsewhere.hpp
 class RecordFollower;  // host_tools/setup/record_follower.hpp
 
 /// The machine that makes it.
@@ -44,6 +45,7 @@ struct MachineChoice {
   Pacer* pacer = nullptr;              ///< likewise
   HopWatcher* hop_watcher = nullptr;   ///< likewise
   profile::CycleProfile* profile = nullptr;  ///< likewise; with the engine `interpreted` alone
+  PesElsewhere* ranks = nullptr;  ///< run the PEs, of drafts' machines too; likewise. Null: this process does
   double progress_seconds = 0.1;  ///< from one call of a render's `progress` to the next, about [s of wall time]
 };
 

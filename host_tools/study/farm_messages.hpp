@@ -2,17 +2,17 @@
 // What rank 0 of a study and the others tell each other, and its bytes; all run the same program.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "emulator/snapshot/archive.hpp"
+#include "emulator/ranks/content.hpp"
 #include "host_tools/study/hands.hpp"
 
 namespace torolux::study {
+
+using ranks::bytes_of;
+using ranks::content_of;
 
 enum class FarmMessage : std::uint32_t {
   greeting = 1,  ///< to rank 0: Greeting
@@ -63,29 +63,5 @@ struct FarmClose {
     archive(lost, exit_code);
   }
 };
-
-template <class Content>
-std::vector<std::byte> bytes_of(Content content) {
-  std::vector<std::byte> bytes;
-  SnapshotWriter writer(
-      [&bytes](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
-  writer(content);
-  writer.flush();
-  return bytes;
-}
-
-/// Throws InputError where these are the bytes of something else.
-template <class Content>
-Content content_of(std::span<const std::byte> bytes) {
-  Content content;
-  SnapshotReader reader([&bytes](std::span<std::byte> into) {
-    if (bytes.size() < into.size()) throw InputError("a message between ranks is too short");
-    std::memcpy(into.data(), bytes.data(), into.size());
-    bytes = bytes.subspan(into.size());
-  });
-  reader(content);
-  if (!bytes.empty()) throw InputError("a message between ranks is too long");
-  return content;
-}
 
 }  // namespace torolux::study

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves with the real mpirun: a study on several ranks leaves the bytes of one that runs alone; a rank that is stopped
 // is named and loses only its run; where a rank is killed, no half output is left, and the study goes on when started
-// again. Skipped where there is no MPI.
+// again. A render whose PEs other ranks run leaves the bytes of one process. Skipped where there is no MPI.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -147,20 +147,75 @@ TEST_F(MpiStudy, WhatIsWrongIsToldOnce) {
   const study::Ended input = mpirun(3, {"study", "missing.toml"}).wait();
   EXPECT_EQ(input.exit_code, 2);
   EXPECT_THAT(input.errors, HasSubstr("torolux: missing.toml"));
-  const study::Ended render = mpirun(2, {"render", "cornell_box"}).wait();
-  EXPECT_EQ(render.exit_code, 1);
-  EXPECT_THAT(render.errors, HasSubstr("mpirun would run 'render' 2 times"));
+  const study::Ended info = mpirun(2, {"info", "cornell_box"}).wait();
+  EXPECT_EQ(info.exit_code, 1);
+  EXPECT_THAT(info.errors, HasSubstr("mpirun would run 'info' 2 times"));
+}
+
+// ---- PEs on other ranks ----
+
+std::vector<std::string> small_render(const fs::path& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = small_render_options();
+  words.insert(words.begin(), {"render", TOROLUX_SOURCE_DIR "/scenes/cornell_box"});
+  words.insert(words.end(), {"--output", (folder / "a.pfm").string(), "--stats", (folder / "a.json").string()});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST_F(MpiStudy, ARenderOnRanksLeavesTheSameBytes) {
+  const TemporaryFolder alone;
+  const Finished run = run_torolux(small_render(alone.path()));
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  for (const unsigned ranks : {2U, 3U}) {
+    const TemporaryFolder folder;
+    const study::Ended on_ranks = mpirun(ranks, small_render(folder.path(), {"--placing", "cyclic"})).wait();
+    ASSERT_EQ(on_ranks.exit_code, 0) << on_ranks.errors;
+    EXPECT_EQ(folder.files(), 2U) << "no rank writes a file of its own";
+    EXPECT_EQ(contents(folder.path() / "a.pfm"), contents(alone.path() / "a.pfm"));
+    EXPECT_EQ(statistics(folder.path() / "a.json"), statistics(alone.path() / "a.json"));
+  }
+}
+
+TEST_F(MpiStudy, ARenderOnRanksTellsOnceWhatIsWrong) {
+  const TemporaryFolder folder;
+  const study::Ended traced =
+      mpirun(2, small_render(folder.path(), {"--trace", (folder.path() / "t").string()})).wait();
+  EXPECT_EQ(traced.exit_code, 1);
+  EXPECT_THAT(traced.errors, HasSubstr("--trace does not go with PEs on other ranks"));
+  const study::Ended memory = mpirun(2, small_render(folder.path(), {"--pe-memory", "128K"})).wait();
+  EXPECT_EQ(memory.exit_code, 2);
+  EXPECT_EQ(memory.errors.find("torolux: "), memory.errors.rfind("torolux: ")) << memory.errors;
+}
+
+TEST_F(MpiStudy, AStoppedRankWithPesEndsARenderAndIsNamed) {
+  const TemporaryFolder folder;
+  study::Child run = mpirun(3, {"render", TOROLUX_SOURCE_DIR "/scenes/cornell_box", "--pes", "8x8", "--quality", "fine",
+                                "--output", (folder.path() / "a.pfm").string()});
+  const auto deadline = std::chrono::steady_clock::now() + 60s;
+  pid_t helper = 0;
+  while (helper == 0 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(100ms);
+    helper = first_helper(folder.path());
+  }
+  ASSERT_GT(helper, 0);
+  std::this_thread::sleep_for(1s);
+  ::kill(helper, SIGSTOP);
+  const study::Ended end = run.wait();
+  EXPECT_EQ(end.exit_code, 3) << end.errors;
+  EXPECT_THAT(end.errors, HasSubstr("torolux: rank 1 ("));
+  EXPECT_THAT(end.errors, HasSubstr("counts as lost"));
+  EXPECT_EQ(folder.files(), 0U);
 }
 
 // As with mpirun, by a build without MPI or one whose mpirun this is not.
 TEST(RanksWithoutMpi, AreRefusedOnce) {
   const auto start = [](const char* rank) {
-    return study::Child("env", {"PMI_SIZE=2", std::string("PMI_RANK=") + rank, torolux_file().string(), "render", "x"})
+    return study::Child("env", {"PMI_SIZE=2", std::string("PMI_RANK=") + rank, torolux_file().string(), "info", "x"})
         .wait();
   };
   const study::Ended first = start("0");
   EXPECT_EQ(first.exit_code, 1);
-  EXPECT_THAT(first.errors, HasSubstr("mpirun would run 'render' 2 times"));
+  EXPECT_THAT(first.errors, HasSubstr("mpirun would run 'info' 2 times"));
   const study::Ended second = start("1");
   EXPECT_EQ(second.exit_code, 1);
   EXPECT_EQ(second.errors, "");

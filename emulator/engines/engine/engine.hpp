@@ -74,6 +74,15 @@ class Engine {
   /// looked at. Nothing: this engine cannot tell. Waits no longer than some seconds.
   virtual std::optional<StackRegisters> stack_registers(unsigned /*pe*/) { return std::nullopt; }
 
+  // ---- For engines whose PEs run on other ranks ----
+
+  /// Of PEs that all wait: what they have counted is in their channels.
+  virtual void bring_figures() {}
+  /// As it stands, this part of its local memory is in PeMemory::local.
+  virtual void bring(unsigned /*pe*/, std::uint32_t /*offset*/, std::uint32_t /*bytes*/) {}
+  /// Host CPU time of the other ranks, as of the last bring_figures [s].
+  virtual double seconds_elsewhere() const { return 0; }
+
   /// Host CPU time that the PEs have used so far [s]; 0 where the engine cannot tell it from the emulator's own.
   virtual double cpu_seconds() const { return 0; }
 

@@ -84,6 +84,24 @@ inline NativeProgram wanderers(std::uint32_t per_pe, std::uint32_t life, std::ui
   };
 }
 
+/// As wanderers(), but each PE handles what has gathered, then tells the host how many have died.
+inline NativeProgram gatherers(std::uint32_t per_pe, std::uint32_t life, std::uint32_t cycles, std::uint32_t enough) {
+  return [=](Niu& niu, NativeClock& clock) {
+    set_test_slots(niu, 256);
+    niu.gather(cycles, enough);
+    for (std::uint32_t i = 0; i < per_pe; ++i) set_out(niu, i, life);
+    for (;;) {
+      std::uint32_t died = 0;
+      for (const auto* arrival = &niu.receive(); arrival->kind != ArrivalKind::none; arrival = &niu.receive_more()) {
+        const auto slots = arrival->slots;
+        const std::uint32_t count = arrival->count;
+        for (std::uint32_t i = 0; i < count; ++i) died += wander_on(niu, clock, slots[i]) ? 1 : 0;
+      }
+      if (died != 0) niu.send(static_cast<protocol::MessageKind>(kDone), died);
+    }
+  };
+}
+
 /// Counts the records that have come home.
 class CountingHost final : public ListeningHost {
  public:

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// What Machine and Emulation do for PEs of their own process, as far as it does not concern the network.
+#include "emulator/remote/pe_block.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <ctime>
+#include <string>
+#include <thread>
+
+#include "emulator/engines/engine_names.hpp"
+#include "emulator/errors.hpp"
+#include "emulator/niu/network_side.hpp"
+#include "emulator/niu/processor_side.hpp"
+#include "emulator/remote/counts.hpp"
+#include "emulator/snapshot/archive.hpp"
+
+namespace torolux::remote {
+namespace {
+
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// That this process may use: launchers often allow it one of a computer's.
+unsigned allowed_cores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return std::max(1U, std::thread::hardware_concurrency());
+  return static_cast<unsigned>(std::max(1, CPU_COUNT(&set)));
+}
+
+unsigned threads_of(const BlockSetup& setup) {
+  if (setup.machine.threads != 0) return setup.machine.threads;
+  return std::max(1U, allowed_cores() / std::max(1U, setup.sharers));
+}
+
+}  // namespace
+
+PeBlock::PeBlock(BlockSetup setup)
+    : setup_(std::move(setup)),
+      threads_(threads_of(setup_)),
+      is_active_(setup_.numbers.size()),
+      is_told_(setup_.numbers.size()),
+      begin_cpu_(cpu_seconds()) {
+  const MachineSetup& machine = setup_.machine;
+  const unsigned pes = machine.columns * machine.rows;
+  for (unsigned index = 0; index < setup_.numbers.size(); ++index) index_of_[setup_.numbers[index]] = index;
+  memory_ = make_pes(machine, setup_.images, setup_.numbers, std::vector<bool>(pes));
+  engine_ = engine_named(machine.engine)({machine.description, setup_.images, memory_.pes, threads_});
+  has_waker_ = engine_->waker(0) != nullptr;
+  for (unsigned index = 0; index < setup_.numbers.size(); ++index) {
+    NiuChannel& channel = *niu_channel_at(memory_.pes[index].channel.bytes().data());
+    set_up_channel(channel, pes, machine.description, has_waker_);
+    channel.until = machine.until;
+    ends_.emplace_back(channel, setup_.numbers[index], index, engine_->waker(index));
+  }
+}
+
+PeBlock::~PeBlock() {
+  stop();
+}
+
+void PeBlock::stop() {
+  if (!running_) return;
+  running_ = false;
+  for (ProcessorEnd& end : ends_) end.tell_to_stop();
+  engine_->stop();
+}
+
+void PeBlock::start() {
+  engine_->start();
+  running_ = true;
+  for (unsigned index = 0; index < ends_.size(); ++index) activate(index);
+}
+
+unsigned PeBlock::index_of(unsigned pe) const {
+  const auto found = index_of_.find(pe);
+  if (found == index_of_.end())
+    throw MachineFailure("rank 0 asks for PE " + std::to_string(pe) + ", which is elsewhere");
+  return found->second;
+}
+
+void PeBlock::activate(unsigned index) {
+  if (is_active_[index]) return;
+  is_active_[index] = true;
+  active_.push_back(index);
+}
+
+void PeBlock::take_words(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  const auto begin = reader.get<WordsBegin>();
+  while (!reader.empty()) {
+    const auto words = reader.get<Words>();
+    const unsigned index = index_of(words.pe);
+    ends_[index].take(words, reader);
+    collect(index);  // what there was no room for, or what it says meanwhile
+    if (stays_active(index)) activate(index);
+  }
+  if (begin.wanted == kNoPe) return;
+  const unsigned wanted = index_of(begin.wanted);
+  if (is_told_[wanted]) {
+    has_wanted_news_ = true;
+  } else if (is_active_[wanted]) {
+    wanted_ = wanted;
+  }
+}
+
+void PeBlock::collect(unsigned index) {
+  const std::size_t before = news_.size();
+  ends_[index].collect(news_);
+  if (news_.size() == before) return;
+  if (!is_told_[index]) told_.push_back(index);
+  is_told_[index] = true;
+  if (wanted_ != index) return;
+  has_wanted_news_ = true;
+  wanted_.reset();
+}
+
+/// One whose processor sleeps on its channel wakes up by itself now and then, and may go on.
+bool PeBlock::stays_active(unsigned index) const {
+  return !has_waker_ || !ends_[index].rests();
+}
+
+/// Those that rest are none of the active ones any more.
+void PeBlock::collect_active() {
+  for (std::size_t i = active_.size(); i > 0; --i) {
+    const unsigned index = active_.front();
+    active_.pop_front();
+    collect(index);
+    is_active_[index] = stays_active(index);
+    if (is_active_[index]) active_.push_back(index);
+  }
+}
+
+bool PeBlock::run() {
+  if (wanted_ && !is_active_[*wanted_]) wanted_.reset();
+  if (active_.empty()) return false;
+  const unsigned index = wanted_.value_or(active_.front());
+  const bool ran = engine_->help(index, kNever - 1);
+  if (threads_run_pes()) {
+    collect_active();
+    return ran;
+  }
+  active_.erase(std::ranges::find(active_, index));
+  collect(index);
+  is_active_[index] = stays_active(index);
+  if (is_active_[index]) active_.push_back(index);
+  return ran;
+}
+
+void PeBlock::forget_news() {
+  news_.clear();
+  for (const unsigned index : told_) is_told_[index] = false;
+  told_.clear();
+  has_wanted_news_ = false;
+}
+
+std::vector<std::byte> PeBlock::figures() {
+  std::vector<std::byte> bytes;
+  SnapshotWriter writer(
+      [&bytes](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
+  double seconds = cpu_seconds() - begin_cpu_;
+  writer(seconds);
+  for (ProcessorEnd& end : ends_) archive_counts(writer, end.channel());
+  writer.flush();
+  return bytes;
+}
+
+std::span<const std::byte> PeBlock::memory(const MemoryPart& part) const {
+  const auto local = memory_.pes[index_of(part.pe)].local.bytes().first(setup_.machine.local_memory_bytes);
+  if (part.offset > local.size() || part.bytes > local.size() - part.offset)
+    throw MachineFailure("rank 0 asks for memory that PE " + std::to_string(part.pe) + " does not have");
+  return local.subspan(part.offset, part.bytes);
+}
+
+std::optional<StackRegisters> PeBlock::registers(unsigned pe) {
+  return engine_->stack_registers(index_of(pe));
+}
+
+}  // namespace torolux::remote

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The order of reading and writing is that of NiuNetworkSide, for the same reasons.
+#include "emulator/remote/processor_end.hpp"
+
+#include <algorithm>
+
+#include "emulator/niu/futex.hpp"
+
+namespace torolux::remote {
+
+void ProcessorEnd::collect(ByteWriter& news) {
+  refill();
+  // In this order: a wait that is seen belongs to a bound that is seen, and both to commands that are seen.
+  std::uint64_t wait = channel_->wait.load(std::memory_order_seq_cst);
+  std::uint64_t bound = channel_->bound.load(std::memory_order_acquire);
+  if (bound == told_bound_ && wait == told_wait_ && channel_->commands.empty()) return;
+  const std::size_t at = news.size();
+  news.put(News{});
+  const Drained drained = drain(news);
+  blocked_ = !drained.all;
+  if (!drained.all && drained.commands == 0) return news.cut_to(at);
+  if (!drained.all) {  // what it says holds for commands, too, that have not been sent
+    bound = told_bound_;
+    wait = pack_wait(WaitKind::running, 0);
+  }
+  told_bound_ = bound;
+  told_wait_ = wait;
+  constexpr auto relaxed = std::memory_order_relaxed;
+  News one{number_,
+           drained.commands,
+           bound,
+           wait,
+           channel_->clock.load(relaxed),
+           channel_->copied.load(relaxed),
+           channel_->instructions.load(relaxed),
+           channel_->taken.load(relaxed),
+           channel_->gather_cycles.load(relaxed),
+           channel_->gather_records.load(relaxed),
+           {}};
+  for (std::size_t i = 0; i < kWaitReasons; ++i) one.waits[i] = channel_->waits[i].load(relaxed);
+  news.replace(at, one);
+  // One that waits for room in the ring says that it runs.
+  if (drained.commands != 0 && says() == WaitKind::running) wake();
+}
+
+ProcessorEnd::Drained ProcessorEnd::drain(ByteWriter& news) {
+  auto& ring = channel_->commands;
+  Drained drained;
+  while (const Command* command = ring.front()) {
+    const std::size_t bytes = entry_bytes(*command);
+    if (sent_ - consumed_ + bytes > kCommandWindow) {
+      drained.all = false;
+      break;
+    }
+    news.put(*command);
+    news.put_bytes(contents_of(*command));
+    sent_ += bytes;
+    ++drained.commands;
+    ring.pop(*command);
+  }
+  return drained;
+}
+
+bool ProcessorEnd::rests() const {
+  const std::uint64_t wait = channel_->wait.load(std::memory_order_seq_cst);
+  if (wait_kind(wait) != WaitKind::halted && channel_->asleep.load(std::memory_order_seq_cst) == 0) return false;
+  return blocked_ || (wait == told_wait_ && channel_->commands.empty());
+}
+
+void ProcessorEnd::take(const Words& words, ByteReader& rest) {
+  const auto depart = [&rest](Departures& departures, std::uint64_t upto) {
+    for (std::uint64_t n = departures.count.load(std::memory_order_relaxed); n < upto; ++n)
+      departures.add(n, rest.get<std::uint64_t>());
+  };
+  depart(channel_->torus_departures, words.torus_departures);
+  depart(channel_->bus_departures, words.bus_departures);
+  for (std::uint32_t i = 0; i < words.arrivals; ++i) {
+    const auto arrival = rest.get<Arrival>();
+    const auto payload = rest.get_bytes(arrival.bytes);
+    if (late_.empty() && channel_->arrivals.has_room(payload.size())) {
+      channel_->arrivals.push(arrival, payload);
+    } else {
+      late_.push_back({arrival, {payload.begin(), payload.end()}});
+    }
+  }
+  consumed_ = words.consumed;
+  if (words.wakes != channel_->wakes.load(std::memory_order_relaxed)) {
+    channel_->wake_time.store(words.wake_time, std::memory_order_relaxed);
+    channel_->wakes.store(words.wakes, std::memory_order_seq_cst);
+  }
+  horizon_ = words.horizon;
+  publish_horizon();
+  const WaitKind says_now = says();
+  // It may have begun to wait after the network had told this.
+  if (words.wake != 0 || says_now == WaitKind::poll || says_now == WaitKind::torus_place ||
+      says_now == WaitKind::bus_place) {
+    wake();
+  }
+}
+
+/// What waits for room in the ring is not known to the processor.
+void ProcessorEnd::publish_horizon() {
+  const std::uint64_t horizon = late_.empty() ? horizon_ : std::min(horizon_, late_.front().arrival.time);
+  if (horizon > channel_->horizon.load(std::memory_order_relaxed))
+    channel_->horizon.store(horizon, std::memory_order_seq_cst);
+}
+
+void ProcessorEnd::refill() {
+  if (late_.empty()) return;
+  const std::size_t before = late_.size();
+  while (!late_.empty() && channel_->arrivals.has_room(late_.front().payload.size())) {
+    channel_->arrivals.push(late_.front().arrival, late_.front().payload);
+    late_.pop_front();
+  }
+  if (late_.size() == before) return;
+  publish_horizon();
+  wake();
+}
+
+void ProcessorEnd::tell_to_stop() {
+  channel_->stopping.store(1, std::memory_order_seq_cst);
+  signal();
+}
+
+void ProcessorEnd::wake() {
+  if (channel_->asleep.load(std::memory_order_seq_cst) == 0) return;
+  channel_->asleep.store(0, std::memory_order_relaxed);
+  signal();
+}
+
+void ProcessorEnd::signal() {
+  if (waker_ != nullptr) return waker_->wake(index_);
+  channel_->processor_signal.fetch_add(1, std::memory_order_seq_cst);
+  futex_wake(channel_->processor_signal);
+}
+
+}  // namespace torolux::remote

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A PE's channel on the rank that runs the PE: words from the network go into it, news of the processor come out. Takes
+// the place of NiuNetworkSide there. For one thread, beside the engine's.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "emulator/niu/channel.hpp"
+#include "emulator/niu/waker.hpp"
+#include "emulator/remote/wire.hpp"
+
+namespace torolux::remote {
+
+class ProcessorEnd {
+ public:
+  /// channel: set up. number: of the PE in its machine; index: in the engine. waker: null where the processor sleeps on
+  /// its channel.
+  ProcessorEnd(NiuChannel& channel, unsigned number, unsigned index, ProcessorWaker* waker)
+      : channel_(&channel), waker_(waker), number_(number), index_(index) {}
+
+  /// What is new; nothing is written where nothing is. Gives the processor what had no room before.
+  void collect(ByteWriter& news);
+  /// words: of this PE; rest: what follows them.
+  void take(const Words& words, ByteReader& rest);
+  void tell_to_stop();
+
+  /// Whether nothing comes of it before there are words for it.
+  bool rests() const;
+  NiuChannel& channel() { return *channel_; }
+
+ private:
+  struct Late {
+    Arrival arrival;
+    std::vector<std::byte> payload;
+  };
+  struct Drained {
+    std::uint32_t commands = 0;
+    bool all = true;
+  };
+  Drained drain(ByteWriter& news);
+  void refill();
+  void publish_horizon();
+  WaitKind says() const { return wait_kind(channel_->wait.load(std::memory_order_seq_cst)); }
+  void wake();
+  void signal();
+
+  NiuChannel* channel_;
+  ProcessorWaker* waker_;
+  unsigned number_, index_;
+  std::uint64_t told_bound_ = kCommandCycles, told_wait_ = 0;
+  std::uint64_t sent_ = 0, consumed_ = 0;  // bytes of commands
+  bool blocked_ = false;                   // some have not been sent: the network is to take others in first
+  std::uint64_t horizon_ = 0;
+  std::deque<Late> late_;  // arrivals that had no room in the ring: no more than the NIU has slots and buffers
+};
+
+}  // namespace torolux::remote

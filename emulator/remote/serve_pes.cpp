@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// A loop over messages and PEs.
+#include "emulator/remote/serve_pes.hpp"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "emulator/errors.hpp"
+#include "emulator/ranks/content.hpp"
+#include "emulator/ranks/launched.hpp"
+#include "emulator/remote/pe_block.hpp"
+#include "emulator/remote/wire.hpp"
+
+namespace torolux::remote {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// News wait so long for others to go with them, while PEs run and rank 0 waits for none of them.
+constexpr std::chrono::microseconds kGather{500};
+/// But not when there are so many bytes of them.
+constexpr std::size_t kManyBytes = 64U << 10U;
+/// While other threads run PEs, their news are looked for so often.
+constexpr std::chrono::microseconds kBetweenLooks{50};
+/// A sleep where nothing can run; and where there is no machine. Transports sleep the longer the longer nothing comes.
+constexpr std::chrono::milliseconds kSleep{2}, kLongSleep{100};
+
+class Server {
+ public:
+  Server(ranks::Transport& transport, ranks::LifeTimes times) : transport_(transport), life_(transport, {0}, times) {}
+
+  Close run(const std::string& program) {
+    send(Kind::greeting, ranks::bytes_of(Greeting{ranks::host_name(), program}));
+    while (!close_) {
+      receive();
+      if (close_) break;
+      const bool ran = runs_ && attempt([this] { return block_->run(); });
+      send_news();
+      if (life_.silent(0)) transport_.abort("rank 0 is silent and counts as lost");
+      if (ran) continue;
+      if (runs_ && !block_->rests()) {
+        std::this_thread::sleep_for(kBetweenLooks);
+        attempt([this] {
+          block_->check();
+          return true;
+        });
+      } else {
+        transport_.wait(runs_ ? kSleep : kLongSleep);
+      }
+    }
+    return *close_;
+  }
+
+ private:
+  void send(Kind kind, std::span<const std::byte> bytes) {
+    transport_.send(0, static_cast<std::uint32_t>(kind), bytes);
+  }
+
+  /// What goes wrong here ends the machine, and rank 0 says why.
+  template <class Work>
+  bool attempt(Work work) {
+    try {
+      return work();
+    } catch (const ranks::RankFailure&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      fail("this computer has too little memory for its PEs");
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+    return false;
+  }
+  void fail(const std::string& why) {
+    runs_ = false;
+    block_.reset();
+    send(Kind::failed, ranks::bytes_of(why));
+  }
+
+  void receive() {
+    while (const std::optional<ranks::Message> message = life_.poll()) {
+      attempt([&] {
+        take(*message);
+        return true;
+      });
+    }
+  }
+
+  void take(const ranks::Message& message) {
+    const auto kind = static_cast<Kind>(message.kind);
+    if (kind == Kind::close) {
+      close_ = ranks::content_of<Close>(message.bytes);
+      return;
+    }
+    if (kind == Kind::setup) {
+      block_.reset();
+      block_ = std::make_unique<PeBlock>(setup_of_bytes(message.bytes));
+      return send(Kind::ready, {});
+    }
+    if (kind == Kind::stop) {
+      runs_ = false;
+      if (block_ != nullptr) block_->stop();
+      return send(Kind::stopped, {});
+    }
+    if (block_ == nullptr) return;  // it has failed, and rank 0 does not know that yet
+    take_of_machine(kind, message.bytes);
+  }
+
+  void take_of_machine(Kind kind, std::span<const std::byte> bytes) {
+    switch (kind) {
+      case Kind::start:
+        block_->start();
+        runs_ = true;
+        return;
+      case Kind::words:
+        return block_->take_words(bytes);
+      case Kind::ask_figures:
+        return send(Kind::figures, block_->figures());
+      case Kind::ask_memory:
+        return send(Kind::memory, block_->memory(ranks::content_of<MemoryPart>(bytes)));
+      case Kind::ask_registers:
+        return send(Kind::registers, ranks::bytes_of(block_->registers(ranks::content_of<std::uint32_t>(bytes))));
+      default:
+        throw MachineFailure("rank 0 has sent a message of kind " + std::to_string(static_cast<std::uint32_t>(kind)));
+    }
+  }
+
+  void send_news() {
+    if (!runs_ || block_->news().empty()) return;
+    const Clock::time_point now = Clock::now();
+    const bool due =
+        block_->has_wanted_news() || block_->rests() || block_->news().size() >= kManyBytes || now - sent_ >= kGather;
+    if (!due) return;
+    sent_ = now;
+    send(Kind::news, block_->news().bytes());
+    block_->forget_news();
+  }
+
+  ranks::Transport& transport_;
+  ranks::LifeSigns life_;
+  std::unique_ptr<PeBlock> block_;
+  bool runs_ = false;
+  Clock::time_point sent_;
+  std::optional<Close> close_;
+};
+
+}  // namespace
+
+void serve_pes(ranks::Transport& transport, const std::string& program, ranks::LifeTimes times) {
+  const Close close = Server(transport, times).run(program);
+  transport.close(close.lost, close.exit_code);
+}
+
+}  // namespace torolux::remote

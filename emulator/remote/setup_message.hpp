@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// A machine's set-up enters; what a rank must know to make its PEs leaves, to a message's bytes and back.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "emulator/engines/image/image_set.hpp"
+#include "emulator/machine/machine.hpp"
+
+namespace torolux::remote {
+
+/// The PEs of one rank.
+struct BlockSetup {
+  MachineSetup machine;           ///< what belongs to PEs and engine; nobody watches
+  std::vector<unsigned> numbers;  ///< of its PEs
+  ImageSet images;                ///< by place in `numbers`
+  unsigned sharers = 1;           ///< ranks with PEs on the same computer, this one included
+};
+
+std::vector<std::byte> bytes_of_setup(const MachineSetup& machine, const ImageSet& images,
+                                      const std::vector<unsigned>& numbers, unsigned sharers);
+/// Throws InputError where these are other bytes.
+BlockSetup setup_of_bytes(std::span<const std::byte> bytes);
+
+}  // namespace torolux::remote

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Proves: a render whose PEs run translated on other ranks has the picture, the cycles, the figures and the trace hash
+// of one in one process, whatever ranks, threads, placing and delays of messages.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "emulator/ranks/thread_ranks.hpp"
+#include "emulator/remote/pe_ranks.hpp"
+#include "emulator/remote/serve_pes.hpp"
+#include "tests/support/render_support.hpp"
+
+namespace torolux::test {
+namespace {
+
+using remote::Placing;
+using std::chrono_literals::operator""us;
+
+struct OnRanks {
+  unsigned ranks, threads;
+  Placing placing;
+  ranks::Delays delays;
+};
+
+RenderCase small_case(unsigned threads) {
+  RenderCase small = native_case(source_dir() / "scenes" / "cornell_box");
+  small.quality.width = small.quality.height = 16;
+  small.quality.emission_records = 20'000;
+  small.machine.engine = "translated";
+  small.machine.columns = 3;
+  small.machine.rows = 2;
+  small.machine.description.records.credits_per_pe = 256;
+  small.machine.threads = threads;
+  return small;
+}
+
+RenderResult render_on(const OnRanks& on) {
+  RenderCase small = small_case(on.threads);
+  RenderResult result;
+  const auto ends = ranks::run_as_threads(on.ranks, on.delays, [&](ranks::Transport& transport) {
+    if (transport.ranks().own != 0) return remote::serve_pes(transport, "the same");
+    remote::PeRanks others(transport, on.placing, "the same");
+    small.machine.ranks = &others;
+    result = run_case(small);
+    others.end(0);
+  });
+  for (const std::string& end : ends) EXPECT_EQ(end, "");
+  return result;
+}
+
+class RenderOnRanks : public testing::TestWithParam<OnRanks> {
+ protected:
+  static void SetUpTestSuite() { alone_ = new RenderResult(run_case(small_case(1))); }
+  static void TearDownTestSuite() { delete alone_; }
+
+  static inline RenderResult* alone_ = nullptr;
+};
+
+TEST_P(RenderOnRanks, IsTheSame) {
+  const RenderResult result = render_on(GetParam());
+  EXPECT_EQ(result.figures.machine.trace_hash, alone_->figures.machine.trace_hash);
+  EXPECT_EQ(exact_figures(result.figures), exact_figures(alone_->figures));
+  EXPECT_EQ(bytes_of(result.picture), bytes_of(alone_->picture));
+  ASSERT_EQ(result.figures.machine.stages.size(), alone_->figures.machine.stages.size());
+  for (std::size_t s = 0; s < result.figures.machine.stages.size(); ++s) {
+    for (std::size_t pe = 0; pe < result.figures.machine.pes.size(); ++pe) {
+      const PeFigures& one = result.figures.machine.stages[s].figures.pes[pe];
+      const PeFigures& other = alone_->figures.machine.stages[s].figures.pes[pe];
+      EXPECT_EQ(one.busy_cycles, other.busy_cycles) << s << " " << pe;
+      EXPECT_EQ(one.waits, other.waits) << s << " " << pe;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, RenderOnRanks,
+                         testing::Values(OnRanks{2, 1, Placing::block, {}}, OnRanks{2, 2, Placing::random, {1, 200us}},
+                                         OnRanks{3, 1, Placing::cyclic, {2, 500us}}, OnRanks{3, 2, Placing::block, {}},
+                                         OnRanks{5, 1, Placing::random, {3, 50us}},
+                                         OnRanks{5, 2, Placing::cyclic, {4, 200us}},
+                                         OnRanks{9, 1, Placing::block, {5, 100us}}));
+
+}  // namespace
+}  // namespace torolux::test
