@@ -110,8 +110,10 @@ RemotePes::RemotePes(PeRanks& ranks, const MachineSetup& setup, const ImageSet& 
 
 void RemotePes::begin(const MachineSetup& setup, const ImageSet& images) {
   std::vector<unsigned> numbers;
+  numbers.reserve(ranks_.size());
   for (const Rank& rank : ranks_) numbers.push_back(rank.number);
   std::vector<unsigned> sharers;
+  sharers.reserve(ranks_.size());
   for (const unsigned number : numbers) sharers.push_back(others_.sharers(number, numbers));
   const auto is_here = [this](unsigned number) { return others_.is_here(number); };
   if (setup.engine == kDefaultEngine && std::ranges::any_of(numbers, is_here)) translate_once(setup, images);

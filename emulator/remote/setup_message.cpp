@@ -45,12 +45,16 @@ struct SentImage {
         niu_window(image.niu_window),
         stores_begin(image.stores_begin),
         phase_names(image.phase_names) {
+    segments.reserve(image.segments.size());
+    symbols.reserve(image.symbols.size());
     for (const ImageSegment& segment : image.segments) segments.push_back({segment});
     for (const ImageSymbol& symbol : image.symbols) symbols.push_back({symbol});
   }
   Image image() const {
     Image made;
     made.file = file;
+    made.segments.reserve(segments.size());
+    made.symbols.reserve(symbols.size());
     for (const SentSegment& segment : segments) made.segments.push_back(segment.segment);
     for (const SentSymbol& symbol : symbols) made.symbols.push_back(symbol.symbol);
     made.entry = entry;
@@ -120,6 +124,7 @@ BlockSetup setup_of_bytes(std::span<const std::byte> bytes) {
   setup.numbers.assign(sent.numbers.begin(), sent.numbers.end());
   setup.sharers = sent.sharers;
   std::vector<Image> images;
+  images.reserve(sent.images.size());
   for (const SentImage& image : sent.images) images.push_back(image.image());
   setup.images = ImageSet(std::move(images), std::move(sent.image_of));
   return setup;
