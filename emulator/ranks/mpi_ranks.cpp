@@ -49,6 +49,7 @@ class MpiRank : public Transport {
   Ranks ranks_;
   std::mutex mutex_;  ///< around each call of MPI (MPI_THREAD_SERIALIZED)
   std::list<Transfer> outgoing_, incoming_;
+  Clock::time_point received_;  // the last message
 };
 
 MpiRank::MpiRank() {
@@ -124,16 +125,19 @@ std::optional<Message> MpiRank::poll() {
   const auto one = next();
   if (one == incoming_.end()) return std::nullopt;
   Message message = std::move(one->message);
+  received_ = Clock::now();
   incoming_.erase(one);
   return message;
 }
 
 /// OpenMPI's own waiting calls spin and take a core each, which ranks that share one with their runs cannot afford. So:
-/// look, and sleep for longer and longer between looks.
+/// look, and sleep for longer and longer between looks. But where messages come one close behind the other, whoever
+/// slept would hold the others up by more than they compute: there only the core is offered to others.
 bool MpiRank::wait(std::chrono::milliseconds limit) {
-  constexpr std::chrono::microseconds kShortest{20}, kLongest{2000};
+  constexpr std::chrono::microseconds kShortest{20}, kLongest{2000}, kClose{500};
   const Clock::time_point end = Clock::now() + limit;
-  for (std::chrono::microseconds pause = kShortest;; pause = std::min(2 * pause, kLongest)) {
+  std::chrono::microseconds pause = kShortest;
+  for (;;) {
     {
       const std::lock_guard lock(mutex_);
       progress();
@@ -142,7 +146,12 @@ bool MpiRank::wait(std::chrono::milliseconds limit) {
     }
     const Clock::time_point now = Clock::now();
     if (now >= end) return false;
+    if (now - received_ < kClose) {
+      std::this_thread::yield();
+      continue;
+    }
     std::this_thread::sleep_for(std::min<Clock::duration>(pause, end - now));
+    pause = std::min(2 * pause, kLongest);
   }
 }
 
