@@ -180,7 +180,7 @@ double seen_of_glossy_floor(bool shadow_rays, std::uint8_t waiting) {
     ray.pixel = 0;
     ray.sample = static_cast<std::uint16_t>(i);
     ray.waiting = waiting;
-    for (protocol::Branch& branch : ray.branches) branch = {{0.1F, 0.1F, 0.1F}, {1, 0, 0}, {}, 0, 0, 0, 0, {0, 0, 0}};
+    for (protocol::Branch& branch : ray.branches) branch = {{0.1F, 0.1F, 0.1F}, {1, 0, 0}, {}, 0, 0, 0, 0, 0, {0, 0}};
   }
   EXPECT_EQ(trace(machine, scene, rays), count);
   return static_cast<double>(machine.pixels.at(0)[0]) * 0x1p-20 / count;
