@@ -84,7 +84,7 @@ TEST_F(Manual, TellsOfEveryOptionThatHelpTellsOf) {
 
 TEST_F(Manual, BashOffersWhatFits) {
   EXPECT_EQ(offered("torolux re"), " render rerun \n");
-  EXPECT_EQ(offered("torolux bench e"), " engine \n");
+  EXPECT_EQ(offered("torolux bench e"), " engine emulator \n");
   EXPECT_EQ(offered("torolux render --quality \"\""), " draft normal fine \n");
   EXPECT_EQ(offered("torolux render --missing-materials w"), " white \n");
   EXPECT_EQ(offered("torolux render cornell"), " cornell_box cornell_spheres \n");

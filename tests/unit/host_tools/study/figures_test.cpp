@@ -56,7 +56,8 @@ TEST(Figures, OfACsvAreItsColumns) {
 }
 
 TEST(Results, OfAnotherRunAreRefusedWhateverTheyAre) {
-  const auto of = [](const std::string& text) { return statistics_of(text, R"({"seed":1,"inputs":[]})", "a.json"); };
+  const std::string own = R"({"seed":1,"inputs":[],"automatic":["pes"]})";
+  const auto of = [&own](const std::string& text) { return statistics_of(text, own, "a.json"); };
   EXPECT_TRUE(of(R"({"settings":{"seed":1,"scene":"x","inputs":[],"automatic":["pes"],"pes":4}})"));
   for (const char* text : {"", "7", "{", "\xff"}) EXPECT_FALSE(of(text)) << text;
   for (const char* settings :
