@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <optional>
+#include <string>
 
 #include "emulator/ranks/thread_ranks.hpp"
 #include "emulator/remote/pe_ranks.hpp"
@@ -50,10 +52,10 @@ RenderResult render_on(const OnRanks& on) {
 
 class RenderOnRanks : public testing::TestWithParam<OnRanks> {
  protected:
-  static void SetUpTestSuite() { alone_ = new RenderResult(run_case(small_case(1))); }
-  static void TearDownTestSuite() { delete alone_; }
+  static void SetUpTestSuite() { alone_ = run_case(small_case(1)); }
+  static void TearDownTestSuite() { alone_.reset(); }
 
-  static inline RenderResult* alone_ = nullptr;
+  static inline std::optional<RenderResult> alone_;
 };
 
 TEST_P(RenderOnRanks, IsTheSame) {
@@ -77,7 +79,11 @@ INSTANTIATE_TEST_SUITE_P(Ranks, RenderOnRanks,
                                          OnRanks{3, 1, Placing::cyclic, {2, 500us}}, OnRanks{3, 2, Placing::block, {}},
                                          OnRanks{5, 1, Placing::random, {3, 50us}},
                                          OnRanks{5, 2, Placing::cyclic, {4, 200us}},
-                                         OnRanks{9, 1, Placing::block, {5, 100us}}));
+                                         OnRanks{9, 1, Placing::block, {5, 100us}}),
+                         [](const auto& on) {
+                           return std::to_string(on.param.ranks) + "Ranks" + std::to_string(on.param.threads) +
+                                  "Threads";
+                         });
 
 }  // namespace
 }  // namespace torolux::test
