@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "emulator/engines/engine_names.hpp"
@@ -108,8 +110,12 @@ int flushed(int result) {
 int guarded(const std::function<int()>& work) {
   const auto fail = [](const char* what, ExitCode exit_code) {
     if (interrupted()) return kInterrupted;
-    // All ranks have the same command line: one of them says what is wrong with it.
-    if (exit_code == ExitCode::usage && ranks::launched_ranks().own != 0) return code(exit_code);
+    // All ranks have the same command line: one of them says what is wrong with it. Launchers end all ranks when one
+    // has ended, so that one is given time.
+    if (exit_code != ExitCode::machine_failure && ranks::launched_ranks().own != 0) {
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      return code(exit_code);
+    }
     std::cerr << "torolux: " << what << std::endl;
     return code(exit_code);
   };
