@@ -119,8 +119,7 @@ TEST_F(SunnyPlate, HasTheSkysLightInTheSunsShadow) {
 // Behind a pane its reflection waits, so that of sun and sky one is taken by chance: the mean stays that of the
 // elements. Chance: 256 pixels of 16 samples that are 0 or twice as much, 0.02 without stratification.
 TEST_F(SunnyPlate, HasTheSameMeanBehindAPane) {
-  const std::string pane =
-      "[[quad]]\ncorner = [-2, 1, 2]\nedges = [[4, 0, 0], [0, 0, -4]]\nmaterial = 'window'\n";
+  const std::string pane = "[[quad]]\ncorner = [-2, 1, 2]\nedges = [[4, 0, 0], [0, 0, -4]]\nmaterial = 'window'\n";
   RenderCase behind = with(pane, true);
   const double by_rays = mean_of(run_case(behind).picture)[1];
   behind.quality.shadow_rays = false;
