@@ -43,7 +43,6 @@ class PeRanks final : public PesElsewhere {
   void wait();
   /// Throws RankFailure where one is lost.
   void check_lost() const;
-  bool is_lost(unsigned rank) const { return life_->silent(rank); }
   std::string name_of(unsigned rank) const;
 
   /// All ranks end. The last call. Does not return where one is lost and ranks are processes.
