@@ -26,6 +26,7 @@ namespace {
 
 /// The calls of `progress` need not be further apart than asked for because one came a little early.
 constexpr double kEarly = 0.95;
+
 double clock_seconds(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);

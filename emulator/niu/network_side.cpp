@@ -6,7 +6,6 @@
 #include <chrono>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "emulator/errors.hpp"
 #include "emulator/niu/futex.hpp"
@@ -291,14 +290,9 @@ void NiuNetworkSide::deliver_copy(const Block& message, Cycles now, BlockPool& p
   gather(message, now);
   if (goes_into_ring(message)) {
     Arrival arrival = arrival_of(message, now, stage_);
-    if (lends(message)) {
-      message.contents->holders.fetch_add(1, std::memory_order_relaxed);
-      arrival.payload = message.contents;
-      arrival.lent = static_cast<std::uint16_t>(message.bytes);
-      arrival.shared = true;
-    }
-    channel_->arrivals.push(arrival, lends(message) ? std::span<const std::byte>() : message.payload());
-    if (far_) waker_->told(pe_);
+    arrival.shared = arrival.payload != nullptr;
+    if (arrival.shared) arrival.payload->holders.fetch_add(1, std::memory_order_relaxed);
+    push(arrival, message);
   } else {
     const BlockIndex copy = pool.take();
     pool[copy].message_kind = message.message_kind;
@@ -323,20 +317,26 @@ void NiuNetworkSide::arrived(PeTimes& times) {
   if (says() == WaitKind::poll) wake_processor();
 }
 
-Arrival NiuNetworkSide::arrival_of(const Block& block, Cycles time, std::uint8_t stage) {
+Arrival NiuNetworkSide::arrival_of(const Block& block, Cycles time, std::uint8_t stage) const {
   const auto kind = block.records != 0 ? protocol::ArrivalKind::records : protocol::ArrivalKind::message;
-  return {time, static_cast<std::uint16_t>(kind), block.source, block.records, block.message_kind, 0, stage};
+  Arrival arrival{time, static_cast<std::uint16_t>(kind), block.source, block.records, block.message_kind, 0, stage};
+  if (lends(block)) {
+    arrival.payload = block.contents;
+    arrival.lent = static_cast<std::uint16_t>(block.bytes);
+  }
+  return arrival;
+}
+
+void NiuNetworkSide::push(const Arrival& arrival, const Block& block) {
+  channel_->arrivals.push(arrival, arrival.payload != nullptr ? std::span<const std::byte>() : block.payload());
+  if (far_) waker_->told(pe_);
 }
 
 /// The payload of a processor that is near becomes its own: it is not even looked at here.
 void NiuNetworkSide::push_arrival(Block& block, Cycles time, std::uint8_t stage) {
-  Arrival arrival = arrival_of(block, time, stage);
-  if (lends(block)) {
-    arrival.payload = std::exchange(block.contents, nullptr);
-    arrival.lent = static_cast<std::uint16_t>(block.bytes);
-  }
-  channel_->arrivals.push(arrival, block.payload());
-  if (far_) waker_->told(pe_);
+  const Arrival arrival = arrival_of(block, time, stage);
+  if (arrival.payload != nullptr) block.contents = nullptr;
+  push(arrival, block);
 }
 
 void NiuNetworkSide::refill(BlockPool& pool) {

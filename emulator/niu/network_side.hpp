@@ -165,7 +165,8 @@ class alignas(64) NiuNetworkSide {
   /// Whether the processor gets the payload itself, and no copy.
   bool lends(const Block& block) const { return channel_->payloads != nullptr && block.contents != nullptr; }
   void gather(const Block& block, Cycles now);
-  static Arrival arrival_of(const Block& block, Cycles time, std::uint8_t stage);
+  Arrival arrival_of(const Block& block, Cycles time, std::uint8_t stage) const;
+  void push(const Arrival& arrival, const Block& block);
   void push_arrival(Block& block, Cycles time, std::uint8_t stage);
   void arrived(PeTimes& times);
   void left(Departures& departures, std::uint64_t& departed, Cycles when, PeTimes& times);
