@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Holds the folders to their order: check_folders.sh [ROOT]. No circle of folders by their #include lines; nothing in
 # firmware knows of the emulator or the host's tools, nothing in the emulator of the tools, or of more of the firmware
-# than its protocol.
+# than its protocol. And tests, many of which run at once, write into a TemporaryFolder each, not where all others do.
 set -euo pipefail
 root=${1-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)}
 cd "$root"
@@ -26,6 +26,12 @@ folders=$(awk '{ if ($2 !~ /\//) next
 if ! circle=$(tsort 2>&1 >/dev/null <<<"$folders"); then
   echo 'circles of folders, each including the next, the last the first:'
   sed -E 's/^tsort: (-: input contains a loop:)?//' <<<"$circle"
+  status=1
+fi
+
+if [[ -d tests ]] && shared=$(grep -rn --include='*.cpp' --include='*.hpp' 'TempDir()' tests); then
+  echo 'tests run at the same time; take a folder from tests/support/temporary_folder.hpp in place of:'
+  echo "$shared"
   status=1
 fi
 exit "$status"

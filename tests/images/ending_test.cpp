@@ -9,6 +9,7 @@
 
 #include "host_tools/cli/ending_options.hpp"
 #include "tests/images/run_support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace torolux {
 namespace {
@@ -104,8 +105,9 @@ TEST(Until, WhatFailsLaterHasNotFailed) {
 
 /// The place is where the symbol is, the file holds what is there; a failure does not keep it from being written.
 TEST(Dump, HoldsASymbolOfARunThatHasFailed) {
+  const testing_support::TemporaryFolder folder;
   for (const char* engine : {"translated", "qemu"}) {
-    const auto file = std::filesystem::temp_directory_path() / ("torolux-dump-" + std::string(engine));
+    const auto file = folder.path() / engine;
     const MachineSetup setup = small_setup(engine, 1, 1);
     const ImageSet images = test_image("calls");
     EndingOptions options;
@@ -119,7 +121,6 @@ TEST(Dump, HoldsASymbolOfARunThatHasFailed) {
     EXPECT_EQ(stream.peek(), std::ifstream::traits_type::eof());
     EXPECT_EQ(steps[2], 1U);  // before the trap
     EXPECT_EQ(steps[3], 0U);  // behind it
-    std::filesystem::remove(file);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "emulator/errors.hpp"
 #include "tests/physics/same_picture.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace torolux::test {
 namespace {
@@ -60,9 +61,8 @@ struct Pieces {
 /// changes the machine before each piece.
 Pieces run_in_pieces(RenderCase render_case, unsigned messages,
                      const std::function<void(RenderCase&, unsigned piece)>& next = {}, bool ever_longer = true) {
-  const std::filesystem::path file =
-      testing::TempDir() + "torolux_checkpoint_" + testing::UnitTest::GetInstance()->current_test_info()->name();
-  std::filesystem::remove(file);
+  const testing_support::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "checkpoint";
   Pieces pieces;
   for (;;) {
     unsigned read = 0;
@@ -79,7 +79,6 @@ Pieces run_in_pieces(RenderCase render_case, unsigned messages,
     if (next) next(render_case, pieces.interruptions);
     try {
       pieces.result = run_case(render_case);
-      std::filesystem::remove(file);
       return pieces;
     } catch (const StateSaved&) {
       ++pieces.interruptions;

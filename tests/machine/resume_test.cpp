@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/machine/process.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace torolux::test {
 namespace {
@@ -19,12 +20,6 @@ using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
 constexpr unsigned kKills = 20;
-
-/// Of this test alone: others may run at the same time.
-std::filesystem::path here(const std::string& name) {
-  return testing::TempDir() + "torolux_resume_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-         name;
-}
 
 /// A scene that takes a second or two, and what more is given.
 Words render_words(const Words& more, const std::string& engine = "translated") {
@@ -48,28 +43,38 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
-Results results(const std::string& name) {
-  return {contents(here(name + ".exr")), statistics(here(name + ".json"))};
-}
-
-Words into(const std::string& name) {
-  return {"--output", here(name + ".exr").string(), "--stats", here(name + ".json").string()};
-}
-
 Words joined(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
+/// With a folder of its own.
+class Resume : public testing::Test {
+ protected:
+  std::filesystem::path here(const std::string& name) const { return folder_.path() / name; }
+
+  Words into(const std::string& name) const {
+    return {"--output", here(name + ".exr").string(), "--stats", here(name + ".json").string()};
+  }
+
+  Results results(const std::string& name) const {
+    return {contents(here(name + ".exr")), statistics(here(name + ".json"))};
+  }
+
+  void expect_kills_do_not_show(const std::string& engine, unsigned kills, double most_seconds) const;
+
+ private:
+  const testing_support::TemporaryFolder folder_;
+};
+
 /// Kills runs until so many have been killed, each going on from what the one before it has left; whoever gets to its
 /// end must have the same results.
-void expect_kills_do_not_show(const std::string& engine, unsigned kills, double most_seconds) {
+void Resume::expect_kills_do_not_show(const std::string& engine, unsigned kills, double most_seconds) const {
   const Words same = {"--checkpoint", here("kill.ckpt").string(), "--checkpoint-minutes",
                       engine == "qemu" ? "0.01" : "0.0005"};
   const Finished whole = run_torolux(render_words(into("whole"), engine));
   ASSERT_EQ(whole.exit_code, 0) << whole.errors;
   const Results expected = results("whole");
-  std::filesystem::remove(here("kill.ckpt"));
   std::mt19937 random(16);
   unsigned ends = 0;
   for (unsigned killed = 0; killed < kills || ends == 0;) {
@@ -94,19 +99,18 @@ void expect_kills_do_not_show(const std::string& engine, unsigned kills, double 
   }
 }
 
-TEST(Resume, KillsDoNotShow) {
+TEST_F(Resume, KillsDoNotShow) {
   expect_kills_do_not_show("translated", kKills, 0.6);
 }
 
-TEST(Resume, KillsOfQemuDoNotShow) {
+TEST_F(Resume, KillsOfQemuDoNotShow) {
   expect_kills_do_not_show("qemu", 3, 2.5);
 }
 
-TEST(Resume, CtrlCSavesAndSaysHowToGoOn) {
+TEST_F(Resume, CtrlCSavesAndSaysHowToGoOn) {
   ASSERT_EQ(run_torolux(render_words(into("whole"))).exit_code, 0);
   Words words = render_words(joined(into("first"), {"--checkpoint", here("ctrl_c.ckpt").string()}));
   std::erase(words, "--quiet");
-  std::filesystem::remove(here("ctrl_c.ckpt"));
   ToroluxProcess process(words);
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
   process.signal(SIGINT);
@@ -132,7 +136,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-TEST(Resume, RefusesWhatIsNotOfThisRun) {
+TEST_F(Resume, RefusesWhatIsNotOfThisRun) {
   const std::string file = here("good.ckpt").string();
   ASSERT_EQ(run_torolux(render_words({"--no-picture", "--checkpoint", file})).exit_code, 0);
   const Words resume = {"--resume", file};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/physics/same_picture.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace torolux::test {
 namespace {
@@ -71,7 +72,8 @@ TEST(Repetition, FiguresAreExactlyTheSame) {
 
 /// Saved radiosities with a second camera: the bytes of a full run with that camera, and no shots.
 TEST(SavedRadiosity, ServesASecondCamera) {
-  const std::filesystem::path file = testing::TempDir() + "torolux_saved_radiosity_test.bin";
+  const testing_support::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "radiosities";
   RenderCase first = small_cornell();
   first.files.save_radiosity = file;
   run_case(first);
@@ -82,7 +84,6 @@ TEST(SavedRadiosity, ServesASecondCamera) {
   view.files.radiosity = file;
   const RenderResult of_full = run_case(full);
   const RenderResult of_view = run_case(view);
-  std::filesystem::remove(file);
   EXPECT_EQ(bytes_of(of_full.picture), bytes_of(of_view.picture));
   EXPECT_EQ(of_view.figures.shots, 0U);
   EXPECT_GT(of_full.figures.shots, 0U);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/physics/same_picture.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace torolux::test {
 namespace {
@@ -17,7 +18,8 @@ class Torus : public testing::TestWithParam<std::pair<unsigned, unsigned>> {};
 // The draft, its splits and the fine mesh are the same on any machine; so is a view of saved radiosities, which carry
 // the splits.
 TEST(Refinement, IsTheSameOnAnyMachine) {
-  const std::filesystem::path file = testing::TempDir() + "torolux_refinement_test.bin";
+  const testing_support::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "radiosities";
   RenderCase cornell = small_cornell();
   cornell.quality.refine = 1;
   cornell.machine.columns = cornell.machine.rows = 1;
@@ -33,7 +35,6 @@ TEST(Refinement, IsTheSameOnAnyMachine) {
   EXPECT_EQ(bytes_of(run_case(cornell).picture), bytes_of(one.picture));
   cornell.files.radiosity = file;
   EXPECT_EQ(bytes_of(run_case(cornell).picture), bytes_of(one.picture));
-  std::filesystem::remove(file);
 }
 
 TEST_P(Torus, MakesTheSamePicture) {
@@ -121,14 +122,13 @@ struct Solved {
 };
 
 Solved solve(RenderCase render_case) {
-  const std::filesystem::path file = testing::TempDir() + "torolux_sharing_test.bin";
+  const testing_support::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "radiosities";
   render_case.files.save_radiosity = file;
   const RenderResult result = run_case(render_case);
   expect_all_home(result);
   std::ifstream stream(file, std::ios::binary);
-  Solved solved{bytes_of(result.picture), {std::istreambuf_iterator<char>(stream), {}}};
-  std::filesystem::remove(file);
-  return solved;
+  return {bytes_of(result.picture), {std::istreambuf_iterator<char>(stream), {}}};
 }
 
 class Shared : public testing::TestWithParam<Sharing> {};

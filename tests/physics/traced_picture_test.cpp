@@ -4,6 +4,7 @@
 
 #include "tests/references/picture_error.hpp"
 #include "tests/support/render_support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace torolux::test {
 namespace {
@@ -94,7 +95,8 @@ double mean_of(const Picture& picture) {
 // Both ways bring the same light: on surfaces without glass or mirrors before them only the noise of the picture (and
 // what interpolation does at shadows' edges) lies between them. Of the very same radiosities, so nothing else differs.
 TEST(ShadowRays, BringAsMuchLightAsElements) {
-  const std::filesystem::path file = testing::TempDir() + "torolux_shadow_rays_test.bin";
+  const testing_support::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "radiosities";
   RenderCase box = small("cornell_box", 100);
   box.quality.element_length = 25;
   box.quality.samples = 8;
@@ -103,7 +105,6 @@ TEST(ShadowRays, BringAsMuchLightAsElements) {
   box.files = {.save_radiosity = std::nullopt, .save_mesh = std::nullopt, .radiosity = file};
   box.quality.shadow_rays = true;
   const double by_shadow_rays = mean_of(run_case(box).picture);
-  std::filesystem::remove(file);
   EXPECT_NEAR(by_shadow_rays / by_elements, 1, 0.003);
 }
 
