@@ -4,10 +4,14 @@
 #include "host_tools/mesh/smooth_surfaces.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <span>
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/edges.hpp"
 #include "host_tools/mesh/mesh.hpp"
+#include "host_tools/mesh/pierced.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -25,6 +29,75 @@ bool smooth_across(const Mesh& mesh, const std::vector<bool>& small, const EdgeU
   const double least = small[a.triangle] && small[b.triangle] ? kSmoothCosineOfSmall : kSmoothCosine;
   return first.sides != 0 && first.sides == second.sides && first.material == second.material &&
          a.forward != b.forward && vec::dot(unit_normal(first), unit_normal(second)) > least;
+}
+
+Vec3d middle_of(const Mesh& mesh, const EdgeUse& use) {
+  const auto& corner = mesh.triangles[use.triangle].corner;
+  return vec::scale(vec::add(to_double(corner[use.edge]), to_double(corner[(use.edge + 1U) % 3U])), 0.5);
+}
+
+/// Both uses of an edge that two triangles share.
+using SharedEdge = std::array<EdgeUse, 2>;
+
+/// Where another surface passes through a smooth one of small triangles, that is parted, as large ones are by walls:
+/// inside, where a teapot's spout ends in its body, it is dark. What is pierced goes with the larger part, of which
+/// more is seen. By triangle: a number of its part.
+class Parts {
+ public:
+  Parts(const Mesh& mesh, std::span<const SharedEdge> edges) : edges_(edges), part_(mesh.triangles.size()) {
+    std::vector<SmoothEdge> ways;
+    ways.reserve(edges.size());
+    for (const auto& [a, b] : edges) ways.push_back({{a.triangle, b.triangle}, middle_of(mesh, a)});
+    const std::vector<bool> pierced = pierced_triangles(mesh, ways);
+    DisjointSets whole(mesh.triangles.size());
+    for (const auto& [a, b] : edges) {
+      if (!pierced[a.triangle] && !pierced[b.triangle]) whole.merge(a.triangle, b.triangle);
+    }
+    area_.assign(mesh.triangles.size(), 0);
+    for (std::uint32_t t = 0; t < part_.size(); ++t) {
+      part_[t] = pierced[t] ? kNoNeighbour : whole.root(t);
+      if (!pierced[t]) area_[part_[t]] += mesh.triangles[t].area;
+    }
+    while (join_neighbours()) {
+    }
+  }
+
+  bool same(const SharedEdge& edge) const { return part_[edge[0].triangle] == part_[edge[1].triangle]; }
+
+ private:
+  /// Those that are pierced, and beside a part, become the largest's. False: there are none.
+  bool join_neighbours() {
+    std::map<std::uint32_t, std::uint32_t> joined;
+    for (const auto& [a, b] : edges_) {
+      consider(a.triangle, b.triangle, joined);
+      consider(b.triangle, a.triangle, joined);
+    }
+    for (const auto& [triangle, part] : joined) part_[triangle] = part;
+    return !joined.empty();
+  }
+  void consider(std::uint32_t triangle, std::uint32_t beside, std::map<std::uint32_t, std::uint32_t>& joined) const {
+    if (part_[triangle] != kNoNeighbour || part_[beside] == kNoNeighbour) return;
+    const auto [at, is_new] = joined.try_emplace(triangle, part_[beside]);
+    if (!is_new && area_[part_[beside]] > area_[at->second]) at->second = part_[beside];
+  }
+
+  std::span<const SharedEdge> edges_;
+  std::vector<std::uint32_t> part_;  // by triangle; kNoNeighbour: pierced, and beside no part
+  std::vector<double> area_;         // by part
+};
+
+/// Edges across which radiance passes on.
+std::vector<SharedEdge> smooth_edges(const Mesh& mesh, const std::vector<bool>& small, std::span<const EdgeUse> uses) {
+  std::vector<SharedEdge> smooth;
+  std::vector<SharedEdge> of_small;
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    // A third triangle at an edge is a wall that stands there: light on one side of it must not show on the other.
+    if (edge.size() != 2 || !smooth_across(mesh, small, edge[0], edge[1])) return;
+    (small[edge[0].triangle] && small[edge[1].triangle] ? of_small : smooth).push_back({edge[0], edge[1]});
+  });
+  const Parts parts(mesh, of_small);
+  std::ranges::copy_if(of_small, std::back_inserter(smooth), [&](const SharedEdge& edge) { return parts.same(edge); });
+  return smooth;
 }
 
 /// Corner of a use's triangle at the edge's lower position, then at its higher one.
@@ -46,9 +119,7 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& s
   DisjointSets edges(nodes);
   SmoothSurfaces surfaces;
   surfaces.neighbour.assign(mesh.triangles.size(), {kNoNeighbour, kNoNeighbour, kNoNeighbour});
-  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
-    // A third triangle at an edge is a wall that stands there: light on one side of it must not show on the other.
-    if (edge.size() != 2 || !smooth_across(mesh, small, edge[0], edge[1])) return;
+  for (const SharedEdge& edge : smooth_edges(mesh, small, uses)) {
     edges.merge(3 * edge[0].triangle + edge[0].edge, 3 * edge[1].triangle + edge[1].edge);
     const auto ends = end_nodes(edge[0]);
     const auto other_ends = end_nodes(edge[1]);
@@ -56,7 +127,7 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& s
     corners.merge(ends[1], other_ends[1]);
     surfaces.neighbour[edge[0].triangle][edge[0].edge] = edge[1].triangle;
     surfaces.neighbour[edge[1].triangle][edge[1].edge] = edge[0].triangle;
-  });
+  }
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     auto& corner_node = surfaces.corner_node.emplace_back();
     auto& edge_node = surfaces.edge_node.emplace_back();
