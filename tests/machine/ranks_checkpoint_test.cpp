@@ -71,22 +71,22 @@ RenderCase small_case() {
   small.machine.engine = "translated";
   small.machine.threads = 1;
   small.machine.columns = 3;
-  small.quality.max_shots = 12;
+  small.quality.max_shots = 5;
   return small;
 }
 
 TEST(CheckpointOnRanks, PiecesAnywhereAreTheWhole) {
-  expect_same_in_pieces(small_case(), 17, 7);
+  expect_same_in_pieces(small_case(), 11, 7);
 }
 
 // Copies that fail their CRC, delays by chance, and diverted records, since there are few slots; arrivals that wait.
 TEST(CheckpointOnRanks, WhatIsOnItsWayIsSaved) {
   RenderCase render_case = small_case();
-  render_case.quality.max_shots = 6;
+  render_case.quality.max_shots = 3;
   render_case.machine.description.jitter = {.seed = 5, .cycles = 64};
   render_case.machine.description.torus.link_error_rate = 0.05;
   render_case.machine.description.records.niu_slots = 48;
-  expect_same_in_pieces(render_case, 13, 7);
+  expect_same_in_pieces(render_case, 9, 7);
 }
 
 }  // namespace
