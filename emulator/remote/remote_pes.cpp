@@ -6,6 +6,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <exception>
 #include <string>
 
 #include "emulator/engines/engine/pe_hold.hpp"
@@ -159,7 +160,7 @@ void RemotePes::stop() {
   stopped_ = true;
   try {
     for (const Rank& rank : ranks_) others_.send(rank.number, Kind::stop);
-  } catch (const ranks::RankFailure&) {
+  } catch (const std::exception&) {
     return;
   }
   std::size_t failures = 0;
@@ -167,7 +168,7 @@ void RemotePes::stop() {
     try {
       if (!receive()) others_.wait();
       others_.check_lost();
-    } catch (const ranks::RankFailure&) {
+    } catch (const std::exception&) {
       ++failures;  // each can fail once; one that is lost does so again and again
     }
   }
