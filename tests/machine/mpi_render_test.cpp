@@ -58,7 +58,7 @@ std::uint64_t hash_of_sort(unsigned ranks, const std::string& threads, const std
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "a.json";
   const std::string pes = std::to_string(kGoldenColumns) + "x" + std::to_string(kGoldenRows);
-  std::vector<std::string> words = {"run",       TOROLUX_FIRMWARE_DIR "/sort.elf",
+  std::vector<std::string> words = {"run",       std::string(TOROLUX_FIRMWARE_DIR) + "/sort.elf",
                                     "--engine",  "interpreted",
                                     "--pes",     pes,
                                     "--placing", placing,
