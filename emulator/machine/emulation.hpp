@@ -9,6 +9,7 @@
 
 #include "emulator/bus/bus.hpp"
 #include "emulator/engines/engine/engine.hpp"
+#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
 #include "emulator/machine/call_stacks.hpp"
@@ -43,10 +44,12 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void begin_picture(std::uint32_t width, std::uint32_t height, std::uint32_t layers);
   /// Before the run, which then goes on from what `save` of an equal machine has written. Throws InputError.
   void restore(SnapshotReader& archive);
-  /// Waits until no PE can do more before something else happens: so much may be saved.
+  /// Waits until no PE can do more before something else happens.
   void let_rest();
-  /// The same, but for PEs that take turns: of those, what they have done is known.
-  void let_others_rest();
+  /// The same, but for PEs that take turns, of which what they have done is known; and no PE executes anything until
+  /// let_go. So much may be saved.
+  void hold_at_rest();
+  void let_go();
   void save(SnapshotWriter& archive);
   bool has_failed() const { return !failure_.empty(); }
   void tell_to_stop();
@@ -86,6 +89,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void fill_in_stages(MachineFigures& all, unsigned pe, const ProcessorMark& end) const;
   template <class Archive>
   void archive(Archive& archive);
+  void archive_niu(SnapshotReader& archive, unsigned pe);
+  void archive_niu(SnapshotWriter& archive, unsigned pe);
   bool empty() const;
   bool stops_before_end();
   std::string deadlock_report();
@@ -139,6 +144,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   CallStacks& stacks_;
   PhaseNames phases_;
   Engine& engine_;
+  PeHold* hold_;  // null: its PEs go nowhere while they wait
   HostProgram* program_;
   EventQueue events_;
   BlockPool pool_;

@@ -114,8 +114,9 @@ struct Machine::Parts {
     }
     const auto save_all = [this, &program](SnapshotWriter& archive) {
       program.save(archive);
-      emulation->let_others_rest();
+      emulation->hold_at_rest();
       save(archive);
+      emulation->let_go();
     };
     setup.debugging.debugger->may_save(program.can_be_saved() ? PeDebugger::Save(save_all) : nullptr);
   }
@@ -125,6 +126,7 @@ struct Machine::Parts {
       archive.section("PE");
       PeRegisters registers = engine->save(pe);  // first: only then does the NIU driver know that its HINT waits
       archive(registers);
+      engine->bring(pe, 0, setup.local_memory_bytes);
       archive_memory(archive, memory.pes[pe].local.bytes().first(setup.local_memory_bytes));
     }
   }
@@ -141,8 +143,9 @@ struct Machine::Parts {
   /// After a message that the host has read.
   void save_if_due() {
     if (!setup.keeper->is_due() || emulation->has_failed()) return;
-    emulation->let_rest();
+    emulation->hold_at_rest();
     setup.keeper->keep([this](SnapshotWriter& archive) { save(archive); });
+    emulation->let_go();
   }
   void stop_engine() {
     emulation->tell_to_stop();

@@ -98,6 +98,7 @@ PeMemories mirrors_of(const MachineSetup& setup, const ImageSet& images) {
   std::vector<bool> is_tried(images.images().size());
   for (unsigned pe = 0; pe < pes; ++pe) {
     made.pes.push_back(make_memory(pe, pe, setup, made.channels, true));
+    niu_channel_at(made.pes.back().channel.bytes().data())->near = 1;  // its other end is: what is for the PE is lent
     // What is wrong with an image is told here, as in one process.
     if (!is_tried[images.number_of(pe)]) fill_in(made.pes.back(), pe, setup, images.of(pe));
     is_tried[images.number_of(pe)] = true;

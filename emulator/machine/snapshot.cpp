@@ -4,6 +4,15 @@
 
 namespace torolux {
 
+void Emulation::archive_niu(SnapshotReader& archive, unsigned pe) {
+  archive(nius_[pe]);
+}
+
+void Emulation::archive_niu(SnapshotWriter& archive, unsigned pe) {
+  nius_[pe].archive_own(archive);
+  if (hold_ == nullptr || !hold_->save_channel(pe, archive)) nius_[pe].archive_channel_here(archive);
+}
+
 /// All that a run changes; what is neither here nor in the archives of the parts is set when a machine is made.
 template <class Archive>
 void Emulation::archive(Archive& archive) {
@@ -11,7 +20,7 @@ void Emulation::archive(Archive& archive) {
   archive(events_, pool_);
   archive.section("NIUs");
   archive(times_.bounds, times_.releases);
-  for (NiuNetworkSide& niu : nius_) archive(niu);
+  for (unsigned pe = 0; pe < pes_; ++pe) archive_niu(archive, pe);
   archive(parts_);
   archive.section("torus");
   archive(torus_);
@@ -31,10 +40,25 @@ void Emulation::let_rest() {
   }
 }
 
-void Emulation::let_others_rest() {
-  for (unsigned pe = 0; pe < pes_; ++pe) {
-    while (!at_rest(pe) && !engine_.takes_turns(pe)) await(pe, kNever);
+/// A PE that waits to be woken may go on by itself where an arrival that is there decides (hint_receive.cpp): whether
+/// one has is only known once none runs any more.
+void Emulation::hold_at_rest() {
+  const auto stands = [this](unsigned pe) { return at_rest(pe) || engine_.takes_turns(pe); };
+  for (;;) {
+    for (unsigned pe = 0; pe < pes_; ++pe) {
+      while (!stands(pe)) await(pe, kNever);
+    }
+    if (hold_ == nullptr) return;
+    hold_->hold();
+    bool all = true;
+    for (unsigned pe = 0; pe < pes_; ++pe) all = stands(pe) && all;
+    if (all) return;
+    hold_->let_go();
   }
+}
+
+void Emulation::let_go() {
+  if (hold_ != nullptr) hold_->let_go();
 }
 
 void Emulation::save(SnapshotWriter& archive) {

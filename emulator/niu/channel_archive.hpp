@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A channel whose processor waits, to bytes and back: what a run changes of it, of its rings what they hold.
+// A channel whose processor waits, to bytes and back: what a run changes of it, of its rings what they hold. The
+// commands have all been taken by then.
 #pragma once
 
 #include <algorithm>
@@ -13,20 +14,28 @@
 
 namespace torolux {
 
+/// As if its contents followed it, wherever they are: so it can go elsewhere.
+inline Arrival with_contents_behind(const Arrival& arrival) {
+  Arrival header = arrival;
+  header.payload = nullptr;
+  header.shared = false;
+  header.lent = 0;
+  header.bytes = static_cast<std::uint32_t>(contents_of(arrival).size());
+  return header;
+}
+
+inline void archive_arrival(SnapshotWriter& archive, const Arrival& arrival, std::span<const std::byte> contents) {
+  Arrival header = with_contents_behind(arrival);
+  archive(header);
+  archive.append(contents);
+}
+
 inline void archive_arrivals(SnapshotWriter& archive, NiuChannel& channel) {
   std::uint64_t count = 0;
   channel.arrivals.for_each([&count](const Arrival&) { ++count; });
   archive(count);
-  channel.arrivals.for_each([&](const Arrival& arrival) {
-    const auto contents = contents_of(arrival);
-    Arrival header = arrival;
-    header.payload = nullptr;
-    header.shared = false;
-    header.lent = 0;
-    header.bytes = static_cast<std::uint32_t>(contents.size());
-    archive(header);
-    archive.append(contents);
-  });
+  channel.arrivals.for_each(
+      [&archive](const Arrival& arrival) { archive_arrival(archive, arrival, contents_of(arrival)); });
 }
 
 /// The ring is empty.
@@ -55,12 +64,18 @@ inline void archive_arrivals(SnapshotReader& archive, NiuChannel& channel) {
   }
 }
 
+/// All but the arrivals. horizon: as in the channel, where no arrivals are kept elsewhere.
+template <class Archive>
+void archive_channel_state(Archive& archive, NiuChannel& channel, std::atomic<std::uint64_t>& horizon) {
+  archive(channel.bound, channel.wait, channel.clock, channel.waits, channel.copied, channel.instructions,
+          channel.taken, channel.phase_cycles, channel.gather_cycles, channel.gather_records, horizon, channel.wakes,
+          channel.wake_time, channel.torus_departures.count, channel.torus_departures.time,
+          channel.bus_departures.count, channel.bus_departures.time, channel.processor);
+}
+
 template <class Archive>
 void archive_channel(Archive& archive, NiuChannel& channel) {
-  archive(channel.bound, channel.wait, channel.clock, channel.waits, channel.copied, channel.instructions,
-          channel.taken, channel.phase_cycles, channel.gather_cycles, channel.gather_records, channel.horizon,
-          channel.wakes, channel.wake_time, channel.torus_departures.count, channel.torus_departures.time,
-          channel.bus_departures.count, channel.bus_departures.time, channel.processor);
+  archive_channel_state(archive, channel, channel.horizon);
   archive_arrivals(archive, channel);
 }
 

@@ -148,10 +148,19 @@ class alignas(64) NiuNetworkSide {
   /// All that a run changes on both sides of the NIU; only while the processor waits, and as of the last refresh.
   template <class Archive>
   void archive(Archive& archive) {
+    archive_own(archive);
+    archive_channel_here(archive);
+  }
+  template <class Archive>
+  void archive_channel_here(Archive& archive) {
+    archive_channel(archive, *channel_);
+  }
+  /// But for the channel.
+  template <class Archive>
+  void archive_own(Archive& archive) {
     archive(slots_, used_, high_water_, receiving_, receiving_high_water_, asked_, bus_buffer_used_, copy_free_,
             copy_in_cycles_, floor_, bound_, wait_, taken_, wakes_, stage_, gathered_, overflow_, horizon_,
             departed_torus_, departed_bus_, sends_, control_used_);
-    archive_channel(archive, *channel_);
   }
   /// Whether all that was delivered has been taken, as of the last refresh.
   bool nothing_gathered() const { return gathered_.empty(); }

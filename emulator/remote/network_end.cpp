@@ -2,7 +2,10 @@
 // The mirror is always as if the processor had done, a while ago, what it has told: a bound that is old is still one.
 #include "emulator/remote/network_end.hpp"
 
+#include <algorithm>
 #include <string>
+
+#include "emulator/niu/channel_archive.hpp"
 
 namespace torolux::remote {
 namespace {
@@ -19,14 +22,40 @@ NetworkEnd::NetworkEnd(NiuChannel& channel) : channel_(&channel) {
   channel.asleep.store(1);  // whatever it is woken for is told
 }
 
+void NetworkEnd::resume() {
+  told_torus_ = channel_->torus_departures.count.load(kRelaxed);
+  told_bus_ = channel_->bus_departures.count.load(kRelaxed);
+  told_wakes_ = channel_->wakes.load(kRelaxed);
+}
+
+/// Contents go where the network would put them.
+void NetworkEnd::push(const Command& command, std::span<const std::byte> contents) {
+  received_ += entry_bytes(command);
+  if (contents.empty() || channel_->payloads == nullptr) return channel_->commands.push(command, contents);
+  Command lending = command;
+  lending.payload = channel_->payloads->take_or_make();
+  lending.lent = static_cast<std::uint16_t>(contents.size());
+  std::ranges::copy(contents, lending.payload->bytes.begin());
+  channel_->commands.push(lending, {});
+}
+
+void NetworkEnd::pop(const Arrival& arrival) {
+  if (arrival.shared) {
+    channel_->payloads->let_go(arrival.payload);
+  } else if (arrival.payload != nullptr) {
+    channel_->payloads->give_back(arrival.payload);
+  }
+  channel_->arrivals.pop(arrival);
+}
+
 void NetworkEnd::take(const News& news, ByteReader& rest) {
   for (std::uint32_t i = 0; i < news.commands; ++i) {
     const auto command = rest.get<Command>();
-    if (!channel_->commands.has_room(command.bytes))
+    const auto contents = rest.get_bytes(command.bytes);
+    if (contents.size() > kMostBlockBytes || !channel_->commands.has_room(command.bytes))
       throw MachineFailure("PE " + std::to_string(news.pe) +
                            ": its rank has sent more commands than there is room for");
-    channel_->commands.push(command, rest.get_bytes(command.bytes));
-    received_ += entry_bytes(command);
+    push(command, contents);
   }
   channel_->clock.store(news.clock, kRelaxed);
   channel_->copied.store(news.copied, kRelaxed);
@@ -72,9 +101,9 @@ bool NetworkEnd::collect(unsigned pe, ByteWriter& words) {
   depart(channel_->bus_departures, told_bus_);
   std::uint32_t arrivals = 0;
   for (; const Arrival* arrival = channel_->arrivals.front(); ++arrivals) {
-    words.put(*arrival);
+    words.put(with_contents_behind(*arrival));
     words.put_bytes(contents_of(*arrival));
-    channel_->arrivals.pop(*arrival);
+    pop(*arrival);
   }
   told_horizon_ = channel_->horizon.load(kRelaxed);
   told_wakes_ = channel_->wakes.load(kRelaxed);

@@ -22,11 +22,15 @@ class NetworkEnd {
   void wake() { wakes_ = true; }
   /// Asks the PE's rank for news, once until there are some. True: it is to be asked.
   bool ask();
+  /// The channel is as a saved run has left it, and so will that on the PE's rank be.
+  void resume();
   /// What the network has written since the last time; nothing is written where it is nothing. True: something.
   bool collect(unsigned pe, ByteWriter& words);
 
  private:
   bool has_news() const;
+  void push(const Command& command, std::span<const std::byte> contents);
+  void pop(const Arrival& arrival);
 
   NiuChannel* channel_;
   bool wakes_ = false;

@@ -13,10 +13,15 @@
 #include "emulator/errors.hpp"
 #include "emulator/niu/network_side.hpp"
 #include "emulator/niu/processor_side.hpp"
+#include "emulator/ranks/content.hpp"
 #include "emulator/remote/counts.hpp"
-#include "emulator/snapshot/archive.hpp"
+#include "emulator/snapshot/memory.hpp"
 
 namespace torolux::remote {
+
+using ranks::bytes_of_archive;
+using ranks::read_archive;
+
 namespace {
 
 double cpu_seconds() {
@@ -51,6 +56,7 @@ PeBlock::PeBlock(BlockSetup setup)
   for (unsigned index = 0; index < setup_.numbers.size(); ++index) index_of_[setup_.numbers[index]] = index;
   memory_ = make_pes(machine, setup_.images, setup_.numbers, std::vector<bool>(pes));
   engine_ = engine_named(machine.engine)({machine.description, setup_.images, memory_.pes, threads_});
+  hold_ = dynamic_cast<PeHold*>(engine_.get());
   has_waker_ = engine_->waker(0) != nullptr;
   for (unsigned index = 0; index < setup_.numbers.size(); ++index) {
     NiuChannel& channel = *niu_channel_at(memory_.pes[index].channel.bytes().data());
@@ -137,6 +143,7 @@ void PeBlock::collect_active() {
 }
 
 bool PeBlock::run() {
+  if (is_held_) return false;
   if (wanted_ && !is_active_[*wanted_]) wanted_.reset();
   if (active_.empty()) return false;
   const unsigned index = wanted_.value_or(active_.front());
@@ -160,25 +167,54 @@ void PeBlock::forget_news() {
 }
 
 std::vector<std::byte> PeBlock::figures() {
-  std::vector<std::byte> bytes;
-  SnapshotWriter writer(
-      [&bytes](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
   double seconds = cpu_seconds() - begin_cpu_;
-  writer(seconds);
-  for (ProcessorEnd& end : ends_) archive_counts(writer, end.channel());
-  writer.flush();
-  return bytes;
+  return bytes_of_archive([&](SnapshotWriter& writer) {
+    writer(seconds);
+    for (ProcessorEnd& end : ends_) archive_counts(writer, end.channel());
+  });
 }
 
-std::span<const std::byte> PeBlock::memory(const MemoryPart& part) const {
+std::vector<std::byte> PeBlock::memory(const MemoryPart& part) const {
   const auto local = memory_.pes[index_of(part.pe)].local.bytes().first(setup_.machine.local_memory_bytes);
-  if (part.offset > local.size() || part.bytes > local.size() - part.offset)
+  if (part.offset > local.size() || part.bytes > local.size() - part.offset || part.bytes % protocol::kPageBytes != 0)
     throw MachineFailure("rank 0 asks for memory that PE " + std::to_string(part.pe) + " does not have");
-  return local.subspan(part.offset, part.bytes);
+  return bytes_of_archive(
+      [&](SnapshotWriter& writer) { archive_memory(writer, local.subspan(part.offset, part.bytes)); });
 }
 
 std::optional<StackRegisters> PeBlock::registers(unsigned pe) {
   return engine_->stack_registers(index_of(pe));
+}
+
+// ---- Saving and going on ----
+
+void PeBlock::restore(std::span<const std::byte> bytes) {
+  read_archive(bytes, [&](SnapshotReader& reader) {
+    RestoredPe pe;
+    reader(pe);
+    const unsigned index = index_of(pe.number);
+    ends_[index].restore(reader);
+    archive_memory(reader, memory_.pes[index].local.bytes().first(setup_.machine.local_memory_bytes));
+    engine_->restore(index, pe.registers);
+  });
+}
+
+void PeBlock::hold() {
+  hold_->hold();
+  is_held_ = true;
+  for (unsigned index = 0; index < ends_.size(); ++index) collect(index);
+}
+
+/// Each looks again.
+void PeBlock::let_go() {
+  is_held_ = false;
+  hold_->let_go();
+  for (unsigned index = 0; index < ends_.size(); ++index) activate(index);
+}
+
+std::vector<std::byte> PeBlock::channel(unsigned pe) {
+  ProcessorEnd& end = ends_[index_of(pe)];
+  return bytes_of_archive([&end](SnapshotWriter& writer) { end.save(writer); });
 }
 
 }  // namespace torolux::remote

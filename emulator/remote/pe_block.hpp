@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "emulator/engines/engine/engine.hpp"
+#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/machine/pe_memory.hpp"
 #include "emulator/remote/processor_end.hpp"
 #include "emulator/remote/setup_message.hpp"
@@ -39,15 +40,27 @@ class PeBlock {
   /// Rank 0 waits for them.
   bool has_wanted_news() const { return has_wanted_news_; }
   /// Nothing runs here until words come.
-  bool rests() const { return active_.empty(); }
+  bool rests() const { return is_held_ || active_.empty(); }
   void forget_news();
 
   /// Of all its PEs, as archive_counts writes them, behind its CPU time [s].
   std::vector<std::byte> figures();
-  /// As it stands.
-  std::span<const std::byte> memory(const MemoryPart& part) const;
+  /// As it stands, as archive_memory writes it.
+  std::vector<std::byte> memory(const MemoryPart& part) const;
   std::optional<StackRegisters> registers(unsigned pe);
   void check() { engine_->check(); }
+
+  // ---- Saving and going on ----
+
+  bool can_be_saved() const { return hold_ != nullptr && engine_->can_be_saved(); }
+  /// Before the start. bytes: of a message Kind::restore.
+  void restore(std::span<const std::byte> bytes);
+  /// From here to let_go no PE executes anything; all that they have said is in `news`.
+  void hold();
+  void let_go();
+  /// While held: as archive_channel writes it.
+  std::vector<std::byte> channel(unsigned pe);
+  PeRegisters saved(unsigned pe) { return engine_->save(index_of(pe)); }
 
  private:
   unsigned index_of(unsigned pe) const;
@@ -61,6 +74,7 @@ class PeBlock {
   unsigned threads_;
   PeMemories memory_;
   std::unique_ptr<Engine> engine_;
+  PeHold* hold_ = nullptr;  // the engine's; null: it has none
   bool has_waker_ = false;
   std::vector<ProcessorEnd> ends_;
   std::map<unsigned, unsigned> index_of_;  // by the PE's number
@@ -70,7 +84,7 @@ class PeBlock {
   std::vector<bool> is_told_;
   std::optional<unsigned> wanted_;
   bool has_wanted_news_ = false;
-  bool running_ = false;
+  bool running_ = false, is_held_ = false;
   double begin_cpu_ = 0;
   ByteWriter news_;
 };

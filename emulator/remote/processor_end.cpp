@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "emulator/niu/channel_archive.hpp"
 #include "emulator/niu/futex.hpp"
 
 namespace torolux::remote {
@@ -115,6 +116,29 @@ void ProcessorEnd::refill() {
   if (late_.size() == before) return;
   publish_horizon();
   wake();
+}
+
+void ProcessorEnd::save(SnapshotWriter& archive) {
+  std::atomic<std::uint64_t> horizon = horizon_;
+  archive_channel_state(archive, *channel_, horizon);
+  std::uint64_t count = late_.size();
+  channel_->arrivals.for_each([&count](const Arrival&) { ++count; });
+  archive(count);
+  channel_->arrivals.for_each(
+      [&archive](const Arrival& arrival) { archive_arrival(archive, arrival, contents_of(arrival)); });
+  for (const Late& late : late_) {
+    Arrival header = late.arrival;
+    header.bytes = static_cast<std::uint32_t>(late.payload.size());
+    archive(header);
+    archive.append(late.payload);
+  }
+}
+
+void ProcessorEnd::restore(SnapshotReader& archive) {
+  std::atomic<std::uint64_t> of_network = 0;  // told again, behind the arrivals that it speaks of
+  archive_channel_state(archive, *channel_, of_network);
+  told_bound_ = channel_->bound.load(std::memory_order_relaxed);
+  told_wait_ = channel_->wait.load(std::memory_order_relaxed);
 }
 
 void ProcessorEnd::tell_to_stop() {

@@ -10,6 +10,7 @@
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/waker.hpp"
 #include "emulator/remote/wire.hpp"
+#include "emulator/snapshot/archive.hpp"
 
 namespace torolux::remote {
 
@@ -25,6 +26,10 @@ class ProcessorEnd {
   /// words: of this PE; rest: what follows them.
   void take(const Words& words, ByteReader& rest);
   void tell_to_stop();
+  /// The channel as archive_channel writes it, with all that has come for the PE; while nobody runs it.
+  void save(SnapshotWriter& archive);
+  /// Before the start: what archive_channel_state of an equal machine has written. Arrivals come in words.
+  void restore(SnapshotReader& archive);
 
   /// Whether nothing comes of it before there are words for it.
   bool rests() const;

@@ -3,18 +3,23 @@
 // in one message.
 #include "emulator/remote/remote_pes.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
+#include <exception>
 #include <string>
 
+#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
-#include "emulator/niu/channel.hpp"
+#include "emulator/niu/channel_archive.hpp"
 #include "emulator/niu/processor_side.hpp"
 #include "emulator/ranks/content.hpp"
 #include "emulator/remote/counts.hpp"
 #include "emulator/remote/network_end.hpp"
 #include "emulator/remote/pe_ranks.hpp"
 #include "emulator/remote/setup_message.hpp"
+#include "emulator/snapshot/memory.hpp"
 
 namespace torolux::remote {
 namespace {
@@ -25,7 +30,17 @@ void translate_once(const MachineSetup& setup, const ImageSet& images) {
   engine_named(setup.engine)({setup.description, images, none, 1});
 }
 
-class RemotePes final : public Engine, private ProcessorWaker {
+/// What a mirror holds of its PE's local memory, to this computer: all zeros.
+void give_back(const SharedMemory& local) {
+  const auto begin = reinterpret_cast<std::uintptr_t>(local.bytes().data());
+  const std::uintptr_t first = (begin + protocol::kPageBytes - 1) / protocol::kPageBytes * protocol::kPageBytes;
+  const std::uintptr_t end = (begin + local.bytes().size()) / protocol::kPageBytes * protocol::kPageBytes;
+  std::ranges::fill(local.bytes().first(first - begin), std::byte{0});
+  madvise(local.bytes().data() + (first - begin), end - first, MADV_DONTNEED);
+  std::ranges::fill(local.bytes().subspan(end - begin), std::byte{0});
+}
+
+class RemotePes final : public Engine, public PeHold, private ProcessorWaker {
  public:
   RemotePes(PeRanks& ranks, const MachineSetup& setup, const ImageSet& images, std::vector<PeMemory>& pes);
   RemotePes(const RemotePes&) = delete;
@@ -34,10 +49,20 @@ class RemotePes final : public Engine, private ProcessorWaker {
 
   std::string_view name() const override { return name_; }
   void start() override {
-    for (const Rank& rank : ranks_) others_.send(rank.number, Kind::start);
+    for (const Rank& rank : ranks_) {
+      await_answer(rank);
+      others_.send(rank.number, Kind::start);
+    }
   }
   void check() override { others_.check_lost(); }
   void stop() override;
+
+  bool can_be_saved() const override { return std::ranges::all_of(ranks_, &Rank::can_be_saved); }
+  void hold() override;
+  void let_go() override;
+  bool save_channel(unsigned pe, SnapshotWriter& archive) override;
+  PeRegisters save(unsigned pe) override;
+  void restore(unsigned pe, const PeRegisters& registers) override;
 
   std::optional<StackRegisters> stack_registers(unsigned pe) override;
   void bring_figures() override;
@@ -54,7 +79,8 @@ class RemotePes final : public Engine, private ProcessorWaker {
     std::vector<unsigned> to_tell;  // PEs; each once
     unsigned wanted = kNoPe;
     double seconds = 0;
-    bool ready = false, stopped = false, told_figures = false;
+    bool ready = false, can_be_saved = false, stopped = false;
+    bool answered = true;  // what all are asked at once
   };
 
   bool is_far() const override { return true; }
@@ -76,6 +102,8 @@ class RemotePes final : public Engine, private ProcessorWaker {
   void take_figures(Rank& rank, std::span<const std::byte> bytes);
   Rank& rank_of_message(const ranks::Message& message);
   ranks::Message answer_of(unsigned rank, Kind kind);
+  void ask_all(Kind kind);
+  void await_answer(const Rank& rank);
 
   std::string name_;
   PeRanks& others_;
@@ -86,6 +114,7 @@ class RemotePes final : public Engine, private ProcessorWaker {
   std::vector<bool> is_marked_;
   std::vector<bool> is_page_here_;  // of `looked_at_`
   unsigned looked_at_ = kNoPe;
+  unsigned saved_ = kNoPe;  // its memory is here
   bool stopped_ = false;
   ByteWriter words_;
 };
@@ -131,7 +160,7 @@ void RemotePes::stop() {
   stopped_ = true;
   try {
     for (const Rank& rank : ranks_) others_.send(rank.number, Kind::stop);
-  } catch (const ranks::RankFailure&) {
+  } catch (const std::exception&) {
     return;
   }
   std::size_t failures = 0;
@@ -139,7 +168,7 @@ void RemotePes::stop() {
     try {
       if (!receive()) others_.wait();
       others_.check_lost();
-    } catch (const ranks::RankFailure&) {
+    } catch (const std::exception&) {
       ++failures;  // each can fail once; one that is lost does so again and again
     }
   }
@@ -194,6 +223,11 @@ void RemotePes::take(const ranks::Message& message) {
   switch (static_cast<Kind>(message.kind)) {
     case Kind::ready:
       rank.ready = true;
+      rank.can_be_saved = ranks::content_of<bool>(message.bytes);
+      return;
+    case Kind::restored:
+    case Kind::held:
+      rank.answered = true;
       return;
     case Kind::stopped:
       rank.stopped = true;
@@ -233,23 +267,30 @@ ranks::Message RemotePes::answer_of(unsigned rank, Kind kind) {
 void RemotePes::bring_figures() {
   if (stopped_) return;
   tell();  // so that they have all that they may count
+  ask_all(Kind::ask_figures);
+}
+
+void RemotePes::ask_all(Kind kind) {
   for (Rank& rank : ranks_) {
-    rank.told_figures = false;
-    others_.send(rank.number, Kind::ask_figures);
+    rank.answered = false;
+    others_.send(rank.number, kind);
   }
-  while (!std::ranges::all_of(ranks_, &Rank::told_figures)) {
+  for (const Rank& rank : ranks_) await_answer(rank);
+}
+
+void RemotePes::await_answer(const Rank& rank) {
+  while (!rank.answered) {
     if (!receive()) others_.wait();
     others_.check_lost();
   }
 }
 
 void RemotePes::take_figures(Rank& rank, std::span<const std::byte> bytes) {
-  rank.told_figures = true;
-  ByteReader rest(bytes);
-  SnapshotReader reader(
-      [&rest](std::span<std::byte> into) { std::ranges::copy(rest.get_bytes(into.size()), into.begin()); });
-  reader(rank.seconds);
-  for (const unsigned pe : rank.pes) archive_counts(reader, *niu_channel_at(pes_[pe].channel.bytes().data()));
+  rank.answered = true;
+  ranks::read_archive(bytes, [&](SnapshotReader& reader) {
+    reader(rank.seconds);
+    for (const unsigned pe : rank.pes) archive_counts(reader, *niu_channel_at(pes_[pe].channel.bytes().data()));
+  });
 }
 
 double RemotePes::seconds_elsewhere() const {
@@ -279,10 +320,59 @@ void RemotePes::bring(unsigned pe, std::uint32_t offset, std::uint32_t bytes) {
   const unsigned rank = ranks_[place_[pe]].number;
   others_.send(rank, Kind::ask_memory, ranks::bytes_of(part));
   const ranks::Message answer = answer_of(rank, Kind::memory);
-  if (answer.bytes.size() != part.bytes)
-    throw ranks::RankFailure(others_.name_of(rank) + " has sent too little memory");
-  std::ranges::copy(answer.bytes, pes_[pe].local.bytes().subspan(part.offset).begin());
+  ranks::read_archive(answer.bytes, [&](SnapshotReader& reader) {
+    archive_memory(reader, pes_[pe].local.bytes().subspan(part.offset, part.bytes));
+  });
   std::fill(is_page_here_.begin() + first, is_page_here_.begin() + end, true);
+}
+
+// ---- Saving and going on ----
+
+/// First they are told all that the network has written: what their channels say is then up to date.
+void RemotePes::hold() {
+  for (unsigned pe = 0; pe < pes_.size(); ++pe) mark(pe);
+  tell();
+  ask_all(Kind::hold);
+}
+
+void RemotePes::let_go() {
+  for (const Rank& rank : ranks_) others_.send(rank.number, Kind::let_go);
+}
+
+bool RemotePes::save_channel(unsigned pe, SnapshotWriter& archive) {
+  const unsigned rank = ranks_[place_[pe]].number;
+  others_.send(rank, Kind::ask_channel, ranks::bytes_of(static_cast<std::uint32_t>(pe)));
+  archive.append(answer_of(rank, Kind::channel).bytes);
+  return true;
+}
+
+/// This computer need not have the memory of all PEs: one at a time.
+PeRegisters RemotePes::save(unsigned pe) {
+  if (saved_ != kNoPe) give_back(pes_[saved_].local);
+  saved_ = pe;
+  looked_at_ = kNoPe;
+  const unsigned rank = ranks_[place_[pe]].number;
+  others_.send(rank, Kind::ask_saved, ranks::bytes_of(static_cast<std::uint32_t>(pe)));
+  return ranks::content_of<PeRegisters>(answer_of(rank, Kind::saved).bytes);
+}
+
+/// Its channel and memory stand here as they were saved. A rank gets the next PE once it has taken this one: what has
+/// been sent lies in this computer's memory until then.
+void RemotePes::restore(unsigned pe, const PeRegisters& registers) {
+  Rank& rank = ranks_[place_[pe]];
+  await_answer(rank);
+  NiuChannel& channel = *niu_channel_at(pes_[pe].channel.bytes().data());
+  RestoredPe restored{pe, registers};
+  const std::vector<std::byte> bytes = ranks::bytes_of_archive([&](SnapshotWriter& writer) {
+    writer(restored);
+    archive_channel_state(writer, channel, channel.horizon);
+    archive_memory(writer, pes_[pe].local.bytes().first(pes_[pe].local_memory_bytes));
+  });
+  rank.answered = false;
+  others_.send(rank.number, Kind::restore, bytes);
+  give_back(pes_[pe].local);
+  ends_[pe].resume();
+  mark(pe);  // arrivals, and the horizon
 }
 
 void refuse(bool asked, const std::string& what, const std::string& instead) {
@@ -299,7 +389,6 @@ void check_goes_with_ranks(const MachineSetup& setup) {
   refuse(!debugging.gdb.empty() || debugging.own || debugging.debugger != nullptr, "a debugger", alone);
   refuse(setup.profile != nullptr, "a profile of instructions", alone);
   refuse(setup.watcher != nullptr, "a trace of the PEs' states", alone);
-  refuse(setup.keeper != nullptr, "saving the machine's state", alone);
 }
 
 std::unique_ptr<Engine> make_remote_pes(PeRanks& ranks, const MachineSetup& setup, const ImageSet& images,

@@ -95,7 +95,7 @@ class Server {
     if (kind == Kind::setup) {
       block_.reset();
       block_ = std::make_unique<PeBlock>(setup_of_bytes(message.bytes));
-      return send(Kind::ready, {});
+      return send(Kind::ready, ranks::bytes_of(block_->can_be_saved()));
     }
     if (kind == Kind::stop) {
       runs_ = false;
@@ -112,6 +112,9 @@ class Server {
         block_->start();
         runs_ = true;
         return;
+      case Kind::restore:
+        block_->restore(bytes);
+        return send(Kind::restored, {});
       case Kind::words:
         return block_->take_words(bytes);
       case Kind::ask_figures:
@@ -120,6 +123,16 @@ class Server {
         return send(Kind::memory, block_->memory(ranks::content_of<MemoryPart>(bytes)));
       case Kind::ask_registers:
         return send(Kind::registers, ranks::bytes_of(block_->registers(ranks::content_of<std::uint32_t>(bytes))));
+      case Kind::hold:
+        block_->hold();
+        send_all_news();
+        return send(Kind::held, {});
+      case Kind::ask_channel:
+        return send(Kind::channel, block_->channel(ranks::content_of<std::uint32_t>(bytes)));
+      case Kind::ask_saved:
+        return send(Kind::saved, ranks::bytes_of(block_->saved(ranks::content_of<std::uint32_t>(bytes))));
+      case Kind::let_go:
+        return block_->let_go();
       default:
         throw MachineFailure("rank 0 has sent a message of kind " + std::to_string(static_cast<std::uint32_t>(kind)));
     }
@@ -130,8 +143,11 @@ class Server {
     const Clock::time_point now = Clock::now();
     const bool due =
         block_->has_wanted_news() || block_->rests() || block_->news().size() >= kManyBytes || now - sent_ >= kGather;
-    if (!due) return;
-    sent_ = now;
+    if (due) send_all_news();
+  }
+
+  void send_all_news() {
+    sent_ = Clock::now();
     send(Kind::news, block_->news().bytes());
     block_->forget_news();
   }

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "emulator/engines/engine/registers.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/niu/channel.hpp"
 
@@ -18,16 +19,25 @@ namespace torolux::remote {
 enum class Kind : std::uint32_t {
   greeting = 1,   ///< to rank 0: Greeting
   setup,          ///< from rank 0: BlockSetup
-  ready,          ///< to rank 0, empty: the PEs are there
+  ready,          ///< to rank 0: the PEs are there, and whether they can be saved, as a bool
+  restore,        ///< from rank 0, before the start: of one PE, as RestoredPe writes it
+  restored,       ///< to rank 0, empty: the PE is, and the next may come
   start,          ///< from rank 0, empty
   words,          ///< from rank 0: WordsBegin, then Words with what follows them
   news,           ///< to rank 0: News with what follows them
   ask_figures,    ///< from rank 0, empty
   figures,        ///< to rank 0: PeCounts
   ask_memory,     ///< from rank 0: MemoryPart
-  memory,         ///< to rank 0: the bytes
+  memory,         ///< to rank 0: what archive_memory writes
   ask_registers,  ///< from rank 0: a PE's number
   registers,      ///< to rank 0: std::optional<StackRegisters>
+  hold,           ///< from rank 0, empty: no PE executes anything
+  held,           ///< to rank 0, empty: that is so, and all news have been sent
+  ask_channel,    ///< from rank 0, while held: a PE's number
+  channel,        ///< to rank 0: what archive_channel writes
+  ask_saved,      ///< from rank 0, while held: a PE's number
+  saved,          ///< to rank 0: PeRegisters
+  let_go,         ///< from rank 0, empty: they go on
   stop,           ///< from rank 0, empty: the machine is no more
   stopped,        ///< to rank 0, empty: that has been done
   failed,         ///< to rank 0: why this rank cannot go on, as a string
@@ -53,6 +63,7 @@ struct Close {
   }
 };
 
+/// Whole pages.
 struct MemoryPart {
   std::uint32_t pe, offset, bytes;
 };
@@ -85,6 +96,17 @@ struct Words {
   std::uint64_t horizon, wake_time, wakes;
   std::uint64_t consumed;  ///< bytes of commands that the network has taken in
   std::uint64_t wake;      ///< 1: it is to look again
+};
+
+/// Of a PE that goes on from what was saved. Behind it what archive_channel_state and archive_memory write.
+struct RestoredPe {
+  std::uint32_t number = 0;
+  PeRegisters registers{};
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(number, registers);
+  }
 };
 
 class ByteWriter {

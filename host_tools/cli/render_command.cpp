@@ -214,11 +214,9 @@ void walk_about(const PreparedRender& prepared, RenderSession& session, Display&
   });
 }
 
-/// What tells of PEs, or keeps them, as only their own process can.
+/// What tells of PEs as only their own process can.
 void check_goes_with_ranks(const RenderOptions& options) {
   refuse_on_ranks(options.trace.file.has_value(), "--trace");
-  refuse_on_ranks(options.checkpoint.file.has_value(), "--checkpoint");
-  refuse_on_ranks(options.checkpoint.resume.has_value(), "--resume");
   refuse_on_ranks(options.profile.has_value(), "--profile");
   refuse_on_ranks(options.display.display, "--display");
 }

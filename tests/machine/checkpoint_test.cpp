@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A render that is interrupted again and again, and goes on each time, ends as one that never was: picture, cycles, all
 // figures. What is saved in between has every kind of moment in it.
-#include "host_tools/checkpoint/checkpoint_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 
-#include "emulator/errors.hpp"
 #include "tests/physics/same_picture.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/run_in_pieces.hpp"
 
 namespace torolux::test {
 namespace {
@@ -21,69 +17,6 @@ RenderCase small_case() {
   render_case.machine.threads = 1;
   render_case.quality.max_shots = 12;
   return render_case;
-}
-
-std::string everything(const RenderResult& result) {
-  std::string text = exact_figures(result.figures) + " " + result.figures.picture_sha256 + " drafts " +
-                     std::to_string(result.figures.draft_cycles) + " " + std::to_string(result.figures.draft_records) +
-                     " splits " + std::to_string(result.figures.splits);
-  for (const std::string& layer : result.figures.layers_sha256) text += " " + layer;
-  const auto add = [&text](const MachineFigures& figures) {
-    text += " bus " + std::to_string(figures.bus.busy_cycles()) + " host " + std::to_string(figures.host.busy_cycles) +
-            " retries " + std::to_string(figures.link_retries) + " latency " +
-            std::to_string(figures.packets.latency_sum) + " fbc " + std::to_string(figures.frame_buffer_message_cycles);
-    for (const KindFigures& kind : figures.record_kinds)
-      text += " " + std::to_string(kind.packets) + "/" + std::to_string(kind.records);
-    for (const PeFigures& pe : figures.pes) {
-      for (const Cycles cycles : pe.waits) text += " " + std::to_string(cycles);
-      text += " " + std::to_string(pe.copy_in_cycles) + " " + std::to_string(pe.receive_buffers_high_water);
-    }
-  };
-  add(result.figures.machine);
-  for (const StageFigures& stage : result.figures.machine.stages) {
-    text += "\n" + stage.name + " " + std::to_string(stage.begin);
-    add(stage.figures);
-  }
-  for (const TimeSlice& slice : result.figures.machine.time_line.slices)
-    text += " " + std::to_string(slice.load) + " " + std::to_string(slice.gauges[0]) + " " +
-            std::to_string(slice.gauges[1]) + " " + std::to_string(slice.packets);
-  for (const RoundFigures& round : result.figures.rounds) text += " " + std::to_string(round.end);
-  return text;
-}
-
-struct Pieces {
-  RenderResult result;
-  unsigned interruptions = 0;
-  std::vector<std::size_t> lit;  // pixels that were not black, of each picture that was kept
-};
-
-/// Runs the case in pieces of so many messages to the host, twice as many, thrice, and so on (ever_longer). next:
-/// changes the machine before each piece.
-Pieces run_in_pieces(RenderCase render_case, unsigned messages,
-                     const std::function<void(RenderCase&, unsigned piece)>& next = {}, bool ever_longer = true) {
-  const testing_support::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "checkpoint";
-  Pieces pieces;
-  for (;;) {
-    unsigned read = 0;
-    render_case.files.checkpoint.file = file;
-    render_case.files.checkpoint.minutes = 0;
-    render_case.files.checkpoint.interrupted =
-        [&read, length = messages * (ever_longer ? pieces.interruptions + 1 : 1)] { return ++read > length; };
-    render_case.files.picture_so_far = [&pieces](const Picture& picture) {
-      pieces.lit.push_back(static_cast<std::size_t>(
-          std::ranges::count_if(picture.pixels, [](const auto& pixel) { return pixel[0] + pixel[1] + pixel[2] > 0; })));
-    };
-    const auto from = pieces.interruptions != 0 ? std::make_unique<CheckpointReader>(file) : nullptr;
-    render_case.files.resume = from.get();
-    if (next) next(render_case, pieces.interruptions);
-    try {
-      pieces.result = run_case(render_case);
-      return pieces;
-    } catch (const StateSaved&) {
-      ++pieces.interruptions;
-    }
-  }
 }
 
 void expect_same_in_pieces(const RenderCase& render_case, unsigned messages, unsigned least_pieces) {

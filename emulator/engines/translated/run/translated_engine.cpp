@@ -8,6 +8,7 @@
 #include <deque>
 #include <thread>
 
+#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/engines/translated/run/lent_processor.hpp"
 #include "emulator/engines/translated/run/processor.hpp"
 #include "emulator/engines/translated/run/run_queue.hpp"
@@ -44,7 +45,7 @@ class News final : public Goal {
   const RunQueue& queue_;
 };
 
-class TranslatedEngine final : public Engine, private ProcessorWaker {
+class TranslatedEngine final : public Engine, public PeHold, private ProcessorWaker {
  public:
   TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
       : setup_(setup), interprets_(options.interpret), queue_(setup.pes.size(), setup.threads - 1) {
@@ -80,6 +81,8 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   void stop() override { end(); }
 
   bool can_be_saved() const override { return true; }
+  void hold() override;
+  void let_go() override;
   PeRegisters save(unsigned pe) override;
   std::optional<StackRegisters> stack_registers(unsigned pe) override;
   void restore(unsigned pe, const PeRegisters& registers) override {
@@ -98,6 +101,7 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   void lend_to_debugger();
   void work();
   void run(unsigned pe, const Goal* goal);
+  bool claim_standing(unsigned pe);
   template <class Look>
   auto while_it_stands(unsigned pe, Look look);
   void end();
@@ -108,6 +112,8 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   RunQueue queue_;
   std::vector<std::optional<PeRegisters>> restored_;  // by PE, until the start
   std::deque<Processor> processors_;
+  std::vector<unsigned> held_;  // PEs, from `hold` to `let_go`
+  bool is_held_ = false;
   std::vector<std::thread> threads_;
   std::atomic<bool> ending_ = false;
   Clock::duration helped_{};
@@ -170,15 +176,33 @@ bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
   return true;
 }
 
-/// What `look` returns of the PE, while nobody runs it. A thread that has just seen that it waits may not have let go
-/// of it yet; one that runs it lets go at the end of its slice.
+/// Makes it the caller's as soon as nobody runs it: a thread that has just seen that it waits may not have let go of it
+/// yet; one that runs it lets go at the end of its slice. False: it has finished.
+bool TranslatedEngine::claim_standing(unsigned pe) {
+  while (!queue_.claim(pe)) {
+    if (queue_.has_finished(pe)) return false;
+    torolux::pause();
+  }
+  return true;
+}
+
+void TranslatedEngine::hold() {
+  for (unsigned pe = 0; pe < processors_.size(); ++pe) {
+    if (claim_standing(pe)) held_.push_back(pe);
+  }
+  is_held_ = true;
+}
+
+void TranslatedEngine::let_go() {
+  is_held_ = false;
+  for (const unsigned pe : held_) queue_.put_back(pe);
+  held_.clear();
+}
+
+/// What `look` returns of the PE, while nobody runs it.
 template <class Look>
 auto TranslatedEngine::while_it_stands(unsigned pe, Look look) {
-  bool claimed = queue_.claim(pe);
-  while (!claimed && !queue_.has_finished(pe)) {
-    torolux::pause();
-    claimed = queue_.claim(pe);
-  }
+  const bool claimed = !is_held_ && claim_standing(pe);
   const auto seen = look(processors_[pe]);
   if (claimed) queue_.put_back(pe);
   return seen;

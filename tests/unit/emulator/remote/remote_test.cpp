@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Proves: a machine whose PEs run on other ranks does what it does in one process, event for event and figure for
-// figure, whatever the number of ranks, the placing and the delays of messages; what goes wrong on a rank is told by
-// rank 0, with the rank's name.
+// figure, whatever the number of ranks, the placing and the delays of messages.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -12,7 +11,6 @@ namespace torolux::test {
 namespace {
 
 using remote::Placing;
-using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""us;
 using testing::HasSubstr;
 
@@ -184,45 +182,6 @@ TEST(RemotePes, TellOfAFaultInTheSameWords) {
   EXPECT_THAT(expected, HasSubstr("PE 4"));
   ListeningHost again(1);
   EXPECT_EQ(failure_on({.count = 3}, small_machine(3, 2), again, program), expected);
-}
-
-TEST(RemotePes, AnErrorOnARankIsToldWithItsName) {
-  const NativeProgram program = [](Niu& niu, NativeClock& /*clock*/) {
-    if (niu.pe() == 4) throw std::runtime_error("no more paper");
-    sleep_for_ever(niu);
-  };
-  ListeningHost host(1);
-  const std::string failure = failure_on({.count = 3}, small_machine(3, 2), host, program);
-  EXPECT_THAT(failure, HasSubstr("rank 2 ("));
-  EXPECT_THAT(failure, HasSubstr("no more paper"));
-}
-
-TEST(RemotePes, AnotherBuildIsRefused) {
-  ListeningHost host(1);
-  const std::string failure = failure_on(
-      {.count = 3}, small_machine(3, 2), host, [](Niu& niu, NativeClock& /*clock*/) { sleep_for_ever(niu); },
-      [](ranks::Transport& transport) {
-        remote::serve_pes(transport, transport.ranks().own == 2 ? "another" : "the same");
-      });
-  EXPECT_THAT(failure, HasSubstr("rank 2 ("));
-  EXPECT_THAT(failure, HasSubstr("another build"));
-}
-
-TEST(RemotePes, ASilentRankIsNamed) {
-  const RanksChoice choice{.count = 3, .times = {20ms, 400ms}};
-  ListeningHost host(1);
-  const NativeProgram program = [](Niu& niu, NativeClock& clock) {
-    for (;;) {
-      clock.spend(1000);
-      niu.receive_if_any();
-    }
-  };
-  const std::string failure = failure_on(choice, small_machine(3, 2), host, program, [&](ranks::Transport& transport) {
-    if (transport.ranks().own == 1) return;  // as a process that is killed
-    remote::serve_pes(transport, "the same", choice.times);
-  });
-  EXPECT_THAT(failure, HasSubstr("rank 1"));
-  EXPECT_THAT(failure, HasSubstr("counts as lost"));
 }
 
 TEST(RemotePes, WhatDoesNotGoWithRanksIsRefused) {
