@@ -170,10 +170,16 @@ Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_
   if (setup.ranks != nullptr) {
     p.engine = setup.ranks->make_engine(setup, p.images, p.memory.pes);
   } else {
-    p.engine =
-        make_engine(setup.engine,
-                    {p.setup.description, p.images, p.memory.pes, threads, {}, setup.profile, setup.debugging.debugger},
-                    setup.debugging);
+    p.engine = make_engine(setup.engine,
+                           {p.setup.description,
+                            p.images,
+                            p.memory.pes,
+                            threads,
+                            {},
+                            setup.profile,
+                            setup.debugging.debugger,
+                            setup.turns},
+                           setup.debugging);
   }
   p.stacks.emplace(p.images, p.memory.pes, *p.engine);
 }

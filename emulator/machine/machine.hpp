@@ -33,6 +33,7 @@ class HopWatcher;      // emulator/torus/hop_watcher.hpp
 class SnapshotKeeper;  // emulator/snapshot/keeper.hpp
 class SnapshotReader;  // emulator/snapshot/archive.hpp
 class PesElsewhere;    // emulator/machine/pes_elsewhere.hpp
+struct TurnLog;        // emulator/engines/engine/turn_log.hpp
 namespace profile {
 class CycleProfile;  // emulator/profile/cycle_profile.hpp
 }
@@ -59,6 +60,7 @@ struct MachineSetup {
   profile::CycleProfile* profile =
       nullptr;                    ///< told of each instruction; likewise. With the engine `interpreted` alone
   PesElsewhere* ranks = nullptr;  ///< these run the PEs; likewise. Null: this process does
+  TurnLog* turns = nullptr;       ///< filled in by an engine of this process with one thread; likewise
 };
 
 struct PeFigures {

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// `torolux bench`: scenes enter; the engines' speeds in the machine and alone, or what the emulator itself costs, leave
-// on standard output.
+// `torolux bench`: scenes enter; the engines' speeds in the machine and alone, what the emulator itself costs, or what
+// more cores bring, leaves on standard output.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "emulator/errors.hpp"
+#include "host_tools/bench/cores_bench.hpp"
 #include "host_tools/bench/emulator_bench.hpp"
 #include "host_tools/bench/engine_bench.hpp"
 #include "host_tools/cli/command.hpp"
@@ -26,6 +29,7 @@ namespace {
 constexpr std::size_t kLabel = 26;
 /// The innermost loop of a PE: rays against triangles (tests/images).
 constexpr const char* kKernel = "triangles.elf";
+constexpr std::array kCores = {1U, 2U, 4U, 8U, 16U, 32U, 64U};
 
 struct BenchOptions {
   std::vector<std::string> scenes;
@@ -170,6 +174,33 @@ int run_bench_emulator(const BenchOptions& options) {
   return 0;
 }
 
+void print_times(const std::string& pes, const std::vector<CoresTime>& times) {
+  const double one = times.front().measured;
+  for (const CoresTime& time : times) {
+    const bool measured = time.measured != 0;
+    std::cout << left(time.cores == 1 ? "  " + pes + " PEs" : "", kLabel) << right(std::to_string(time.cores), 5)
+              << right(significant(time.predicted, 3), 14) << right(significant(one / time.predicted, 3), 10)
+              << right(measured ? significant(time.measured, 3) : "", 13)
+              << right(measured ? significant(one / time.measured, 3) : "", 10) << "\n";
+  }
+  std::cout << std::flush;
+}
+
+int run_bench_cores(const BenchOptions& options) {
+  const unsigned here = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  const std::vector<std::string> scenes = options.scenes.empty() ? std::vector{own_scene("interior")} : options.scenes;
+  for (const std::string& name : scenes) {
+    const Scene scene = scene_of(name);
+    std::cout << scene.name << "\n" << left("", kLabel) << "cores   predicted s  speed-up   measured s  speed-up\n";
+    for (const std::string& pes : options.pes) {
+      const auto times = bench_cores(job_of(scene, options, pes), kCores, here, go_on);
+      if (interrupted()) return kInterrupted;
+      print_times(pes, times);
+    }
+  }
+  return 0;
+}
+
 void add_job_options(CLI::App* bench, BenchOptions& options) {
   bench->add_option("--size", options.size, "Pixels along each side of the picture")
       ->type_name("N")
@@ -217,6 +248,19 @@ void add_bench_command(CLI::App& app, CommandAction& action) {
       ->capture_default_str();
   add_job_options(emulator, *costs);
   emulator->callback([costs, &action] { action = [costs] { return run_bench_emulator(*costs); }; });
+
+  const auto cores = std::make_shared<BenchOptions>();
+  cores->pes = {"4x4", "16x16", "32x32"};
+  CLI::App* predicted = bench->add_subcommand(
+      "cores",
+      "What more cores bring: wall time on one, what its turns say of up to 64, and as many as there are (--threads)");
+  predicted->add_option("SCENE", cores->scenes, "As for render [the interior]")->type_name("");
+  predicted->add_option("--pes", cores->pes, "PEs of the torus, columns x rows; may be repeated")
+      ->type_name("PxQ")
+      ->take_all()
+      ->capture_default_str();
+  add_job_options(predicted, *cores);
+  predicted->callback([cores, &action] { action = [cores] { return run_bench_cores(*cores); }; });
 }
 
 }  // namespace torolux

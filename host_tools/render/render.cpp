@@ -94,6 +94,7 @@ struct RenderSession::Parts {
     machine_setup.pacer = choice.pacer;
     machine_setup.hop_watcher = choice.hop_watcher;
     machine_setup.profile = choice.profile;
+    machine_setup.turns = choice.turns;
     machine_setup.keeper = keeper;
     return machine_setup;
   }

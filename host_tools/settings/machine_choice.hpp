@@ -18,6 +18,7 @@ namespace torolux {
 class MachineWatcher;  // emulator/trace/watcher.hpp
 class Pacer;           // emulator/trace/pacer.hpp
 class HopWatcher;      // emulator/torus/hop_watcher.hpp
+struct TurnLog;        // emulator/engines/engine/turn_log.hpp
 namespace profile {
 class CycleProfile;  // emulator/profile/cycle_profile.hpp
 }
@@ -46,6 +47,7 @@ struct MachineChoice {
   HopWatcher* hop_watcher = nullptr;   ///< likewise
   profile::CycleProfile* profile = nullptr;  ///< likewise; with the engine `interpreted` alone
   PesElsewhere* ranks = nullptr;  ///< run the PEs, of drafts' machines too; likewise. Null: this process does
+  TurnLog* turns = nullptr;       ///< of the machine that makes the picture; by an engine of one thread here; likewise
   double progress_seconds = 0.1;  ///< from one call of a render's `progress` to the next, about [s of wall time]
 };
 

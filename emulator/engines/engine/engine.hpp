@@ -18,6 +18,7 @@
 
 namespace torolux {
 
+struct TurnLog;  // emulator/engines/engine/turn_log.hpp
 namespace profile {
 class CycleProfile;  // emulator/profile/cycle_profile.hpp
 }
@@ -41,6 +42,7 @@ struct EngineSetup {
   std::vector<bool> elsewhere = {};          ///< by number: PEs that another engine of this machine runs; empty: none
   profile::CycleProfile* profile = nullptr;  ///< filled in while the PEs run; null: none
   PeDebugger* debugger = nullptr;            ///< holds some of the PEs, where the engine can lend them; null: nobody
+  TurnLog* turns = nullptr;                  ///< filled in, where one thread runs PEs of this process; null: none
 
   bool holds(unsigned pe) const { return debugger != nullptr && debugger->holds(pe); }
   bool runs(std::size_t pe) const { return elsewhere.empty() || !elsewhere[pe]; }

@@ -12,6 +12,7 @@
 #include "emulator/engines/translated/run/lent_processor.hpp"
 #include "emulator/engines/translated/run/processor.hpp"
 #include "emulator/engines/translated/run/run_queue.hpp"
+#include "emulator/engines/translated/run/turn_keeper.hpp"
 #include "emulator/niu/channel.hpp"
 #include "emulator/pause.hpp"
 #include "emulator/profile/cycle_profile.hpp"
@@ -23,6 +24,7 @@ using translated::Goal;
 using translated::Processor;
 using translated::RunQueue;
 using translated::TranslatedImage;
+using translated::TurnKeeper;
 using Clock = std::chrono::steady_clock;
 
 /// Looks for news or another PE before the scheduler's thread sleeps: some 20 microseconds.
@@ -48,7 +50,10 @@ class News final : public Goal {
 class TranslatedEngine final : public Engine, public PeHold, private ProcessorWaker {
  public:
   TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
-      : setup_(setup), interprets_(options.interpret), queue_(setup.pes.size(), setup.threads - 1) {
+      : setup_(setup),
+        interprets_(options.interpret),
+        queue_(setup.pes.size(), setup.threads - 1),
+        turns_(setup.threads == 1 ? setup.turns : nullptr, setup.pes.size()) {
     for (const Image& image : setup.images.images()) {
       codes_.emplace_back(image, setup.machine.processor.latency, options);
     }
@@ -72,13 +77,17 @@ class TranslatedEngine final : public Engine, public PeHold, private ProcessorWa
     }
     restored_.clear();
     lend_to_debugger();
+    turns_.begin();
     for (unsigned i = 1; i < setup_.threads; ++i) threads_.emplace_back([this] { work(); });
   }
 
   void check() override {
     if (setup_.debugger != nullptr) setup_.debugger->look();
   }
-  void stop() override { end(); }
+  void stop() override {
+    turns_.end(helped_);
+    end();
+  }
 
   bool can_be_saved() const override { return true; }
   void hold() override;
@@ -97,10 +106,13 @@ class TranslatedEngine final : public Engine, public PeHold, private ProcessorWa
   double help_seconds() const override { return std::chrono::duration<double>(helped_).count(); }
 
  private:
-  void wake(unsigned pe) override { queue_.wake(pe); }
+  void wake(unsigned pe) override {
+    turns_.woken(pe, helped_);
+    queue_.wake(pe);
+  }
   void lend_to_debugger();
   void work();
-  void run(unsigned pe, const Goal* goal);
+  bool run(unsigned pe, const Goal* goal);
   bool claim_standing(unsigned pe);
   template <class Look>
   auto while_it_stands(unsigned pe, Look look);
@@ -117,20 +129,23 @@ class TranslatedEngine final : public Engine, public PeHold, private ProcessorWa
   std::vector<std::thread> threads_;
   std::atomic<bool> ending_ = false;
   Clock::duration helped_{};
+  TurnKeeper turns_;
 };
 
-/// Runs a PE that is the calling thread's until it is not any more.
-void TranslatedEngine::run(unsigned pe, const Goal* goal) {
+/// Runs a PE that is the calling thread's until it is not any more. True: it could go on at once.
+bool TranslatedEngine::run(unsigned pe, const Goal* goal) {
   for (;;) {
     switch (processors_[pe].run(goal)) {
       case Processor::Stop::waits:
-        if (queue_.park(pe)) return;
+        if (queue_.park(pe)) return false;
         break;  // woken: the HINT is tried again
       case Processor::Stop::enough:
       case Processor::Stop::slice:
-        return queue_.put_back(pe);
+        queue_.put_back(pe);
+        return true;
       case Processor::Stop::finished:
-        return queue_.finish(pe);
+        queue_.finish(pe);
+        return false;
     }
   }
 }
@@ -170,9 +185,11 @@ bool TranslatedEngine::help(unsigned pe, std::uint64_t wanted) {
   }
   const Clock::time_point begin = Clock::now();
   queue_.scheduler_runs_pe(true);
-  run(pe, threads_.empty() ? nullptr : &news);
+  const bool goes_on = run(pe, threads_.empty() ? nullptr : &news);
   queue_.scheduler_runs_pe(false);
-  helped_ += Clock::now() - begin;
+  const Clock::time_point end = Clock::now();
+  turns_.ran(pe, begin, end, helped_, goes_on);
+  helped_ += end - begin;
   return true;
 }
 
