@@ -5,20 +5,16 @@
 #include <algorithm>
 #include <string>
 
-#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/engines/qemu/qemu_engine.hpp"
 #include "emulator/errors.hpp"
 
 namespace torolux {
 namespace {
 
-class MixedEngine final : public Engine, public PeHold {
+class MixedEngine final : public Engine {
  public:
   MixedEngine(std::unique_ptr<Engine> most, std::unique_ptr<Engine> qemu, std::vector<bool> on_qemu)
-      : most_(std::move(most)),
-        qemu_(std::move(qemu)),
-        hold_(dynamic_cast<PeHold*>(most_.get())),
-        on_qemu_(std::move(on_qemu)) {}
+      : most_(std::move(most)), qemu_(std::move(qemu)), on_qemu_(std::move(on_qemu)) {}
 
   std::string_view name() const override { return most_->name(); }
   void start() override {
@@ -38,12 +34,8 @@ class MixedEngine final : public Engine, public PeHold {
     qemu_->will_be_saved();
     most_->will_be_saved();
   }
-  void hold() override {
-    if (hold_ != nullptr) hold_->hold();
-  }
-  void let_go() override {
-    if (hold_ != nullptr) hold_->let_go();
-  }
+  void hold() override { most_->hold(); }
+  void let_go() override { most_->let_go(); }
   PeRegisters save(unsigned pe) override { return of(pe).save(pe); }
   void restore(unsigned pe, const PeRegisters& registers) override { of(pe).restore(pe, registers); }
   std::optional<StackRegisters> stack_registers(unsigned pe) override { return of(pe).stack_registers(pe); }
@@ -59,7 +51,6 @@ class MixedEngine final : public Engine, public PeHold {
   Engine& of(unsigned pe) const { return on_qemu_[pe] ? *qemu_ : *most_; }
 
   std::unique_ptr<Engine> most_, qemu_;
-  PeHold* hold_;  // of the most; null: it has none
   std::vector<bool> on_qemu_;
 };
 

@@ -42,7 +42,6 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
       stacks_(stacks),
       phases_(std::move(phases)),
       engine_(engine),
-      hold_(dynamic_cast<PeHold*>(&engine)),
       program_(&program),
       events_(3 * std::size_t{pes_} + 4),
       times_{BoundTree(pes_, kCommandCycles), BoundTree(pes_, kNever)},

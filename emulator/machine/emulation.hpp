@@ -9,7 +9,6 @@
 
 #include "emulator/bus/bus.hpp"
 #include "emulator/engines/engine/engine.hpp"
-#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/frame_buffer/controller.hpp"
 #include "emulator/host/host_actor.hpp"
 #include "emulator/machine/call_stacks.hpp"
@@ -144,7 +143,6 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   CallStacks& stacks_;
   PhaseNames phases_;
   Engine& engine_;
-  PeHold* hold_;  // null: its PEs go nowhere while they wait
   HostProgram* program_;
   EventQueue events_;
   BlockPool pool_;

@@ -10,7 +10,7 @@ void Emulation::archive_niu(SnapshotReader& archive, unsigned pe) {
 
 void Emulation::archive_niu(SnapshotWriter& archive, unsigned pe) {
   nius_[pe].archive_own(archive);
-  if (hold_ == nullptr || !hold_->save_channel(pe, archive)) nius_[pe].archive_channel_here(archive);
+  if (!engine_.save_channel(pe, archive)) nius_[pe].archive_channel_here(archive);
 }
 
 /// All that a run changes; what is neither here nor in the archives of the parts is set when a machine is made.
@@ -48,17 +48,16 @@ void Emulation::hold_at_rest() {
     for (unsigned pe = 0; pe < pes_; ++pe) {
       while (!stands(pe)) await(pe, kNever);
     }
-    if (hold_ == nullptr) return;
-    hold_->hold();
+    engine_.hold();
     bool all = true;
     for (unsigned pe = 0; pe < pes_; ++pe) all = stands(pe) && all;
     if (all) return;
-    hold_->let_go();
+    engine_.let_go();
   }
 }
 
 void Emulation::let_go() {
-  if (hold_ != nullptr) hold_->let_go();
+  engine_.let_go();
 }
 
 void Emulation::save(SnapshotWriter& archive) {

@@ -56,7 +56,6 @@ PeBlock::PeBlock(BlockSetup setup)
   for (unsigned index = 0; index < setup_.numbers.size(); ++index) index_of_[setup_.numbers[index]] = index;
   memory_ = make_pes(machine, setup_.images, setup_.numbers, std::vector<bool>(pes));
   engine_ = engine_named(machine.engine)({machine.description, setup_.images, memory_.pes, threads_});
-  hold_ = dynamic_cast<PeHold*>(engine_.get());
   has_waker_ = engine_->waker(0) != nullptr;
   for (unsigned index = 0; index < setup_.numbers.size(); ++index) {
     NiuChannel& channel = *niu_channel_at(memory_.pes[index].channel.bytes().data());
@@ -200,7 +199,7 @@ void PeBlock::restore(std::span<const std::byte> bytes) {
 }
 
 void PeBlock::hold() {
-  hold_->hold();
+  engine_->hold();
   is_held_ = true;
   for (unsigned index = 0; index < ends_.size(); ++index) collect(index);
 }
@@ -208,7 +207,7 @@ void PeBlock::hold() {
 /// Each looks again.
 void PeBlock::let_go() {
   is_held_ = false;
-  hold_->let_go();
+  engine_->let_go();
   for (unsigned index = 0; index < ends_.size(); ++index) activate(index);
 }
 

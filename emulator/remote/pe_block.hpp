@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "emulator/engines/engine/engine.hpp"
-#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/machine/pe_memory.hpp"
 #include "emulator/remote/processor_end.hpp"
 #include "emulator/remote/setup_message.hpp"
@@ -74,7 +73,6 @@ class PeBlock {
   unsigned threads_;
   PeMemories memory_;
   std::unique_ptr<Engine> engine_;
-  PeHold* hold_ = nullptr;  // the engine's; null: it has none
   bool has_waker_ = false;
   std::vector<ProcessorEnd> ends_;
   std::map<unsigned, unsigned> index_of_;  // by the PE's number

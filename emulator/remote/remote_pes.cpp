@@ -9,7 +9,6 @@
 #include <exception>
 #include <string>
 
-#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/niu/channel_archive.hpp"
@@ -40,7 +39,7 @@ void give_back(const SharedMemory& local) {
   std::ranges::fill(local.bytes().subspan(end - begin), std::byte{0});
 }
 
-class RemotePes final : public Engine, public PeHold, private ProcessorWaker {
+class RemotePes final : public Engine, private ProcessorWaker {
  public:
   RemotePes(PeRanks& ranks, const MachineSetup& setup, const ImageSet& images, std::vector<PeMemory>& pes);
   RemotePes(const RemotePes&) = delete;

@@ -18,7 +18,8 @@
 
 namespace torolux {
 
-struct TurnLog;  // emulator/engines/engine/turn_log.hpp
+class SnapshotWriter;  // emulator/snapshot/archive.hpp
+struct TurnLog;        // emulator/engines/engine/turn_log.hpp
 namespace profile {
 class CycleProfile;  // emulator/profile/cycle_profile.hpp
 }
@@ -61,8 +62,15 @@ class Engine {
   virtual void stop() = 0;
   // ---- Saving and going on ----
 
-  /// Whether the three that follow can be called.
+  /// Whether those that follow can be called.
   virtual bool can_be_saved() const { return false; }
+  /// From here to `let_go` no PE executes anything, even one that waits in a HINT and could go on; what all have said
+  /// is in their channels. So `save` finds each as its channel says. Nothing, where PEs go nowhere while they wait.
+  virtual void hold() {}
+  virtual void let_go() {}
+  /// Of a PE of another rank, held: writes its channel as archive_channel does (niu/channel_archive.hpp). False: its
+  /// channel is in this process.
+  virtual bool save_channel(unsigned /*pe*/, SnapshotWriter& /*archive*/) { return false; }
   /// Before the start: `save` may be called.
   virtual void will_be_saved() {}
   /// Of a PE that waits in a HINT for the network's side, or has halted; it waits on.

@@ -8,7 +8,6 @@
 #include <deque>
 #include <thread>
 
-#include "emulator/engines/engine/pe_hold.hpp"
 #include "emulator/engines/translated/run/lent_processor.hpp"
 #include "emulator/engines/translated/run/processor.hpp"
 #include "emulator/engines/translated/run/run_queue.hpp"
@@ -47,7 +46,7 @@ class News final : public Goal {
   const RunQueue& queue_;
 };
 
-class TranslatedEngine final : public Engine, public PeHold, private ProcessorWaker {
+class TranslatedEngine final : public Engine, private ProcessorWaker {
  public:
   TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
       : setup_(setup),
