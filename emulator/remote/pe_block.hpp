@@ -51,7 +51,7 @@ class PeBlock {
 
   // ---- Saving and going on ----
 
-  bool can_be_saved() const { return hold_ != nullptr && engine_->can_be_saved(); }
+  bool can_be_saved() const { return engine_->can_be_saved(); }
   /// Before the start. bytes: of a message Kind::restore.
   void restore(std::span<const std::byte> bytes);
   /// From here to let_go no PE executes anything; all that they have said is in `news`.

@@ -10,7 +10,7 @@
 namespace torolux {
 
 std::vector<CoresTime> bench_cores(const RenderBenchJob& job, std::span<const unsigned> cores, unsigned measured,
-                                   const std::function<bool(const RenderProgress&)>& progress) {
+                                   double exchange, const std::function<bool(const RenderProgress&)>& progress) {
   std::vector<CoresTime> times(cores.size());
   TurnLog least;
   for (unsigned repetition = 0; repetition < job.repetitions; ++repetition) {
@@ -31,7 +31,10 @@ std::vector<CoresTime> bench_cores(const RenderBenchJob& job, std::span<const un
     }
   }
   const double outside = times.front().measured - measured_seconds(least);
-  for (CoresTime& time : times) time.predicted = outside + predicted_seconds(least, time.cores);
+  for (CoresTime& time : times) {
+    time.predicted = outside + predicted_seconds(least, time.cores);
+    if (time.cores > 1) time.on_ranks = outside + predicted_on_ranks(least, time.cores, exchange);
+  }
   return times;
 }
 

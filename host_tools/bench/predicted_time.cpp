@@ -16,18 +16,38 @@ namespace {
 
 constexpr double kNotBegun = std::numeric_limits<double>::infinity();
 
+/// Turns in the order in which they could run.
+class ByReady {
+ public:
+  explicit ByReady(const std::vector<Turn>& turns) : turns_(turns), order_(turns.size()) {
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::stable_sort(order_, {}, [this](std::size_t turn) { return turns_[turn].ready; });
+  }
+  /// Calls `each` with those not yet taken that could run before this one is asked for, and with itself.
+  template <class Each>
+  void take_until(std::size_t turn, Each each) {
+    for (; next_ < order_.size(); ++next_) {
+      if (turns_[order_[next_]].ready >= turns_[turn].asked && order_[next_] > turn) return;
+      each(order_[next_]);
+    }
+  }
+
+ private:
+  const std::vector<Turn>& turns_;
+  std::vector<std::size_t> order_;
+  std::size_t next_ = 0;
+};
+
 class Threads {
  public:
-  Threads(const TurnLog& log, unsigned cores) : turns_(log.turns), end_(turns_.size(), kNotBegun) {
+  Threads(const TurnLog& log, unsigned cores)
+      : turns_(log.turns), end_(turns_.size(), kNotBegun), by_ready_(log.turns) {
     for (unsigned i = 1; i < cores; ++i) free_.push(0);
-    by_ready_.resize(turns_.size());
-    std::iota(by_ready_.begin(), by_ready_.end(), std::size_t{0});
-    std::ranges::stable_sort(by_ready_, {}, [this](std::size_t turn) { return turns_[turn].ready; });
   }
 
   /// Until the scheduler has turn number `turn`, for which it asks.
   void ask(std::size_t turn) {
-    become_ready(turn);
+    by_ready_.take_until(turn, [this](std::size_t ready) { waiting_.push_back({ready, turns_[ready].ready + late_}); });
     double now = turns_[turn].asked + late_;
     take_until(now, 1);
     while (end_[turn] > now) {
@@ -50,14 +70,6 @@ class Threads {
     double since;
   };
 
-  /// Those that could run before this one is asked for.
-  void become_ready(std::size_t turn) {
-    for (; next_ready_ < by_ready_.size(); ++next_ready_) {
-      const std::size_t ready = by_ready_[next_ready_];
-      if (turns_[ready].ready >= turns_[turn].asked && ready > turn) return;
-      waiting_.push_back({ready, turns_[ready].ready + late_});
-    }
-  }
   /// The threads take what waits, but for the last `kept`, which they leave to the scheduler.
   void take_until(double now, std::size_t kept) {
     while (!free_.empty() && free_.top() <= now && next_waiting() != turns_.size() && waiting_.size() > kept) {
@@ -83,8 +95,7 @@ class Threads {
 
   const std::vector<Turn>& turns_;
   std::vector<double> end_;  // by turn [s], or kNotBegun
-  std::vector<std::size_t> by_ready_;
-  std::size_t next_ready_ = 0;
+  ByReady by_ready_;
   std::deque<Waiting> waiting_;
   std::priority_queue<double, std::vector<double>, std::greater<>> free_;  // when each thread but the scheduler's is
   double late_ = 0;
@@ -96,6 +107,25 @@ double predicted_seconds(const TurnLog& log, unsigned cores) {
   Threads threads(log, cores);
   for (std::size_t turn = 0; turn < log.turns.size(); ++turn) threads.ask(turn);
   return log.own_seconds + threads.late();
+}
+
+double predicted_on_ranks(const TurnLog& log, unsigned ranks, double exchange) {
+  std::uint32_t pes = 1;
+  for (const Turn& turn : log.turns) pes = std::max(pes, turn.pe + 1);
+  std::vector<double> free(ranks - 1, 0);
+  std::vector<double> known(log.turns.size(), 0);  // when rank 0 knows that a turn is over [s]
+  ByReady by_ready(log.turns);
+  double late = 0;
+  for (std::size_t turn = 0; turn < log.turns.size(); ++turn) {
+    by_ready.take_until(turn, [&](std::size_t ready) {
+      const Turn& begins = log.turns[ready];
+      double& of_rank = free[std::size_t{begins.pe} * free.size() / pes];
+      of_rank = std::max(of_rank, begins.ready + late + exchange) + begins.seconds;
+      known[ready] = of_rank + exchange;
+    });
+    late = std::max(log.turns[turn].asked + late, known[turn]) - log.turns[turn].asked;
+  }
+  return log.own_seconds + late;
 }
 
 double measured_seconds(const TurnLog& log) {

@@ -13,6 +13,10 @@ namespace torolux {
 /// those of one thread, messages between threads to cost nothing: no more than a bound, then, and mostly a near one.
 double predicted_seconds(const TurnLog& log, unsigned cores);
 
+/// The same with so many ranks of one thread, `ranks` >= 2: rank 0 handles events, each of the others runs its own
+/// block of PEs, and a message takes `exchange` [s], whatever is in it and however many are under way.
+double predicted_on_ranks(const TurnLog& log, unsigned ranks, double exchange);
+
 /// On one thread: what was measured.
 double measured_seconds(const TurnLog& log);
 

@@ -39,6 +39,7 @@ struct BenchOptions {
   unsigned size = 64;
   unsigned repetitions = 3;
   unsigned threads = 0;
+  double exchange = 20;  // [us]
 };
 
 /// A scene that came with this program.
@@ -179,7 +180,8 @@ void print_times(const std::string& pes, const std::vector<CoresTime>& times) {
   for (const CoresTime& time : times) {
     const bool measured = time.measured != 0;
     std::cout << left(time.cores == 1 ? "  " + pes + " PEs" : "", kLabel) << right(std::to_string(time.cores), 5)
-              << right(significant(time.predicted, 3), 14) << right(significant(one / time.predicted, 3), 10)
+              << right(significant(time.predicted, 3), 12) << right(significant(one / time.predicted, 3), 10)
+              << right(time.on_ranks != 0 ? significant(one / time.on_ranks, 3) : "", 10)
               << right(measured ? significant(time.measured, 3) : "", 13)
               << right(measured ? significant(one / time.measured, 3) : "", 10) << "\n";
   }
@@ -191,9 +193,10 @@ int run_bench_cores(const BenchOptions& options) {
   const std::vector<std::string> scenes = options.scenes.empty() ? std::vector{own_scene("interior")} : options.scenes;
   for (const std::string& name : scenes) {
     const Scene scene = scene_of(name);
-    std::cout << scene.name << "\n" << left("", kLabel) << "cores   predicted s  speed-up   measured s  speed-up\n";
+    std::cout << scene.name << "\n"
+              << left("", kLabel) << "cores predicted s  speed-up  of ranks   measured s  speed-up\n";
     for (const std::string& pes : options.pes) {
-      const auto times = bench_cores(job_of(scene, options, pes), kCores, here, go_on);
+      const auto times = bench_cores(job_of(scene, options, pes), kCores, here, 1e-6 * options.exchange, go_on);
       if (interrupted()) return kInterrupted;
       print_times(pes, times);
     }
@@ -260,6 +263,11 @@ void add_bench_command(CLI::App& app, CommandAction& action) {
       ->take_all()
       ->capture_default_str();
   add_job_options(predicted, *cores);
+  predicted
+      ->add_option("--exchange", cores->exchange, "Time that a message between ranks takes, for the prediction [us]")
+      ->type_name("US")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   predicted->callback([cores, &action] { action = [cores] { return run_bench_cores(*cores); }; });
 }
 

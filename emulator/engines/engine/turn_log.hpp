@@ -2,6 +2,7 @@
 // Which PE ran when, in a run of one thread: enough to tell how long the same run takes with more.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace torolux {
@@ -12,6 +13,7 @@ struct Turn {
   double ready;    ///< from here on it could have run [s]
   double asked;    ///< here the scheduler could not go on without it [s]
   double seconds;  ///< how long it ran
+  std::uint32_t pe = 0;
 };
 
 struct TurnLog {

@@ -26,7 +26,7 @@ class TurnKeeper {
   void ran(unsigned pe, Clock::time_point from, Clock::time_point to, Clock::duration helped, bool goes_on) {
     if (log_ == nullptr) return;
     const double asked = own(from, helped);
-    log_->turns.push_back({ready_[pe] < 0 ? asked : ready_[pe], asked, seconds(to - from)});
+    log_->turns.push_back({ready_[pe] < 0 ? asked : ready_[pe], asked, seconds(to - from), pe});
     ready_[pe] = goes_on ? asked : kWaits;
   }
   void end(Clock::duration helped) {

@@ -48,6 +48,16 @@ TEST(PredictedTime, TheSchedulerRunsWhatNobodyHasBegun) {
   EXPECT_NEAR(predicted_seconds(log, 2), 11, kRounding);
 }
 
+// Each rank has its own PEs; what is asked for is known a message to and a message back later.
+TEST(PredictedTime, RanksRunTheirOwnBlocks) {
+  const TurnLog apart{{{0, 1, 1, 0}, {0, 1, 1, 3}}, 1};
+  EXPECT_NEAR(predicted_on_ranks(apart, 3, 0), 1, kRounding);
+  EXPECT_NEAR(predicted_on_ranks(apart, 2, 0), 2, kRounding);
+  EXPECT_NEAR(predicted_on_ranks(apart, 3, 0.25), 1.5, kRounding);
+  const TurnLog together{{{0, 1, 1, 2}, {0, 1, 1, 3}}, 1};
+  EXPECT_NEAR(predicted_on_ranks(together, 3, 0), 2, kRounding);
+}
+
 // Graham 1966: no list schedule is faster than the sum over all cores, or than a chain of what waits for each other;
 // nor slower than one core.
 TEST(PredictedTime, StaysWithinTheBoundsOfListScheduling) {
