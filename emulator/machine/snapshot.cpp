@@ -5,12 +5,12 @@
 namespace torolux {
 
 void Emulation::archive_niu(SnapshotReader& archive, unsigned pe) {
-  archive(nius_[pe]);
+  nius_[pe].restore(archive, pool_);
 }
 
 void Emulation::archive_niu(SnapshotWriter& archive, unsigned pe) {
-  nius_[pe].archive_own(archive);
-  if (!engine_.save_channel(pe, archive)) nius_[pe].archive_channel_here(archive);
+  nius_[pe].save(archive);
+  if (!engine_.save_channel(pe, archive)) nius_[pe].save_channel(archive);
 }
 
 /// All that a run changes; what is neither here nor in the archives of the parts is set when a machine is made.
@@ -41,7 +41,7 @@ void Emulation::let_rest() {
 }
 
 /// A PE that waits to be woken may go on by itself where an arrival that is there decides (hint_receive.cpp): whether
-/// one has is only known once none runs any more.
+/// one has is only known once none runs any more; and what is told to PEs of other ranks then may make room for more.
 void Emulation::hold_at_rest() {
   const auto stands = [this](unsigned pe) { return at_rest(pe) || engine_.takes_turns(pe); };
   for (;;) {
@@ -50,7 +50,7 @@ void Emulation::hold_at_rest() {
     }
     engine_.hold();
     bool all = true;
-    for (unsigned pe = 0; pe < pes_; ++pe) all = stands(pe) && all;
+    for (unsigned pe = 0; pe < pes_; ++pe) all = stands(pe) && nius_[pe].is_told() && all;
     if (all) return;
     engine_.let_go();
   }

@@ -26,6 +26,7 @@ inline Arrival with_contents_behind(const Arrival& arrival) {
 
 inline void archive_arrival(SnapshotWriter& archive, const Arrival& arrival, std::span<const std::byte> contents) {
   Arrival header = with_contents_behind(arrival);
+  header.bytes = static_cast<std::uint32_t>(contents.size());
   archive(header);
   archive.append(contents);
 }
@@ -38,20 +39,20 @@ inline void archive_arrivals(SnapshotWriter& archive, NiuChannel& channel) {
       [&archive](const Arrival& arrival) { archive_arrival(archive, arrival, contents_of(arrival)); });
 }
 
-/// The ring is empty.
-inline void archive_arrivals(SnapshotReader& archive, NiuChannel& channel) {
+/// The ring is empty. late: called with what it has no room for, as it may be where other ranks ran the PEs.
+template <class Late>
+void archive_arrivals(SnapshotReader& archive, NiuChannel& channel, Late late) {
   std::uint64_t count = 0;
   archive(count);
   std::vector<std::byte> payload;
+  bool has_room = true;
   for (std::uint64_t i = 0; i < count; ++i) {
     Arrival header{};
     archive(header);
     if (header.bytes > kMostBlockBytes) refuse_snapshot("an arrival is longer than any can be");
     const bool lends = channel.payloads != nullptr && header.bytes != 0;
-    if (!channel.arrivals.has_room(lends ? 0 : header.bytes)) {
-      refuse_snapshot("a PE has more arrivals than there is room for");
-    }
-    if (lends) {
+    has_room = has_room && channel.arrivals.has_room(lends ? 0 : header.bytes);
+    if (lends && has_room) {
       header.payload = channel.payloads->take_or_make();
       header.lent = static_cast<std::uint16_t>(header.bytes);
       archive.bytes(std::span(header.payload->bytes).first(header.lent));
@@ -59,7 +60,11 @@ inline void archive_arrivals(SnapshotReader& archive, NiuChannel& channel) {
     } else {
       payload.resize(header.bytes);
       archive.bytes(payload);
-      channel.arrivals.push(header, payload);
+      if (has_room) {
+        channel.arrivals.push(header, payload);
+      } else {
+        late(header, payload);
+      }
     }
   }
 }
@@ -71,12 +76,6 @@ void archive_channel_state(Archive& archive, NiuChannel& channel, std::atomic<st
           channel.taken, channel.phase_cycles, channel.gather_cycles, channel.gather_records, horizon, channel.wakes,
           channel.wake_time, channel.torus_departures.count, channel.torus_departures.time,
           channel.bus_departures.count, channel.bus_departures.time, channel.processor);
-}
-
-template <class Archive>
-void archive_channel(Archive& archive, NiuChannel& channel) {
-  archive_channel_state(archive, channel, channel.horizon);
-  archive_arrivals(archive, channel);
 }
 
 }  // namespace torolux

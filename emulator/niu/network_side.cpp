@@ -6,6 +6,7 @@
 #include <chrono>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "emulator/errors.hpp"
 #include "emulator/niu/futex.hpp"
@@ -181,6 +182,34 @@ void NiuNetworkSide::signal_processor() {
   if (waker_ != nullptr) return waker_->wake(pe_);
   channel_->processor_signal.fetch_add(1, std::memory_order_seq_cst);
   futex_wake(channel_->processor_signal);
+}
+
+// ---- Saving ----
+
+void NiuNetworkSide::save_channel(SnapshotWriter& archive) const {
+  archive_channel_state(archive, *channel_, channel_->horizon);
+  archive_arrivals(archive, *channel_);
+}
+
+/// What has no room in the ring comes before what had none when it was saved.
+void NiuNetworkSide::restore(SnapshotReader& archive, BlockPool& pool) {
+  archive_own(archive);
+  archive_channel_state(archive, *channel_, channel_->horizon);
+  Fifo<Overflow> late;
+  archive_arrivals(archive, *channel_, [&](const Arrival& arrival, std::span<const std::byte> contents) {
+    const BlockIndex index = pool.take();
+    Block& block = pool[index];
+    block.source = arrival.source;
+    block.records = arrival.count;
+    block.message_kind = arrival.message_kind;
+    pool.set_payload(index, contents);
+    late.push_back({arrival.time, index, arrival.stage});
+  });
+  if (late.empty()) return;
+  for (const Overflow& saved : overflow_.inside()) late.push_back(saved);
+  overflow_ = std::move(late);
+  horizon_ = std::min(horizon_, overflow_.front().time);
+  channel_->horizon.store(horizon_, std::memory_order_relaxed);
 }
 
 // ---- Commands ----

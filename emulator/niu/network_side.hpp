@@ -145,27 +145,26 @@ class alignas(64) NiuNetworkSide {
   void finish_states(Cycles end);
 
   const NiuChannel& channel() const { return *channel_; }
-  /// All that a run changes on both sides of the NIU; only while the processor waits, and as of the last refresh.
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive_own(archive);
-    archive_channel_here(archive);
-  }
-  template <class Archive>
-  void archive_channel_here(Archive& archive) {
-    archive_channel(archive, *channel_);
-  }
-  /// But for the channel.
+  // All that a run changes on both sides of the NIU; only while the processor waits, and as of the last refresh.
+
+  /// This side; the channel follows it.
+  void save(SnapshotWriter& archive) { archive_own(archive); }
+  /// Of a processor of this process.
+  void save_channel(SnapshotWriter& archive) const;
+  /// Both. pool: restored.
+  void restore(SnapshotReader& archive, BlockPool& pool);
+  /// Whether all that is to be told to a processor of another rank has been taken out of the channel.
+  bool is_told() const { return !far_ || channel_->arrivals.empty(); }
+  /// Whether all that was delivered has been taken, as of the last refresh.
+  bool nothing_gathered() const { return gathered_.empty(); }
+
+ private:
   template <class Archive>
   void archive_own(Archive& archive) {
     archive(slots_, used_, high_water_, receiving_, receiving_high_water_, asked_, bus_buffer_used_, copy_free_,
             copy_in_cycles_, floor_, bound_, wait_, taken_, wakes_, stage_, gathered_, overflow_, horizon_,
             departed_torus_, departed_bus_, sends_, control_used_);
   }
-  /// Whether all that was delivered has been taken, as of the last refresh.
-  bool nothing_gathered() const { return gathered_.empty(); }
-
- private:
   void drain(EventQueue& events, BlockPool& pool);
   bool drain_states();
   void refill(BlockPool& pool);

@@ -57,7 +57,7 @@ class PeBlock {
   /// From here to let_go no PE executes anything; all that they have said is in `news`.
   void hold();
   void let_go();
-  /// While held: as archive_channel writes it.
+  /// While held: as NiuNetworkSide::save_channel writes it.
   std::vector<std::byte> channel(unsigned pe);
   PeRegisters saved(unsigned pe) { return engine_->save(index_of(pe)); }
 

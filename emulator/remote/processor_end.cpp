@@ -3,7 +3,9 @@
 #include "emulator/remote/processor_end.hpp"
 
 #include <algorithm>
+#include <string>
 
+#include "emulator/errors.hpp"
 #include "emulator/niu/channel_archive.hpp"
 #include "emulator/niu/futex.hpp"
 
@@ -19,7 +21,8 @@ void ProcessorEnd::collect(ByteWriter& news) {
   news.put(News{});
   const Drained drained = drain(news);
   blocked_ = !drained.all;
-  if (!drained.all && drained.commands == 0) return news.cut_to(at);
+  // What waits for room here is not over: rank 0 must not believe that the PE waits for something else.
+  if (!drained.all && drained.commands == 0 && wait_kind(told_wait_) == WaitKind::running) return news.cut_to(at);
   if (!drained.all) {  // what it says holds for commands, too, that have not been sent
     bound = told_bound_;
     wait = pack_wait(WaitKind::running, 0);
@@ -119,6 +122,9 @@ void ProcessorEnd::refill() {
 }
 
 void ProcessorEnd::save(SnapshotWriter& archive) {
+  if (!channel_->commands.empty()) {
+    throw MachineFailure("PE " + std::to_string(number_) + " is to be saved with commands that nobody has taken");
+  }
   std::atomic<std::uint64_t> horizon = horizon_;
   archive_channel_state(archive, *channel_, horizon);
   std::uint64_t count = late_.size();
@@ -126,12 +132,7 @@ void ProcessorEnd::save(SnapshotWriter& archive) {
   archive(count);
   channel_->arrivals.for_each(
       [&archive](const Arrival& arrival) { archive_arrival(archive, arrival, contents_of(arrival)); });
-  for (const Late& late : late_) {
-    Arrival header = late.arrival;
-    header.bytes = static_cast<std::uint32_t>(late.payload.size());
-    archive(header);
-    archive.append(late.payload);
-  }
+  for (const Late& late : late_) archive_arrival(archive, late.arrival, late.payload);
 }
 
 void ProcessorEnd::restore(SnapshotReader& archive) {

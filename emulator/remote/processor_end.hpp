@@ -26,7 +26,7 @@ class ProcessorEnd {
   /// words: of this PE; rest: what follows them.
   void take(const Words& words, ByteReader& rest);
   void tell_to_stop();
-  /// The channel as archive_channel writes it, with all that has come for the PE; while nobody runs it.
+  /// The channel as NiuNetworkSide::save_channel writes it, with all that has come for the PE; while nobody runs it.
   void save(SnapshotWriter& archive);
   /// Before the start: what archive_channel_state of an equal machine has written. Arrivals come in words.
   void restore(SnapshotReader& archive);

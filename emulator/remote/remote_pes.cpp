@@ -335,6 +335,7 @@ void RemotePes::hold() {
 }
 
 void RemotePes::let_go() {
+  looked_at_ = kNoPe;  // what has been seen of its memory gets old
   for (const Rank& rank : ranks_) others_.send(rank.number, Kind::let_go);
 }
 

@@ -34,7 +34,7 @@ enum class Kind : std::uint32_t {
   hold,           ///< from rank 0, empty: no PE executes anything
   held,           ///< to rank 0, empty: that is so, and all news have been sent
   ask_channel,    ///< from rank 0, while held: a PE's number
-  channel,        ///< to rank 0: what archive_channel writes
+  channel,        ///< to rank 0: what NiuNetworkSide::save_channel writes
   ask_saved,      ///< from rank 0, while held: a PE's number
   saved,          ///< to rank 0: PeRegisters
   let_go,         ///< from rank 0, empty: they go on

@@ -190,7 +190,8 @@ std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, co
 }
 
 std::uint32_t count_smooth_surfaces(const Mesh& mesh) {
-  const SmoothSurfaces smooth = find_smooth_surfaces(mesh, std::vector<bool>(mesh.triangles.size(), true));
+  const SmoothSurfaces smooth =
+      find_smooth_surfaces(mesh, std::vector<bool>(mesh.triangles.size(), true), Pierced::goes_on);
   DisjointSets sets(mesh.triangles.size());
   std::uint32_t surfaces = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -142,7 +142,7 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64
       small[t] = edge <= lengths.cluster / 2;
     }
   }
-  mesh.smooth = find_smooth_surfaces(mesh, small);
+  mesh.smooth = find_smooth_surfaces(mesh, small, Pierced::ends);
   cutting.clusters = find_clusters(mesh, scene, small, lengths.patch, lengths.cluster);
   for (const PatchCluster& cluster : cutting.clusters) {
     for (const ElementCluster& element : cluster) {

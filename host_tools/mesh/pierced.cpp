@@ -4,6 +4,7 @@
 #include "host_tools/mesh/pierced.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -15,6 +16,9 @@ namespace {
 
 /// Pairs of an edge and a triangle that are looked at one by one.
 constexpr std::size_t kFewPairs = 4096;
+
+/// Sine of an angle that is none.
+constexpr double kFlat = 1e-6;
 
 using Corners = std::array<Vec3d, 3>;
 
@@ -41,7 +45,8 @@ bool crosses(const Vec3d& from, const Vec3d& to, const Corners& corner) {
   const Vec3d second = vec::subtract(corner[2], corner[0]);
   const Vec3d across = vec::cross(way, second);
   const double volume = vec::dot(first, across);
-  if (volume == 0) return false;  // in one plane, or flat
+  // In one plane, or flat: which of them lie on which side would be decided by rounding.
+  if (std::abs(volume) <= kFlat * vec::length(way) * vec::length(first) * vec::length(second)) return false;
   const Vec3d start = vec::subtract(from, corner[0]);
   const double b1 = vec::dot(start, across) / volume;
   const Vec3d turned = vec::cross(start, first);

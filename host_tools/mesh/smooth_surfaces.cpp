@@ -44,11 +44,15 @@ using SharedEdge = std::array<EdgeUse, 2>;
 /// more is seen. By triangle: a number of its part.
 class Parts {
  public:
-  Parts(const Mesh& mesh, std::span<const SharedEdge> edges) : edges_(edges), part_(mesh.triangles.size()) {
+  Parts(const Mesh& mesh, std::span<const SharedEdge> edges) : part_(mesh.triangles.size()) {
     std::vector<SmoothEdge> ways;
     ways.reserve(edges.size());
     for (const auto& [a, b] : edges) ways.push_back({{a.triangle, b.triangle}, middle_of(mesh, a)});
     const std::vector<bool> pierced = pierced_triangles(mesh, ways);
+    if (std::ranges::find(pierced, true) == pierced.end()) return;  // all of one part
+    for (const SharedEdge& edge : edges) {
+      if (pierced[edge[0].triangle] || pierced[edge[1].triangle]) of_pierced_.push_back(edge);
+    }
     DisjointSets whole(mesh.triangles.size());
     for (const auto& [a, b] : edges) {
       if (!pierced[a.triangle] && !pierced[b.triangle]) whole.merge(a.triangle, b.triangle);
@@ -68,7 +72,7 @@ class Parts {
   /// Those that are pierced, and beside a part, become the largest's. False: there are none.
   bool join_neighbours() {
     std::map<std::uint32_t, std::uint32_t> joined;
-    for (const auto& [a, b] : edges_) {
+    for (const auto& [a, b] : of_pierced_) {
       consider(a.triangle, b.triangle, joined);
       consider(b.triangle, a.triangle, joined);
     }
@@ -81,19 +85,21 @@ class Parts {
     if (!is_new && area_[part_[beside]] > area_[at->second]) at->second = part_[beside];
   }
 
-  std::span<const SharedEdge> edges_;
+  std::vector<SharedEdge> of_pierced_;
   std::vector<std::uint32_t> part_;  // by triangle; kNoNeighbour: pierced, and beside no part
   std::vector<double> area_;         // by part
 };
 
 /// Edges across which radiance passes on.
-std::vector<SharedEdge> smooth_edges(const Mesh& mesh, const std::vector<bool>& small, std::span<const EdgeUse> uses) {
+std::vector<SharedEdge> smooth_edges(const Mesh& mesh, const std::vector<bool>& small, std::span<const EdgeUse> uses,
+                                     Pierced pierced) {
   std::vector<SharedEdge> smooth;
   std::vector<SharedEdge> of_small;
   for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
     // A third triangle at an edge is a wall that stands there: light on one side of it must not show on the other.
     if (edge.size() != 2 || !smooth_across(mesh, small, edge[0], edge[1])) return;
-    (small[edge[0].triangle] && small[edge[1].triangle] ? of_small : smooth).push_back({edge[0], edge[1]});
+    const bool may_end = pierced == Pierced::ends && small[edge[0].triangle] && small[edge[1].triangle];
+    (may_end ? of_small : smooth).push_back({edge[0], edge[1]});
   });
   const Parts parts(mesh, of_small);
   std::ranges::copy_if(of_small, std::back_inserter(smooth), [&](const SharedEdge& edge) { return parts.same(edge); });
@@ -109,7 +115,7 @@ std::array<std::uint32_t, 2> end_nodes(const EdgeUse& use) {
 
 }  // namespace
 
-SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small) {
+SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small, Pierced pierced) {
   std::vector<std::array<std::uint32_t, 3>> positions;
   positions.reserve(mesh.triangles.size());
   for (const MeshTriangle& triangle : mesh.triangles) positions.push_back(triangle.position);
@@ -119,7 +125,7 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& s
   DisjointSets edges(nodes);
   SmoothSurfaces surfaces;
   surfaces.neighbour.assign(mesh.triangles.size(), {kNoNeighbour, kNoNeighbour, kNoNeighbour});
-  for (const SharedEdge& edge : smooth_edges(mesh, small, uses)) {
+  for (const SharedEdge& edge : smooth_edges(mesh, small, uses, pierced)) {
     edges.merge(3 * edge[0].triangle + edge[0].edge, 3 * edge[1].triangle + edge[1].edge);
     const auto ends = end_nodes(edge[0]);
     const auto other_ends = end_nodes(edge[1]);

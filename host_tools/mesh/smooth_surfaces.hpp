@@ -26,8 +26,11 @@ struct SmoothSurfaces {
 };
 inline constexpr std::uint32_t kNoNeighbour = 0xFFFF'FFFFU;
 
+/// Whether a smooth surface of small triangles ends where another one passes through it, as large ones end at walls.
+enum class Pierced : std::uint8_t { ends, goes_on };
+
 /// small: by triangle, whether it is smaller than half an element.
-SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small);
+SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small, Pierced pierced);
 
 /// A point of a triangle's grid: weights of corners 1 and 2 in units of 2^-kMostLevels.
 struct GridPoint {

@@ -126,7 +126,7 @@ bool runs(pid_t process) {
 }
 
 bool all_gone(const std::vector<pid_t>& processes) {
-  const auto deadline = Clock::now() + 2000ms;
+  const auto deadline = Clock::now() + 30'000ms;
   while (std::any_of(processes.begin(), processes.end(), runs)) {
     if (Clock::now() > deadline) return false;
     std::this_thread::sleep_for(5ms);

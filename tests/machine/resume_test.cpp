@@ -109,15 +109,18 @@ TEST_F(Resume, KillsOfQemuDoNotShow) {
 
 TEST_F(Resume, CtrlCSavesAndSaysHowToGoOn) {
   ASSERT_EQ(run_torolux(render_words(into("whole"))).exit_code, 0);
-  Words words = render_words(joined(into("first"), {"--checkpoint", here("ctrl_c.ckpt").string()}));
+  const std::string file = here("ctrl_c.ckpt").string();
+  Words words = render_words(joined(into("first"), {"--checkpoint", file, "--checkpoint-minutes", "0.0001"}));
   std::erase(words, "--quiet");
   ToroluxProcess process(words);
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!std::filesystem::exists(file) && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   process.signal(SIGINT);
   const Finished end = process.wait();
   ASSERT_EQ(end.exit_code, 130) << end.errors;
-  EXPECT_THAT(end.errors, HasSubstr("--resume " + here("ctrl_c.ckpt").string()));
-  const Words on = {"--resume", here("ctrl_c.ckpt").string()};
+  EXPECT_THAT(end.errors, HasSubstr("--resume " + file));
+  const Words on = {"--resume", file};
   ASSERT_EQ(run_torolux(render_words(joined(into("on"), on))).exit_code, 0);
   EXPECT_EQ(results("on"), results("whole"));
   // One that has come to its end goes on, too: there is little left to do.

@@ -68,7 +68,7 @@ class Engine {
   /// is in their channels. So `save` finds each as its channel says. Nothing, where PEs go nowhere while they wait.
   virtual void hold() {}
   virtual void let_go() {}
-  /// Of a PE of another rank, held: writes its channel as archive_channel does (niu/channel_archive.hpp). False: its
+  /// Of a PE of another rank, held: writes its channel (niu/channel_archive.hpp). False: its
   /// channel is in this process.
   virtual bool save_channel(unsigned /*pe*/, SnapshotWriter& /*archive*/) { return false; }
   /// Before the start: `save` may be called.

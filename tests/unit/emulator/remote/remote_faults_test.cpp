@@ -16,7 +16,7 @@ using std::chrono_literals::operator""us;
 using testing::HasSubstr;
 
 /// Silence for so long is what no test's computer is busy for.
-constexpr ranks::LifeTimes kShort{20ms, 400ms};
+constexpr ranks::LifeTimes kShort{20ms, 2000ms};
 
 NativeProgram endless() {
   return [](Niu& niu, NativeClock& clock) {

@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <random>
 #include <vector>
 
 #include "host_tools/mesh/edges.hpp"
 #include "host_tools/mesh/mesh.hpp"
+#include "host_tools/mesh/pierced.hpp"
 
 namespace torolux {
 namespace {
@@ -118,6 +120,32 @@ TEST(Pierced, WhatIsPiercedGoesWithTheLargerPart) {
       const Vec3d at = corner(scene, t, c);
       EXPECT_TRUE(at[0] > 3.1 - kLength && at[0] < 6.5 + kLength && at[2] > 3.1 - kLength && at[2] < 6.6 + kLength);
     }
+  }
+}
+
+MeshTriangle triangle(const std::array<protocol::Vec3f, 3>& corner, std::uint32_t first_position) {
+  MeshTriangle result;
+  result.corner = corner;
+  result.position = {first_position, first_position + 1, first_position + 2};
+  return result;
+}
+
+// What lies in the very plane, as a vase's foot on a table, passes through nothing: rounding must not decide.
+TEST(Pierced, WhatLiesInOnePlaneDoesNot) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> number(0, 1);
+  for (int run = 0; run < 1000; ++run) {
+    const protocol::Vec3f origin = {number(random), number(random), number(random)};
+    const protocol::Vec3f across = {number(random), number(random), 0};
+    const auto at = [&](float a, float b) {
+      return protocol::Vec3f{origin[0] + a * across[0], origin[1] + a * across[1], origin[2] + b};
+    };
+    Mesh mesh;
+    mesh.triangles = {triangle({at(0, 0), at(1, 0), at(0, 1)}, 0), triangle({at(1, 0), at(1, 1), at(0, 1)}, 3),
+                      triangle({at(-1, -1), at(3, -1), at(-1, 3)}, 6)};
+    const Vec3d middle = vec::scale(vec::add(to_double(at(1, 0)), to_double(at(0, 1))), 0.5);
+    const std::vector<SmoothEdge> edges = {{{0, 1}, middle}};
+    EXPECT_EQ(pierced_triangles(mesh, edges), (std::vector<bool>{false, false, false})) << run;
   }
 }
 
