@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where another surface passes through a fine one, that is parted, without holes and without scraps; where it only
-// comes near, it is not.
+// comes near, or lies in its plane, it is not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
