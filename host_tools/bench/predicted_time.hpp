@@ -10,7 +10,7 @@ namespace torolux {
 /// the translated engine does it: the scheduler's thread handles events in their order; a PE that may go on is taken by
 /// the first thread that is free, the one that has been ready for longest first; where the scheduler cannot go on
 /// without a PE, it runs that one, or others while another thread does. Caches, memory and clock rates are taken to be
-/// those of one thread, messages between threads to cost nothing: no more than a bound, then, and mostly a near one.
+/// those of one thread, and messages between threads to cost nothing: no computer takes less.
 double predicted_seconds(const TurnLog& log, unsigned cores);
 
 /// The same with so many ranks of one thread, `ranks` >= 2: rank 0 handles events, each of the others runs its own
