@@ -230,15 +230,16 @@ TEST(Payload, IsSavedWithItsHeader) {
 /// A near PE's ring holds headers alone: more of them than have room with their payloads in another's. Those wait, in
 /// their order, and nothing behind the first of them counts as known.
 TEST(Payload, WaitsWhereARingHasNoRoomWhenGoingOn) {
-  constexpr std::uint8_t packets = 120;
-  constexpr std::uint32_t records = 20;
-  static_assert(packets * records * kRecordBytes > kMostRingBytes);
+  constexpr std::uint8_t packets = 200;
+  constexpr std::uint32_t records = 12;
+  static_assert(packets * records * kRecordBytes > kMostRingBytes && records * kRecordBytes <= kMostBlockBytes);
   Network network;
-  Pe sender(0, &network.pool), receiver(1, &network.pool);
+  Pe receiver(1, &network.pool);
   for (std::uint8_t i = 0; i < packets; ++i) {
-    sender.send(records, i);
-    receiver.network->deliver(network.take_from(sender), 1U + i, network.pool, network.times);
-    sender.network->left_torus_queue(1, network.times);
+    const BlockIndex block = network.pool.take();
+    network.pool[block].records = records;
+    network.pool.set_payload(block, std::vector<std::byte>(std::size_t{records} * kRecordBytes, std::byte(i)));
+    receiver.network->deliver(block, 1U + i, network.pool, network.times);
   }
   receiver.network->publish_horizon(1000);
   std::vector<std::byte> saved;
