@@ -70,6 +70,12 @@ Numbers kept(const Numbers& numbers, const std::vector<vec::Box>& boxes, Keep ke
   return result;
 }
 
+/// Where space is halved.
+struct Halving {
+  std::size_t axis;
+  double middle;
+};
+
 class Join {
  public:
   Join(const Mesh& mesh, std::span<const SmoothEdge> edges)
@@ -94,9 +100,9 @@ class Join {
   /// Looks at all of the two whose boxes meet.
   void join(const Numbers& ways, const Numbers& triangles) {
     if (ways.size() * triangles.size() <= kFewPairs) return look_at_all(ways, triangles);
-    const auto [axis, middle] = halving(ways);
-    const auto below = [axis, middle](const vec::Box& box) { return box.low[axis] <= middle; };
-    const auto above = [axis, middle](const vec::Box& box) { return box.high[axis] >= middle; };
+    const Halving at = halving(ways);
+    const auto below = [at](const vec::Box& box) { return box.low[at.axis] <= at.middle; };
+    const auto above = [at](const vec::Box& box) { return box.high[at.axis] >= at.middle; };
     const std::array<Numbers, 2> way_halves{kept(ways, ways_, below), kept(ways, ways_, above)};
     const std::array<Numbers, 2> triangle_halves{kept(triangles, triangles_, below),
                                                  kept(triangles, triangles_, above)};
@@ -107,7 +113,7 @@ class Join {
     for (std::size_t half = 0; half < 2; ++half) join(way_halves[half], triangle_halves[half]);
   }
   /// Across the longest extent, so that half of the ways' middles lie on each side: few large ones do not count.
-  std::pair<std::size_t, double> halving(const Numbers& ways) const {
+  Halving halving(const Numbers& ways) const {
     vec::Box all;
     for (const std::uint32_t way : ways) all.include(ways_[way].centre());
     const Vec3d extent = all.extent();
