@@ -34,6 +34,16 @@ std::string contents_of(int descriptor) {
   return text;
 }
 
+/// Whether it does something of its own about this signal.
+bool catches(pid_t process, int number) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  const std::string name = "SigCgt:";
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(name)) return (std::stoull(line.substr(name.size()), nullptr, 16) >> (number - 1) & 1U) != 0;
+  }
+  return false;
+}
+
 }  // namespace
 
 ToroluxProcess::ToroluxProcess(const std::vector<std::string>& arguments)
@@ -63,6 +73,10 @@ ToroluxProcess::~ToroluxProcess() {
 }
 
 void ToroluxProcess::signal(int number) const {
+  const auto deadline = Clock::now() + 60'000ms;
+  while (number == SIGINT && runs(process_) && !catches(process_, number) && Clock::now() < deadline) {
+    std::this_thread::sleep_for(1ms);
+  }
   ::kill(process_, number);
 }
 

@@ -28,7 +28,7 @@ class ToroluxProcess {
   ToroluxProcess& operator=(const ToroluxProcess&) = delete;
   ~ToroluxProcess();
 
-  /// Sends a signal to it alone.
+  /// Sends a signal to it alone. SIGINT: once it does something about that; one that still loads would just be gone.
   void signal(int number) const;
   /// Its child processes, as soon as there are `count` of them; fewer where that takes longer than ten seconds.
   std::vector<pid_t> children(std::size_t count) const;
@@ -51,7 +51,7 @@ std::vector<std::string> small_render_options();
 
 /// Whether the process executes anything; a zombie does not.
 bool runs(pid_t process);
-/// Waits up to two seconds until none of them runs.
+/// Waits up to thirty seconds until none of them runs.
 bool all_gone(const std::vector<pid_t>& processes);
 
 /// Of a whole file.
