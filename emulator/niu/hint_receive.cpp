@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "emulator/niu/hint_run.hpp"
+#include "emulator/niu/pop_arrival.hpp"
 #include "emulator/niu/slot_list.hpp"
 
 namespace torolux {
@@ -84,12 +85,7 @@ void HintRun::take(const Arrival& arrival) {
     push(CommandKind::received);
   }
   channel_.taken.store(channel_.taken.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  if (arrival.shared) {
-    channel_.payloads->let_go(arrival.payload);
-  } else if (arrival.payload != nullptr) {
-    channel_.payloads->give_back(arrival.payload);
-  }
-  channel_.arrivals.pop(arrival);
+  pop_arrival(channel_, arrival);
 }
 
 void HintRun::take_records(const Arrival& arrival, std::span<const std::byte> records) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "emulator/niu/channel_archive.hpp"
+#include "emulator/niu/pop_arrival.hpp"
 
 namespace torolux::remote {
 namespace {
@@ -37,15 +38,6 @@ void NetworkEnd::push(const Command& command, std::span<const std::byte> content
   lending.lent = static_cast<std::uint16_t>(contents.size());
   std::ranges::copy(contents, lending.payload->bytes.begin());
   channel_->commands.push(lending, {});
-}
-
-void NetworkEnd::pop(const Arrival& arrival) {
-  if (arrival.shared) {
-    channel_->payloads->let_go(arrival.payload);
-  } else if (arrival.payload != nullptr) {
-    channel_->payloads->give_back(arrival.payload);
-  }
-  channel_->arrivals.pop(arrival);
 }
 
 void NetworkEnd::take(const News& news, ByteReader& rest) {
@@ -103,7 +95,7 @@ bool NetworkEnd::collect(unsigned pe, ByteWriter& words) {
   for (; const Arrival* arrival = channel_->arrivals.front(); ++arrivals) {
     words.put(with_contents_behind(*arrival));
     words.put_bytes(contents_of(*arrival));
-    pop(*arrival);
+    pop_arrival(*channel_, *arrival);
   }
   told_horizon_ = channel_->horizon.load(kRelaxed);
   told_wakes_ = channel_->wakes.load(kRelaxed);

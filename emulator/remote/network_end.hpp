@@ -30,7 +30,6 @@ class NetworkEnd {
  private:
   bool has_news() const;
   void push(const Command& command, std::span<const std::byte> contents);
-  void pop(const Arrival& arrival);
 
   NiuChannel* channel_;
   bool wakes_ = false;

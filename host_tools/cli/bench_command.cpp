@@ -160,19 +160,27 @@ void print_cost(const std::string& pes, const EmulatorCost& cost) {
             << std::flush;
 }
 
-int run_bench_emulator(const BenchOptions& options) {
+/// A heading for each scene, then what `measure` prints of each number of PEs; it is given job and number.
+template <class Measure>
+int run_for_each_size(const BenchOptions& options, const char* heading, Measure measure) {
   const std::vector<std::string> scenes = options.scenes.empty() ? std::vector{own_scene("interior")} : options.scenes;
   for (const std::string& name : scenes) {
     const Scene scene = scene_of(name);
-    std::cout << scene.name << "\n"
-              << left("", kLabel) << "emulator s     PEs s    share       packets   links  ns a packet\n";
+    std::cout << scene.name << "\n" << left("", kLabel) << heading << "\n";
     for (const std::string& pes : options.pes) {
-      const EmulatorCost cost = bench_emulator(job_of(scene, options, pes), go_on);
+      measure(job_of(scene, options, pes), pes);
       if (interrupted()) return kInterrupted;
-      print_cost(pes, cost);
     }
   }
   return 0;
+}
+
+int run_bench_emulator(const BenchOptions& options) {
+  return run_for_each_size(options, "emulator s     PEs s    share       packets   links  ns a packet",
+                           [](const RenderBenchJob& job, const std::string& pes) {
+                             const EmulatorCost cost = bench_emulator(job, go_on);
+                             if (!interrupted()) print_cost(pes, cost);
+                           });
 }
 
 void print_times(const std::string& pes, const std::vector<CoresTime>& times) {
@@ -190,18 +198,11 @@ void print_times(const std::string& pes, const std::vector<CoresTime>& times) {
 
 int run_bench_cores(const BenchOptions& options) {
   const unsigned here = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  const std::vector<std::string> scenes = options.scenes.empty() ? std::vector{own_scene("interior")} : options.scenes;
-  for (const std::string& name : scenes) {
-    const Scene scene = scene_of(name);
-    std::cout << scene.name << "\n"
-              << left("", kLabel) << "cores predicted s  speed-up  of ranks   measured s  speed-up\n";
-    for (const std::string& pes : options.pes) {
-      const auto times = bench_cores(job_of(scene, options, pes), kCores, here, 1e-6 * options.exchange, go_on);
-      if (interrupted()) return kInterrupted;
-      print_times(pes, times);
-    }
-  }
-  return 0;
+  return run_for_each_size(options, "cores predicted s  speed-up  of ranks   measured s  speed-up",
+                           [&](const RenderBenchJob& job, const std::string& pes) {
+                             const auto times = bench_cores(job, kCores, here, 1e-6 * options.exchange, go_on);
+                             if (!interrupted()) print_times(pes, times);
+                           });
 }
 
 void add_job_options(CLI::App* bench, BenchOptions& options) {
@@ -220,6 +221,19 @@ void add_job_options(CLI::App* bench, BenchOptions& options) {
   bench->add_option("--threads", options.threads, "Threads of this computer that work for the machine [all cores]")
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));
+}
+
+/// A subcommand that goes over numbers of PEs.
+CLI::App* add_for_each_size(CLI::App* bench, const char* name, const char* description, BenchOptions& options) {
+  options.pes = {"4x4", "16x16", "32x32"};
+  CLI::App* command = bench->add_subcommand(name, description);
+  command->add_option("SCENE", options.scenes, "As for render [the interior]")->type_name("");
+  command->add_option("--pes", options.pes, "PEs of the torus, columns x rows; may be repeated")
+      ->type_name("PxQ")
+      ->take_all()
+      ->capture_default_str();
+  add_job_options(command, options);
+  return command;
 }
 
 }  // namespace
@@ -241,28 +255,16 @@ void add_bench_command(CLI::App& app, CommandAction& action) {
   engine->callback([options, &action] { action = [options] { return run_bench_engine(*options); }; });
 
   const auto costs = std::make_shared<BenchOptions>();
-  costs->pes = {"4x4", "16x16", "32x32"};
-  CLI::App* emulator = bench->add_subcommand(
-      "emulator", "What the emulator itself costs beside the PEs of the translated engine, by number of PEs");
-  emulator->add_option("SCENE", costs->scenes, "As for render [the interior]")->type_name("");
-  emulator->add_option("--pes", costs->pes, "PEs of the torus, columns x rows; may be repeated")
-      ->type_name("PxQ")
-      ->take_all()
-      ->capture_default_str();
-  add_job_options(emulator, *costs);
+  CLI::App* emulator = add_for_each_size(
+      bench, "emulator", "What the emulator itself costs beside the PEs of the translated engine, by number of PEs",
+      *costs);
   emulator->callback([costs, &action] { action = [costs] { return run_bench_emulator(*costs); }; });
 
   const auto cores = std::make_shared<BenchOptions>();
-  cores->pes = {"4x4", "16x16", "32x32"};
-  CLI::App* predicted = bench->add_subcommand(
-      "cores",
-      "What more cores bring: wall time on one, what its turns say of up to 64, and as many as there are (--threads)");
-  predicted->add_option("SCENE", cores->scenes, "As for render [the interior]")->type_name("");
-  predicted->add_option("--pes", cores->pes, "PEs of the torus, columns x rows; may be repeated")
-      ->type_name("PxQ")
-      ->take_all()
-      ->capture_default_str();
-  add_job_options(predicted, *cores);
+  CLI::App* predicted = add_for_each_size(
+      bench, "cores",
+      "What more cores bring: wall time on one, what its turns say of up to 64, and as many as there are (--threads)",
+      *cores);
   predicted
       ->add_option("--exchange", cores->exchange, "Time that a message between ranks takes, for the prediction [us]")
       ->type_name("US")

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "host_tools/mesh/mesh.hpp"
+#include "host_tools/scene/ray_triangle.hpp"
 
 namespace torolux {
 namespace {
@@ -38,21 +40,14 @@ bool meet(const vec::Box& a, const vec::Box& b) {
   return true;
 }
 
-/// Moller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
 bool crosses(const Vec3d& from, const Vec3d& to, const Corners& corner) {
   const Vec3d way = vec::subtract(to, from);
-  const Vec3d first = vec::subtract(corner[1], corner[0]);
-  const Vec3d second = vec::subtract(corner[2], corner[0]);
-  const Vec3d across = vec::cross(way, second);
-  const double volume = vec::dot(first, across);
+  const std::optional<PlaneHit> hit = meet_plane(from, way, corner);
+  if (!hit || !hit->inside() || hit->t < 0 || hit->t > 1) return false;
   // In one plane, or flat: which of them lie on which side would be decided by rounding.
-  if (std::abs(volume) <= kFlat * vec::length(way) * vec::length(first) * vec::length(second)) return false;
-  const Vec3d start = vec::subtract(from, corner[0]);
-  const double b1 = vec::dot(start, across) / volume;
-  const Vec3d turned = vec::cross(start, first);
-  const double b2 = vec::dot(way, turned) / volume;
-  const double along = vec::dot(second, turned) / volume;
-  return b1 >= 0 && b2 >= 0 && b1 + b2 <= 1 && along >= 0 && along <= 1;
+  const double edges =
+      vec::length(vec::subtract(corner[1], corner[0])) * vec::length(vec::subtract(corner[2], corner[0]));
+  return std::abs(hit->determinant) > kFlat * vec::length(way) * edges;
 }
 
 using Numbers = std::vector<std::uint32_t>;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rays against triangles (Moeller and Trumbore 1997).
+// A ray against each triangle in turn.
 #include "host_tools/scene/ray_cast.hpp"
 
+#include "host_tools/scene/ray_triangle.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -12,19 +13,10 @@ std::optional<SceneHit> cast_ray(const Scene& scene, const Vec3d& origin, const 
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     if (t == without) continue;
     const auto& p = scene.triangles[t].position;
-    const Vec3d& a = scene.positions[p[0]];
-    const Vec3d e1 = vec::subtract(scene.positions[p[1]], a);
-    const Vec3d e2 = vec::subtract(scene.positions[p[2]], a);
-    const Vec3d cross = vec::cross(direction, e2);
-    const double determinant = vec::dot(e1, cross);
-    if (determinant == 0) continue;
-    const Vec3d from = vec::subtract(origin, a);
-    const double u = vec::dot(from, cross) / determinant;
-    const Vec3d across = vec::cross(from, e1);
-    const double v = vec::dot(direction, across) / determinant;
-    const double distance = vec::dot(e2, across) / determinant;
-    if (u >= 0 && v >= 0 && u + v <= 1 && distance > 0 && (!nearest || distance < nearest->distance))
-      nearest = SceneHit{t, distance, determinant > 0};
+    const auto hit =
+        meet_plane(origin, direction, {scene.positions[p[0]], scene.positions[p[1]], scene.positions[p[2]]});
+    if (hit && hit->inside() && hit->t > 0 && (!nearest || hit->t < nearest->distance))
+      nearest = SceneHit{t, hit->t, hit->determinant > 0};
   }
   return nearest;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/scene/ray_triangle.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -20,20 +21,11 @@ Vec3d corner_of(const MeshTriangle& triangle, std::size_t i) {
   return to_double(triangle.corner[i]);
 }
 
-/// Moeller & Trumbore 1997.
 void meet(const SampleRay& ray, const MeshTriangle& triangle, Meeting& nearest) {
-  const Vec3d a = vec::subtract(corner_of(triangle, 1), corner_of(triangle, 0));
-  const Vec3d b = vec::subtract(corner_of(triangle, 2), corner_of(triangle, 0));
-  const Vec3d p = vec::cross(ray.direction, b);
-  const double determinant = vec::dot(a, p);
-  if (determinant == 0) return;
-  const Vec3d s = vec::subtract(ray.origin, corner_of(triangle, 0));
-  const double b1 = vec::dot(s, p) / determinant;
-  const Vec3d q = vec::cross(s, a);
-  const double b2 = vec::dot(ray.direction, q) / determinant;
-  const double t = vec::dot(b, q) / determinant;
-  if (b1 < 0 || b2 < 0 || b1 + b2 > 1 || t < kLeast || t >= nearest.t) return;
-  nearest = {&triangle, t, b1, b2};
+  const auto hit =
+      meet_plane(ray.origin, ray.direction, {corner_of(triangle, 0), corner_of(triangle, 1), corner_of(triangle, 2)});
+  if (!hit || !hit->inside() || hit->t < kLeast || hit->t >= nearest.t) return;
+  nearest = {&triangle, hit->t, hit->b1, hit->b2};
 }
 
 /// A box as protocol::boxes_apart wants it of a ray.

@@ -8,10 +8,8 @@
 #include <string>
 
 #include "emulator/errors.hpp"
-#include "emulator/ranks/thread_ranks.hpp"
-#include "emulator/remote/pe_ranks.hpp"
-#include "emulator/remote/serve_pes.hpp"
 #include "tests/physics/same_picture.hpp"
+#include "tests/support/on_ranks.hpp"
 #include "tests/support/run_in_pieces.hpp"
 
 namespace torolux::test {
@@ -19,12 +17,6 @@ namespace {
 
 using remote::Placing;
 using std::chrono_literals::operator""us;
-
-struct OnRanks {
-  unsigned ranks, threads;
-  Placing placing;
-  ranks::Delays delays;
-};
 
 /// Each goes on from what the one before it has left; ranks 1: one process.
 constexpr std::array<OnRanks, 7> kPlaces = {{{3, 1, Placing::cyclic, {1, 100us}},
@@ -36,24 +28,9 @@ constexpr std::array<OnRanks, 7> kPlaces = {{{3, 1, Placing::cyclic, {1, 100us}}
                                              {3, 2, Placing::random, {}}}};
 
 RenderResult run_at(const OnRanks& place, RenderCase piece) {
+  if (place.ranks != 1) return render_on(place, piece);
   piece.machine.threads = place.threads;
-  if (place.ranks == 1) return run_case(piece);
-  RenderResult result;
-  bool saved = false;
-  const auto ends = ranks::run_as_threads(place.ranks, place.delays, [&](ranks::Transport& transport) {
-    if (transport.ranks().own != 0) return remote::serve_pes(transport, "the same");
-    remote::PeRanks others(transport, place.placing, "the same");
-    piece.machine.ranks = &others;
-    try {
-      result = run_case(piece);
-    } catch (const StateSaved&) {
-      saved = true;
-    }
-    others.end(0);
-  });
-  for (const std::string& end : ends) EXPECT_EQ(end, "");
-  if (saved) throw StateSaved("the run was interrupted on ranks");
-  return result;
+  return run_case(piece);
 }
 
 void expect_same_in_pieces(const RenderCase& render_case, unsigned messages, unsigned least_pieces) {

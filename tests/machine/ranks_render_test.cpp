@@ -7,10 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "emulator/ranks/thread_ranks.hpp"
-#include "emulator/remote/pe_ranks.hpp"
-#include "emulator/remote/serve_pes.hpp"
-#include "tests/support/render_support.hpp"
+#include "tests/support/on_ranks.hpp"
 
 namespace torolux::test {
 namespace {
@@ -18,13 +15,7 @@ namespace {
 using remote::Placing;
 using std::chrono_literals::operator""us;
 
-struct OnRanks {
-  unsigned ranks, threads;
-  Placing placing;
-  ranks::Delays delays;
-};
-
-RenderCase small_case(unsigned threads) {
+RenderCase small_case() {
   RenderCase small = native_case(source_dir() / "scenes" / "cornell_box");
   small.quality.width = small.quality.height = 16;
   small.quality.emission_records = 20'000;
@@ -32,34 +23,20 @@ RenderCase small_case(unsigned threads) {
   small.machine.columns = 3;
   small.machine.rows = 2;
   small.machine.description.records.credits_per_pe = 256;
-  small.machine.threads = threads;
+  small.machine.threads = 1;
   return small;
-}
-
-RenderResult render_on(const OnRanks& on) {
-  RenderCase small = small_case(on.threads);
-  RenderResult result;
-  const auto ends = ranks::run_as_threads(on.ranks, on.delays, [&](ranks::Transport& transport) {
-    if (transport.ranks().own != 0) return remote::serve_pes(transport, "the same");
-    remote::PeRanks others(transport, on.placing, "the same");
-    small.machine.ranks = &others;
-    result = run_case(small);
-    others.end(0);
-  });
-  for (const std::string& end : ends) EXPECT_EQ(end, "");
-  return result;
 }
 
 class RenderOnRanks : public testing::TestWithParam<OnRanks> {
  protected:
-  static void SetUpTestSuite() { alone_ = run_case(small_case(1)); }
+  static void SetUpTestSuite() { alone_ = run_case(small_case()); }
   static void TearDownTestSuite() { alone_.reset(); }
 
   static inline std::optional<RenderResult> alone_;
 };
 
 TEST_P(RenderOnRanks, IsTheSame) {
-  const RenderResult result = render_on(GetParam());
+  const RenderResult result = render_on(GetParam(), small_case());
   EXPECT_EQ(result.figures.machine.trace_hash, alone_->figures.machine.trace_hash);
   EXPECT_EQ(exact_figures(result.figures), exact_figures(alone_->figures));
   EXPECT_EQ(bytes_of(result.picture), bytes_of(alone_->picture));

@@ -15,6 +15,7 @@
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/network_side.hpp"
 #include "emulator/niu/processor_side.hpp"
+#include "emulator/ranks/content.hpp"
 #include "emulator/snapshot/archive.hpp"
 #include "firmware/protocol/niu_window.hpp"
 
@@ -97,6 +98,14 @@ struct Network {
   }
   /// Straight there, as if it had crossed the torus.
   void carry(Pe& from, Pe& to) { to.network->deliver(take_from(from), 1, pool, times); }
+  /// The pool, and both sides of this PE.
+  std::vector<std::byte> saved_with(Pe& pe) {
+    return ranks::bytes_of_archive([&](SnapshotWriter& writer) {
+      writer(pool);
+      pe.network->save(writer);
+      pe.network->save_channel(writer);
+    });
+  }
 };
 
 TEST(Payload, StaysWhereItIs) {
@@ -197,13 +206,7 @@ TEST(Payload, IsSavedWithItsHeader) {
   network.carry(sender, receiver);
   sender.send(2, 9);
   BlockIndex block = network.take_from(sender);
-  std::vector<std::byte> saved;
-  SnapshotWriter writer(
-      [&saved](std::span<const std::byte> bytes) { saved.insert(saved.end(), bytes.begin(), bytes.end()); });
-  writer(network.pool);
-  receiver.network->save(writer);
-  receiver.network->save_channel(writer);
-  writer.flush();
+  const std::vector<std::byte> saved = network.saved_with(receiver);
   EXPECT_EQ(sender.hint(Hint::receive), NiuProcessorSide::Outcome::retry);  // all goes on
   receiver.expect_records(3, 7);
   for (const bool near : {true, false}) {
@@ -242,22 +245,13 @@ TEST(Payload, WaitsWhereARingHasNoRoomWhenGoingOn) {
     receiver.network->deliver(block, 1U + i, network.pool, network.times);
   }
   receiver.network->publish_horizon(1000);
-  std::vector<std::byte> saved;
-  SnapshotWriter writer(
-      [&saved](std::span<const std::byte> bytes) { saved.insert(saved.end(), bytes.begin(), bytes.end()); });
-  writer(network.pool);
-  receiver.network->save(writer);
-  receiver.network->save_channel(writer);
-  writer.flush();
+  const std::vector<std::byte> saved = network.saved_with(receiver);
   Network again;
   Pe restored(1, nullptr);
-  std::size_t at = 0;
-  SnapshotReader reader([&](std::span<std::byte> bytes) {
-    std::copy_n(saved.begin() + static_cast<std::ptrdiff_t>(at), bytes.size(), bytes.begin());
-    at += bytes.size();
+  ranks::read_archive(saved, [&](SnapshotReader& reader) {
+    reader(again.pool);
+    restored.network->restore(reader, again.pool);
   });
-  reader(again.pool);
-  restored.network->restore(reader, again.pool);
   EXPECT_LE(restored.channel.horizon.load(), packets);
   std::uint8_t taken = 0;
   while (const Arrival* arrival = restored.channel.arrivals.front()) {
