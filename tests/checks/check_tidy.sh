@@ -1,25 +1,38 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Runs clang-tidy on the C++ sources that a native build compiles: check_tidy.sh BUILD_FOLDER quick|full
-# full: all sources, all rules. quick: not the tests' sources, and without the static analyser, which takes three quarters
-# of the time. A file that has passed is not looked at again until it, a header of its own or the rules change.
+# full: all sources, all rules. quick: what the last commits and the working tree have changed, but for the tests' sources,
+# and without the static analyser: all of it would take longer than all tests together. A file that has passed is not
+# looked at again until it, a header of its own or the rules change.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/sources.sh"
 cd "$root"
 export build=$1
 export passed=$build/tidy
 export extra=
+
+# changed_sources: those that the working tree and the last commits have changed, tests aside; a header stands for the
+# source beside it. Where there is no git (an unpacked archive), all.
+changed_sources() {
+  local commits=60 changed
+  changed=$(git status --porcelain --no-renames 2>/dev/null | cut -c 4- &&
+    git log -n "$commits" --name-only --pretty=format: 2>/dev/null) || changed=$(printf '%s\n' "${sources[@]}")
+  printf '%s\n' "${sources[@]}" |
+    grep -xFf <(grep -vE '^tests/' <<<"$changed" | sed -nE 's/\.[ch]pp$/.cpp/p' | sort -u) || true
+}
+
 case $2 in
   quick)
     extra=--checks=-clang-analyzer-*
-    for i in "${!sources[@]}"; do
-      [[ ${sources[i]} != tests/* ]] || unset 'sources[i]'
-    done
+    mapfile -t sources < <(changed_sources)
     ;;
   full) ;;
   *) echo 'check_tidy: quick or full?' >&2; exit 1 ;;
 esac
 mkdir -p "$passed"
+# As the compiler is called, but for precompiled headers: those of GCC are nothing to clang, and each file has to include
+# what it needs.
+sed -E 's/ -Winvalid-pch//; s/ -include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" >"$passed/compile_commands.json"
 rules=$( (cat .clang-tidy && clang-tidy --version && echo "$extra") | sha256sum)
 export rules
 
@@ -27,7 +40,7 @@ export rules
 # source that is not compiled natively.
 preprocess_command() {
   awk -v file="\"file\": \"$1\"" '/^ *"command": / { line = $0 } index($0, file) { print line; exit }' \
-    "$build/compile_commands.json" | sed -e 's/^ *"command": "//' -e 's/",$//' -e 's/\\"/"/g' -e 's/\\\\/\\/g' \
+    "$passed/compile_commands.json" | sed -e 's/^ *"command": "//' -e 's/",$//' -e 's/\\"/"/g' -e 's/\\\\/\\/g' \
     -e 's/ -o [^ ]* -c / -E -C /'
 }
 
@@ -39,9 +52,10 @@ check() {
   # Preprocessed, with comments, as a NOLINT is one.
   stamp=$passed/$( (echo "$rules" && cd "$build" && eval "$command") | sha256sum | cut -c 1-32)
   [[ -e $stamp ]] && return 0
-  clang-tidy --quiet -p "$build" ${extra:+"$extra"} --extra-arg=-Wno-unknown-warning-option "$file" 2> >(grep -v 'warnings generated' >&2) || return 1
+  clang-tidy --quiet -p "$passed" ${extra:+"$extra"} --extra-arg=-Wno-unknown-warning-option "$file" 2> >(grep -v 'warnings generated' >&2) || return 1
   touch "$stamp"
 }
 export -f check preprocess_command
 
+((${#sources[@]} > 0)) || exit 0
 printf '%s\0' "${sources[@]}" | grep -z '\.cpp$' | xargs -0 -n 1 -P "$(nproc)" bash -c 'check "$1"' check
