@@ -194,17 +194,17 @@ class EventQueue {
   void deal_out(std::uint64_t span);
   Cycles least_of_later() const;
 
-  std::array<std::uint32_t, kWindow> lists_;             // [time % kWindow], for times from now_ to the next span's end
-  std::array<std::uint64_t, kWords> filled_{};           // a bit for each list that is not empty
-  std::uint32_t filled_words_ = 0;                       // a bit for each of these words that is not 0
-  std::vector<Node> nodes_;                              // of lists
-  std::uint32_t free_ = kNobody;                         // nodes that are of none
-  Cycles open_time_ = kNone;                             // now_, while opened_ holds what is left of it
-  Cycles now_ = 0;                                       // of the last event popped that was not from the heap alone
-  std::uint64_t span_ = 0;                               // now_ / kSpan
-  Cycles window_ = kWindow;                              // from now_ to (span_ + 2) * kSpan: lists_ are for these times
-  Cycles next_ = kNone;                                  // earliest time with an event
-  Cycles later_least_ = kNone;                           // the same of later_ and heap_
+  std::array<std::uint32_t, kWindow> lists_;    // [time % kWindow], for times from now_ to the next span's end
+  std::array<std::uint64_t, kWords> filled_{};  // a bit for each list that is not empty
+  std::uint32_t filled_words_ = 0;              // a bit for each of these words that is not 0
+  std::vector<Node> nodes_;                     // of lists
+  std::uint32_t free_ = kNobody;                // nodes that are of none
+  Cycles open_time_ = kNone;                    // now_, while opened_ holds what is left of it
+  Cycles now_ = 0;                              // of the last event popped that was not from the heap alone
+  std::uint64_t span_ = 0;                      // now_ / kSpan
+  Cycles window_ = kWindow;                     // from now_ to (span_ + 2) * kSpan: lists_ are for these times
+  Cycles next_ = kNone;                         // earliest time with an event
+  Cycles later_least_ = kNone;                  // the same of later_ and heap_
   Cycles heap_least_ = kNone;
   std::size_t popped_ = 0, opened_end_ = 0;                   // of opened_, those that have gone, and all
   std::vector<Event> opened_;                                 // those of open_time_, in order; then room for more
