@@ -87,6 +87,11 @@ void Emulation::fetch_next_turn_ahead() const {
 
 /// The next event that no PE can precede any more. False: nothing will ever happen again, or not before the end.
 bool Emulation::next_event(Event& event) {
+  // One of this cycle has been let in, and what it brings about at PEs comes later: no bound has come back to it.
+  if (events_.next_time() == now_ && now_ < until_) {
+    event = events_.pop();
+    return true;
+  }
   for (;;) {
     const Cycles time = events_.next_time();  // kNever where there is none
     const Cycles least = times_.bounds.least();
