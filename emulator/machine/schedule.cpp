@@ -75,8 +75,10 @@ Cycles Emulation::end_of_turn(unsigned pe, Cycles time) const {
   return second == pe ? time : std::min(time, times_.bounds.at(second) - kCommandCycles);
 }
 
-/// While one PE runs, what the next one needs is fetched: since its last turn all others have had theirs.
+/// While one PE runs, what the next one needs is fetched: since its last turn all others have had theirs. Of few PEs it
+/// is still near.
 void Emulation::fetch_next_turn_ahead() const {
+  if (pes_ <= kManyPes) return;
   const auto pe = static_cast<unsigned>(times_.bounds.second_index());
   nius_[pe].fetch_ahead();
   NiuNetworkSide::fetch_turn_ahead(*channels_[pe]);
@@ -85,6 +87,11 @@ void Emulation::fetch_next_turn_ahead() const {
 
 /// The next event that no PE can precede any more. False: nothing will ever happen again, or not before the end.
 bool Emulation::next_event(Event& event) {
+  // One of this cycle has been let in, and what it brings about at PEs comes later: no bound has come back to it.
+  if (events_.next_time() == now_ && now_ < until_) {
+    event = events_.pop();
+    return true;
+  }
   for (;;) {
     const Cycles time = events_.next_time();  // kNever where there is none
     const Cycles least = times_.bounds.least();
@@ -92,8 +99,9 @@ bool Emulation::next_event(Event& event) {
     const Cycles known = std::min({time, least, until_});
     if (times_.releases.least() <= known && known != kNever) {
       NiuNetworkSide& niu = nius_[times_.releases.least_index()];
-      // What did not fit into its ring may fit now, and be what it waits for.
-      if (!niu.refresh(events_, pool_, times_)) niu.release(known, times_);
+      // It still waits, as nobody else lets it go. But what did not fit into its ring may fit now, and be what it waits
+      // for.
+      if (!niu.overflows() || !niu.refresh(events_, pool_, times_)) niu.release(known, times_);
       continue;
     }
     if (std::min(time, least) >= until_) return false;
@@ -111,6 +119,7 @@ bool Emulation::next_event(Event& event) {
 
 void Emulation::run(const std::function<void(Cycles)>& attend, const std::function<void()>& message_read) {
   attend_ = attend;
+  for (unsigned pe = 0; pe < pes_; ++pe) nius_[pe].tell_polls(!engine_.runs_only_helped(pe), times_);
   if (resumed_) {
     host_.resume(*this);
   } else {
@@ -142,6 +151,7 @@ void Emulation::run(const std::function<void(Cycles)>& attend, const std::functi
 /// before. True: there would be more.
 bool Emulation::stops_before_end() {
   if (until_ == kNever) return false;
+  for (NiuNetworkSide& niu : nius_) niu.tell_polls(true, times_);
   for (let_rest(); times_.releases.least() <= until_; let_rest()) {
     nius_[times_.releases.least_index()].release(until_, times_);
   }

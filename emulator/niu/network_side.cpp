@@ -46,7 +46,7 @@ void set_up_channel(NiuChannel& channel, unsigned pes, const MachineDescription&
   channel.wanted.store(kNever);
 }
 
-bool NiuNetworkSide::refresh(EventQueue& events, BlockPool& pool, PeTimes& times) {
+bool NiuNetworkSide::take_in(EventQueue& events, BlockPool& pool, PeTimes& times) {
   channel_->commands.fetch_ahead();
   // In this order: a wait that is seen belongs to a bound that is seen, and both to commands that are seen.
   wait_ = channel_->wait.load(std::memory_order_seq_cst);
@@ -62,27 +62,19 @@ bool NiuNetworkSide::refresh(EventQueue& events, BlockPool& pool, PeTimes& times
   return set_times(times);
 }
 
-WaitKind NiuNetworkSide::waits_for() const {
-  const WaitKind kind = wait_kind(wait_);
-  const std::uint64_t count = wait_count(wait_);
-  bool waits = true;
+bool NiuNetworkSide::waits(WaitKind kind, std::uint64_t count) const {
   switch (kind) {
     case WaitKind::receive:
-      waits = wakes_ <= count;
-      break;
+      return wakes_ <= count;
     case WaitKind::poll:
-      waits = horizon_ <= count && gathered_.empty();
-      break;
+      return horizon_ <= count && gathered_.empty();
     case WaitKind::torus_place:
-      waits = departed_torus_ < count;
-      break;
+      return departed_torus_ < count;
     case WaitKind::bus_place:
-      waits = departed_bus_ < count;
-      break;
+      return departed_bus_ < count;
     default:
-      break;
+      return true;
   }
-  return waits ? kind : WaitKind::running;
 }
 
 /// The next wake-up of a processor that receives, if nothing more comes before its end; kNever: nothing is there.
@@ -114,7 +106,7 @@ bool NiuNetworkSide::set_times(PeTimes& times) const {
       }
       break;
     case WaitKind::poll:
-      release = wait_count(wait_) + 1;
+      if (tells_polls_) release = wait_count(wait_) + 1;
       break;
     default:
       bound = kNever;

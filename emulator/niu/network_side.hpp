@@ -56,11 +56,25 @@ class alignas(64) NiuNetworkSide {
   // ---- Bounds and waiting; only the scheduler calls these ----
 
   /// Takes in what the processor has said. True: its times have changed.
-  bool refresh(EventQueue& events, BlockPool& pool, PeTimes& times);
+  bool refresh(EventQueue& events, BlockPool& pool, PeTimes& times) {
+    return has_news() && take_in(events, pool, times);
+  }
   /// As of the last refresh, deliveries since taken into account. `running` unless it truly waits.
-  WaitKind waits_for() const;
+  WaitKind waits_for() const {
+    const WaitKind kind = wait_kind(wait_);
+    return kind == WaitKind::running || waits(kind, wait_count(wait_)) ? kind : WaitKind::running;
+  }
   /// Everything before `horizon` is known: the processor, which waits for that, goes on.
   void release(Cycles horizon, PeTimes& times);
+  /// Of a processor that waits for a horizon: whether its release is among the times. Else it goes on once its bound is
+  /// the least of all, which is later than what it waits for; for one that runs only when the scheduler has nothing
+  /// else to do.
+  void tell_polls(bool tells, PeTimes& times) {
+    tells_polls_ = tells;
+    set_times(times);
+  }
+  /// What waits for room in the ring may find some at the next refresh.
+  bool overflows() const { return !overflow_.empty(); }
   /// The same for one that does not wait, but may ask.
   void publish_horizon(Cycles horizon);
   /// Before the scheduler waits for a processor that may go on. What this side writes does not wait to be seen (that is
@@ -165,6 +179,15 @@ class alignas(64) NiuNetworkSide {
             copy_in_cycles_, floor_, bound_, wait_, taken_, wakes_, stage_, gathered_, overflow_, horizon_,
             departed_torus_, departed_bus_, sends_, control_used_);
   }
+  /// Whether the processor has said anything since the last refresh, or something waits that a refresh may do.
+  bool has_news() const {
+    // In the order in which `take_in` reads them.
+    return channel_->wait.load(std::memory_order_seq_cst) != wait_ ||
+           channel_->bound.load(std::memory_order_acquire) != bound_ || !channel_->commands.empty() ||
+           channel_->taken.load(std::memory_order_relaxed) != taken_ || !overflow_.empty() || states_ != nullptr;
+  }
+  bool waits(WaitKind kind, std::uint64_t count) const;
+  bool take_in(EventQueue& events, BlockPool& pool, PeTimes& times);
   void drain(EventQueue& events, BlockPool& pool);
   bool drain_states();
   void refill(BlockPool& pool);
@@ -213,6 +236,7 @@ class alignas(64) NiuNetworkSide {
   std::uint64_t wakes_ = 0;  // as in the channel
   unsigned pe_;
   std::uint8_t stage_ = 0;
+  bool tells_polls_ = true;
   // Arrivals.
   alignas(64) Fifo<Gathered> gathered_;  // numbers taken_ and up
   Fifo<Overflow> overflow_;              // delivered, but the ring was full

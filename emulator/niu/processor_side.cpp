@@ -13,26 +13,45 @@
 
 namespace torolux {
 
+namespace {
+
+/// Apart, since nobody watches mostly.
+[[gnu::noinline, gnu::cold]] void tell_busy(NiuChannel& channel, std::uint64_t clock) {
+  state_log_of(channel)->busy_until(channel, clock);
+}
+
+}  // namespace
+
 NiuProcessorSide::NiuProcessorSide(NiuChannel& channel, std::span<std::byte> local_memory, std::uint32_t window_offset,
                                    Waiting waiting)
     : channel_(channel), local_memory_(local_memory), window_offset_(window_offset), waiting_(waiting) {}
 
 NiuProcessorSide::Result NiuProcessorSide::hint(std::int32_t immediate, std::uint64_t clock,
                                                 std::uint64_t instructions) {
-  using enum Outcome;
   if (wait_kind(channel_.wait.load(std::memory_order_relaxed)) == WaitKind::halted ||
       channel_.stopping.load(std::memory_order_relaxed) != 0) {
-    return {stop, clock};
+    return {Outcome::stop, clock};
   }
   channel_.instructions.store(instructions, std::memory_order_relaxed);
-  const bool marker = protocol::is_phase_marker(immediate);
-  if (marker && mark_phase(channel_, immediate, clock)) {
-    // Not a command, but news: the next HINT ends no earlier.
-    channel_.bound.store(clock + kCommandCycles, std::memory_order_release);
-    if (clock + kCommandCycles > channel_.wanted.load(std::memory_order_relaxed)) wake_network(channel_);
-    return {done, clock};
-  }
+  return protocol::is_phase_marker(immediate) ? mark(immediate, clock) : happen(immediate, clock);
+}
 
+NiuProcessorSide::Result NiuProcessorSide::mark(std::int32_t immediate, std::uint64_t clock) {
+  if (channel_.state_log != 0) tell_busy(channel_, clock);
+  if (!mark_phase(channel_, immediate, clock)) {
+    report_mismatch(channel_, static_cast<std::uint8_t>(immediate % 64),
+                    immediate < static_cast<std::int32_t>(protocol::Hint::leave_phase), clock);
+    return happen(immediate, clock);
+  }
+  // Not a command, but news: the next HINT ends no earlier.
+  channel_.bound.store(clock + kCommandCycles, std::memory_order_release);
+  if (clock + kCommandCycles > channel_.wanted.load(std::memory_order_relaxed)) wake_network(channel_);
+  return {Outcome::done, clock};
+}
+
+NiuProcessorSide::Result NiuProcessorSide::happen(std::int32_t immediate, std::uint64_t clock) {
+  using enum Outcome;
+  const bool marker = protocol::is_phase_marker(immediate);
   auto& window = *reinterpret_cast<protocol::NiuWindow*>(local_memory_.data() + window_offset_);
   if (waiting_ == Waiting::returns) channel_.asleep.store(0, std::memory_order_relaxed);
   HintRun run(channel_, local_memory_, window_offset_, clock, waiting_);

@@ -46,6 +46,10 @@ class NiuProcessorSide {
   Result hint(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
 
  private:
+  Result mark(std::int32_t immediate, std::uint64_t clock);
+  /// Any but a marker that nests as it should.
+  Result happen(std::int32_t immediate, std::uint64_t clock);
+
   NiuChannel& channel_;
   std::span<std::byte> local_memory_;
   std::uint32_t window_offset_;

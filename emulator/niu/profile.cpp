@@ -4,27 +4,7 @@
 
 #include <span>
 
-#include "emulator/niu/state_log.hpp"
-#include "firmware/protocol/hints.hpp"
-
 namespace torolux {
-
-namespace {
-
-using protocol::Hint;
-
-constexpr auto kLeave = static_cast<std::int32_t>(Hint::leave_phase);
-
-void charge(NiuChannel& channel, std::uint64_t clock) {
-  ProcessorState& state = channel.processor;
-  if (StateLog* const log = state_log_of(channel)) log->busy_until(channel, clock);
-  const std::uint64_t busy = clock - state.waited;
-  if (state.phase_depth != 0) {
-    auto& cycles = channel.phase_cycles[state.phases[state.phase_depth - 1]];
-    cycles.store(cycles.load(std::memory_order_relaxed) + busy - state.phase_begin, std::memory_order_relaxed);
-  }
-  state.phase_begin = busy;
-}
 
 void report_mismatch(NiuChannel& channel, std::uint8_t phase, bool enters, std::uint64_t clock) {
   const ProcessorState& state = channel.processor;
@@ -32,25 +12,6 @@ void report_mismatch(NiuChannel& channel, std::uint8_t phase, bool enters, std::
   const NiuFault fault{NiuFaultCode::phase_mismatch, {phase, open, enters ? 1U : 0U}};
   channel.commands.push({command_time(channel.processor, clock), CommandKind::fault, 0, 0, 0, 0, 0, 0},
                         std::as_bytes(std::span(&fault, 1)));
-}
-
-}  // namespace
-
-bool mark_phase(NiuChannel& channel, std::int32_t immediate, std::uint64_t clock) {
-  charge(channel, clock);
-  ProcessorState& state = channel.processor;
-  const auto phase = static_cast<std::uint8_t>(immediate % 64);
-  if (immediate < kLeave && state.phase_depth < state.phases.size()) {
-    state.phases[state.phase_depth] = phase;
-    ++state.phase_depth;
-    return true;
-  }
-  if (immediate >= kLeave && state.phase_depth != 0 && state.phases[state.phase_depth - 1] == phase) {
-    --state.phase_depth;
-    return true;
-  }
-  report_mismatch(channel, phase, immediate < kLeave, clock);
-  return false;
 }
 
 ProcessorMark mark_of(const NiuChannel& channel) {

@@ -19,24 +19,22 @@ std::uint32_t EventQueue::make_node() {
   return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
 
-/// The events of this time, the earliest of all, with what the heap has of it, in order.
-void EventQueue::open(Cycles time) {
-  now_ = open_time_ = time;
-  if (time / kSpan != span_) advance(time / kSpan);
-  window_ = (span_ + 2) * kSpan - time;
+/// The events of the time that has begun, with what the heap has of it, in order.
+void EventQueue::open() {
+  open_time_ = now_;
   popped_ = opened_end_ = 0;
-  const std::size_t number = time % kWindow;
-  for (std::uint32_t node = std::exchange(lists_[number], kNobody); node != kNobody;) {
+  const std::size_t number = now_ % kWindow;
+  for (std::uint32_t node = lists_[number]; node != kNobody;) {
     if (opened_end_ == opened_.size()) make_room();
     opened_[opened_end_++] = nodes_[node].event;
     const std::uint32_t next = std::exchange(nodes_[node].next, free_);
     free_ = std::exchange(node, next);
   }
-  while (heap_least_ == time) {
+  while (heap_least_ == now_) {
     if (opened_end_ == opened_.size()) make_room();
     opened_[opened_end_++] = pop_heap();
   }
-  filled_[number / kWord] &= ~(std::uint64_t{1} << (number % kWord));
+  forget_list(number);
   if (opened_end_ > 1) sort_opened();
 }
 
@@ -57,20 +55,6 @@ void EventQueue::sort_opened() {
     events[at] = event;
     moves += i - at;
   }
-}
-
-/// The earliest time from now_ on with an event in a list.
-Cycles EventQueue::next_near() const {
-  const std::size_t first = now_ % kWindow;
-  std::size_t word = first / kWord;
-  std::uint64_t bits = filled_[word] & (~std::uint64_t{0} << (first % kWord));
-  for (std::size_t looked = 0; bits == 0; ++looked) {
-    if (looked == filled_.size()) return kNone;
-    word = (word + 1) % filled_.size();
-    bits = filled_[word];
-  }
-  const std::size_t number = word * kWord + static_cast<std::size_t>(std::countr_zero(bits));
-  return now_ + (number + kWindow - first) % kWindow;
 }
 
 // ---- Later spans ----
@@ -95,8 +79,8 @@ void EventQueue::advance(std::uint64_t span) {
 
 void EventQueue::deal_out(std::uint64_t span) {
   const std::size_t number = span % kSpans;
+  if ((later_filled_[number / kWord] >> (number % kWord) & 1U) == 0) return;
   std::vector<Event>& events = later_[number];
-  if (events.empty()) return;
   for (const Event& event : events) {
     push_near(event.time) = event;
     if (watcher_ != nullptr) watcher_->soon(event);
@@ -107,13 +91,17 @@ void EventQueue::deal_out(std::uint64_t span) {
 }
 
 Cycles EventQueue::least_of_later() const {
-  for (std::uint64_t span = span_ + 1; span <= span_ + 1 + kSpans; ++span) {
-    const std::size_t number = span % kSpans;
-    if ((later_filled_[number / kWord] >> (number % kWord) & 1U) == 0) continue;
-    const auto least = std::ranges::min_element(later_[number], {}, &Event::time);
-    return least->time;
+  // Those of a word that lie before the first are the last of all.
+  const std::size_t first = (span_ + 1) % kSpans;
+  std::size_t word = first / kWord;
+  std::uint64_t bits = later_filled_[word] & (~std::uint64_t{0} << (first % kWord));
+  for (std::size_t looked = 0; bits == 0; ++looked) {
+    if (looked == later_filled_.size()) return kNone;
+    word = (word + 1) % later_filled_.size();
+    bits = later_filled_[word];
   }
-  return kNone;
+  const std::size_t number = word * kWord + static_cast<std::size_t>(std::countr_zero(bits));
+  return std::ranges::min_element(later_[number], {}, &Event::time)->time;
 }
 
 // ---- The heap ----

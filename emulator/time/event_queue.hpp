@@ -82,7 +82,12 @@ class EventQueue {
   /// Only if there is one.
   Event pop() {
     if (next_ < now_) return pop_earlier();
-    if (next_ != open_time_) open(next_);
+    if (next_ != open_time_) {
+      begin(next_);
+      const std::uint32_t node = lists_[now_ % kWindow];
+      if (node != kNobody && nodes_[node].next == kNobody && heap_least_ != now_) return pop_alone(node);
+      open();
+    }
     const Event result = opened_[popped_++];
     if (popped_ == opened_end_) close();
     return result;
@@ -92,12 +97,16 @@ class EventQueue {
   void archive(Archive& archive) {
     archive(lists_, filled_, nodes_, free_, open_time_, now_, span_, window_, next_, later_least_, heap_least_, popped_,
             opened_end_, opened_, later_, later_filled_, heap_, sequence_);
+    filled_words_ = 0;
+    for (std::size_t word = 0; word < kWords; ++word) filled_words_ |= (filled_[word] != 0 ? 1U : 0U) << word;
   }
 
  private:
   static constexpr std::size_t kWindow = 2 * kSpan;
   static constexpr std::size_t kSpans = 128;  // beyond the window
   static constexpr std::size_t kWord = 64;
+  static constexpr std::size_t kWords = kWindow / kWord;
+  static_assert(2 * kWords <= 32);
   static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
   static constexpr std::size_t kLeastRoom = 64;
   struct Node {
@@ -131,12 +140,47 @@ class EventQueue {
     nodes_[node].next = lists_[number];
     lists_[number] = node;
     filled_[number / kWord] |= std::uint64_t{1} << (number % kWord);
+    filled_words_ |= 1U << (number / kWord);
     next_ = std::min(next_, time);
     return nodes_[node].event;
+  }
+  /// The earliest time of all has come.
+  void begin(Cycles time) {
+    now_ = time;
+    if (time / kSpan != span_) advance(time / kSpan);
+    window_ = (span_ + 2) * kSpan - time;
+  }
+  /// Nobody else has its time: it need not be put in order. What it makes for the same time is alone in turn.
+  Event pop_alone(std::uint32_t node) {
+    forget_list(now_ % kWindow);
+    nodes_[node].next = free_;
+    free_ = node;
+    close();
+    return nodes_[node].event;
+  }
+  /// The list of this number becomes empty.
+  void forget_list(std::size_t number) {
+    lists_[number] = kNobody;
+    std::uint64_t& word = filled_[number / kWord];
+    word &= ~(std::uint64_t{1} << (number % kWord));
+    if (word == 0) filled_words_ &= ~(1U << (number / kWord));
   }
   void close() {
     open_time_ = kNone;
     next_ = std::min(next_near(), std::min(later_least_, heap_least_));
+  }
+  /// The earliest time from now_ on with an event in a list.
+  Cycles next_near() const {
+    const std::size_t first = now_ % kWindow;
+    std::size_t word = first / kWord;
+    const std::uint64_t bits = filled_[word] >> (first % kWord);
+    if (bits != 0) return now_ + static_cast<Cycles>(std::countr_zero(bits));
+    if (filled_words_ == 0) return kNone;
+    // From the next word on, the one in which now_ is last: what it has left lies before now_ in the window.
+    const std::uint32_t twice = filled_words_ | filled_words_ << kWords;
+    word = (word + 1 + static_cast<std::size_t>(std::countr_zero(twice >> (word + 1)))) % kWords;
+    const std::size_t number = word * kWord + static_cast<std::size_t>(std::countr_zero(filled_[word]));
+    return now_ + (number - first) % kWindow;
   }
   std::uint32_t make_node();
   void make_room() { opened_.resize(2 * opened_.size() + kLeastRoom); }
@@ -144,23 +188,23 @@ class EventQueue {
   void push_heap(const Event& event);
   Event pop_heap();
   Event pop_earlier();
-  void open(Cycles time);
+  void open();
   void sort_opened();
   void advance(std::uint64_t span);
   void deal_out(std::uint64_t span);
   Cycles least_of_later() const;
-  Cycles next_near() const;
 
-  std::array<std::uint32_t, kWindow> lists_;             // [time % kWindow], for times from now_ to the next span's end
-  std::array<std::uint64_t, kWindow / kWord> filled_{};  // a bit for each list that is not empty
-  std::vector<Node> nodes_;                              // of lists
-  std::uint32_t free_ = kNobody;                         // nodes that are of none
-  Cycles open_time_ = kNone;                             // now_, while opened_ holds what is left of it
-  Cycles now_ = 0;                                       // of the last event popped that was not from the heap alone
-  std::uint64_t span_ = 0;                               // now_ / kSpan
-  Cycles window_ = kWindow;                              // from now_ to (span_ + 2) * kSpan: lists_ are for these times
-  Cycles next_ = kNone;                                  // earliest time with an event
-  Cycles later_least_ = kNone;                           // the same of later_ and heap_
+  std::array<std::uint32_t, kWindow> lists_;    // [time % kWindow], for times from now_ to the next span's end
+  std::array<std::uint64_t, kWords> filled_{};  // a bit for each list that is not empty
+  std::uint32_t filled_words_ = 0;              // a bit for each of these words that is not 0
+  std::vector<Node> nodes_;                     // of lists
+  std::uint32_t free_ = kNobody;                // nodes that are of none
+  Cycles open_time_ = kNone;                    // now_, while opened_ holds what is left of it
+  Cycles now_ = 0;                              // of the last event popped that was not from the heap alone
+  std::uint64_t span_ = 0;                      // now_ / kSpan
+  Cycles window_ = kWindow;                     // from now_ to (span_ + 2) * kSpan: lists_ are for these times
+  Cycles next_ = kNone;                         // earliest time with an event
+  Cycles later_least_ = kNone;                  // the same of later_ and heap_
   Cycles heap_least_ = kNone;
   std::size_t popped_ = 0, opened_end_ = 0;                   // of opened_, those that have gone, and all
   std::vector<Event> opened_;                                 // those of open_time_, in order; then room for more

@@ -3,6 +3,8 @@
 // routers of the ring see, a fixed time later, out.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,7 +26,7 @@ class RingLines {
         lines_(std::size_t{2} * (shape.columns() + shape.rows())) {}
 
   /// Whether the line of the ring that this output belongs to is seen to be raised.
-  bool seen(unsigned router, Port output) const { return lines_[line(router, output)].seen; }
+  bool seen(unsigned router, Port output) const { return raised_ != 0 && lines_[line(router, output)].seen; }
   void begin(unsigned router, Port output, Cycles now) {
     if (lines_[line(router, output)].starving++ == 0) tell(router, output, true, now);
   }
@@ -33,12 +35,15 @@ class RingLines {
   }
   /// Kind line. Returns whether it is raised.
   bool handle(const Event& event) {
-    return lines_[line(event.actor, static_cast<Port>(event.port))].seen = event.block != 0;
+    lines_[line(event.actor, static_cast<Port>(event.port))].seen = event.block != 0;
+    count_raised();
+    return event.block != 0;
   }
   /// All of it that a run changes.
   template <class Archive>
   void archive(Archive& archive) {
     archive(lines_);
+    count_raised();
   }
 
  private:
@@ -47,6 +52,7 @@ class RingLines {
     bool seen = false;
   };
 
+  void count_raised() { raised_ = std::ranges::count(lines_, true, &Line::seen); }
   static bool along_x(Port output) { return output == Port::east || output == Port::west; }
   std::size_t line(unsigned router, Port output) const {
     const unsigned ring = along_x(output) ? router / shape_.columns() : shape_.rows() + router % shape_.columns();
@@ -65,6 +71,7 @@ class RingLines {
   EventQueue& events_;
   std::uint32_t first_source_;
   std::vector<Line> lines_;
+  std::ptrdiff_t raised_ = 0;  // lines seen to be; mostly none, and which is whose need not be worked out
 };
 
 }  // namespace torolux

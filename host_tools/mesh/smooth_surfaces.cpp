@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/edges.hpp"
@@ -145,11 +146,23 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& s
   return surfaces;
 }
 
+// As protocol::grid_triangle_of, without the weight that follows from the others: this is asked very often.
 std::array<GridPoint, 3> grid_points(std::uint32_t code) {
-  const protocol::GridTriangle grid = protocol::grid_triangle_of(code);
-  std::array<GridPoint, 3> points{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    points[c] = {static_cast<std::uint32_t>(grid.corner[c][1]), static_cast<std::uint32_t>(grid.corner[c][2])};
+  constexpr std::uint32_t one = 1U << protocol::kMostLevels;
+  const auto middle = [](const GridPoint& p, const GridPoint& q) {
+    return GridPoint{(p.i + q.i) / 2, (p.j + q.j) / 2};
+  };
+  std::array<GridPoint, 3> points{{{0, 0}, {one, 0}, {0, one}}};
+  const std::uint32_t path = protocol::path_of_code(code);
+  for (std::uint32_t step = protocol::level_of_code(code); step-- > 0U;) {
+    auto& [a, b, c] = points;
+    const std::array<GridPoint, 3> opposite{middle(b, c), middle(c, a), middle(a, b)};
+    const std::uint32_t child = path >> (2U * step) & 3U;
+    const GridPoint kept = points[child % 3];
+    points = opposite;
+    if (child == 3) continue;
+    points[child] = kept;
+    std::swap(points[(child + 1) % 3], points[(child + 2) % 3]);
   }
   return points;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <utility>
 
 #include "firmware/protocol/store_names.hpp"
@@ -20,6 +21,8 @@ using Bytes = std::span<const std::byte>;
 constexpr unsigned kLoadedAtOnce = 64;
 /// Where an image differs from what all have heard by less than this in between, one message carries both places.
 constexpr std::size_t kLeastGap = 64;
+/// Looked at in one piece, where a PE's image and what it has are mostly alike.
+constexpr std::size_t kAlike = 256;
 
 /// A store's bytes in an image, padding up to a multiple of 4 included.
 Bytes bytes_of(const protocol::StageLayout& layout, Bytes image, const protocol::StoreExtent& extent) {
@@ -57,8 +60,12 @@ void send_difference(HostPort& port, PeNumber pe, std::uint32_t address, Bytes w
   const auto differs = [&](std::size_t at) {
     return at + 4 > there.size() || std::memcmp(wanted.data() + at, there.data() + at, 4) != 0;
   };
+  const std::size_t both = std::min(wanted.size(), there.size());
   for (std::size_t begin = 0; begin < wanted.size(); begin += 4) {
-    if (!differs(begin)) continue;
+    while (begin + kAlike <= both && std::memcmp(wanted.data() + begin, there.data() + begin, kAlike) == 0) {
+      begin += kAlike;
+    }
+    if (begin == wanted.size() || !differs(begin)) continue;
     std::size_t end = begin + 4;
     for (std::size_t at = end; at < wanted.size() && at - end < kLeastGap; at += 4) {
       if (differs(at)) end = at + 4;

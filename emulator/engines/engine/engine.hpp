@@ -106,6 +106,8 @@ class Engine {
   /// This PE runs only when it is helped, and only as long as its clock is less than `wanted`, one instruction at
   /// least: so that PEs of a debugger run in the order of virtual time.
   virtual bool takes_turns(unsigned /*pe*/) const { return false; }
+  /// This PE runs only when it is helped, and nobody gains if it could run before it has to.
+  virtual bool runs_only_helped(unsigned /*pe*/) const { return false; }
   /// This PE will probably be the next to be helped: what that needs, fetched into the caches meanwhile.
   virtual void fetch_ahead(unsigned /*pe*/) const {}
   /// Time spent in `help` so far [s].

@@ -101,6 +101,10 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
   ProcessorWaker* waker(unsigned /*pe*/) override { return this; }
   bool help(unsigned pe, std::uint64_t wanted) override;
   bool takes_turns(unsigned pe) const override { return setup_.holds(pe); }
+  /// Not where a log of turns is kept: it says when each could have gone on.
+  bool runs_only_helped(unsigned pe) const override {
+    return setup_.threads == 1 && setup_.turns == nullptr && setup_.runs(pe) && !setup_.holds(pe);
+  }
   void fetch_ahead(unsigned pe) const override { processors_[pe].fetch_ahead(); }
   double help_seconds() const override { return std::chrono::duration<double>(helped_).count(); }
 

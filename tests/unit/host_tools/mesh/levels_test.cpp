@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -11,6 +12,7 @@
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/mesh.hpp"
 #include "host_tools/mesh/mesh_size.hpp"
+#include "host_tools/mesh/smooth_surfaces.hpp"
 #include "tests/unit/host_tools/test_scenes.hpp"
 
 namespace torolux {
@@ -22,6 +24,23 @@ TEST(Levels, LeastLevelThatIsShortEnough) {
   EXPECT_EQ(level_for(1.0, 0.25), 2);
   EXPECT_EQ(level_for(1.0, 0.2499), 3);
   EXPECT_EQ(level_for(1e9, 1e-9), protocol::kMostLevels);
+}
+
+// What the host asks for most is worked out apart from what PEs use: both give the same corners, at each level.
+TEST(Levels, GridPointsAreThoseOfTheGridTriangle) {
+  for (std::uint32_t level = 0; level <= protocol::kMostLevels; ++level) {
+    const std::uint32_t paths = protocol::triangles_of_level(level);
+    const std::uint32_t step = std::max(1U, paths / 997);  // coprime to powers of 4, so that all children take part
+    for (std::uint32_t path = 0; path < paths; path += step) {
+      const std::uint32_t code = protocol::location_code(path, level);
+      const protocol::GridTriangle expected = protocol::grid_triangle_of(code);
+      const auto points = grid_points(code);
+      for (std::size_t c = 0; c < 3; ++c) {
+        ASSERT_EQ(static_cast<std::int32_t>(points[c].i), expected.corner[c][1]) << "code " << code;
+        ASSERT_EQ(static_cast<std::int32_t>(points[c].j), expected.corner[c][2]) << "code " << code;
+      }
+    }
+  }
 }
 
 TEST(Levels, ElementsAreNeverCoarserThanPatches) {
