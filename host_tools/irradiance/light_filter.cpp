@@ -19,13 +19,13 @@ constexpr double kReach = 1.5;
 /// and as much of a bend is noise that what this part of noise explains is not believed. Chosen with kReach on
 /// `cornell_box` and `interior` (docs/decisions/elements.md).
 constexpr double kDoubted = 0.03;
-/// No value moves by more than noise explains, in standard deviations: the tips of caustics would rise.
+/// No value rises by more than noise explains, in standard deviations: the tips of caustics would.
 constexpr double kMostDeviations = 2;
 /// Of weights; and steps after each. More change nothing that is seen.
 constexpr int kRounds = 4;
 constexpr int kSteps = 5;
-/// A round: steps, the error that they begin with, and weights.
-static_assert(kFilterPasses == kRounds * (kSteps + 2));
+/// A round: steps, the error that they begin with, and weights. At the end: what is known, and thrice what goes back.
+static_assert(kFilterPasses == kRounds * (kSteps + 2) + 4);
 
 using Values = std::vector<Vec3d>;
 
@@ -130,20 +130,82 @@ class LightFilter {
     }
   }
 
-  /// A value is known as well as the light of the elements around it.
-  void hold_to_noise(const Values& before) {
-    std::vector<double> area(values_.size(), 0);
+  /// What is known of light at a vertex without the filter.
+  struct Known {
+    double area = 0;            ///< of the elements around it [user units^2]
+    double darkest = HUGE_VAL;  ///< of these, what one received [quanta / user unit^2], all channels
+    double brightest = 0;
+    double noise = 0;  ///< how far off `light` it may be by chance
+    double light = 0;  ///< their mean
+  };
+  std::vector<Known> known_of(const Values& before) const {
+    std::vector<Known> known(values_.size());
     for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
-      for (const std::uint32_t v : triangle.corner) area[v] += triangle.area;
+      const double own = vec::sum(received(triangle)) / triangle.area;
+      for (const std::uint32_t v : triangle.corner) {
+        known[v].area += triangle.area;
+        known[v].darkest = std::min(known[v].darkest, own);
+        known[v].brightest = std::max(known[v].brightest, own);
+      }
     }
     for (const std::uint32_t v : plan_.free()) {
-      const double light = std::max(0.0, vec::sum(before[v]));
-      const double most = kMostDeviations * std::sqrt(noise_ * light / area[v]);
-      const double moved = std::abs(vec::sum(values_[v]) - vec::sum(before[v]));
-      const double part = moved > most ? most / moved : 1;
+      known[v].light = std::max(0.0, vec::sum(before[v]));
+      known[v].noise = kMostDeviations * std::sqrt(noise_ * known[v].light / known[v].area);
+    }
+    return known;
+  }
+
+  /// A value is known as well as the light of the elements around it; but where the darkest of them is darker than
+  /// noise explains, the others' light has spread to it over a rim. What is taken of that goes back over the rim.
+  void hold_to_noise(const Values& before) {
+    const std::vector<Known> known = known_of(before);
+    Values taken(values_.size(), {0, 0, 0});
+    for (const std::uint32_t v : plan_.free()) {
+      const Known& at = known[v];
+      const double change = vec::sum(values_[v]) - vec::sum(before[v]);
+      const double most = change > 0 ? at.noise : std::max(at.noise, at.light - at.darkest);
+      const double part = std::abs(change) > most ? most / std::abs(change) : 1;
       values_[v] = vec::add(before[v], vec::scale(vec::subtract(values_[v], before[v]), part));
       for (double& channel : values_[v]) channel = std::max(0.0, channel);
+      const double fall = vec::sum(before[v]) - vec::sum(values_[v]);
+      if (fall > at.noise) taken[v] = vec::scale(vec::subtract(before[v], values_[v]), (1 - at.noise / fall) * at.area);
     }
+    give_back(taken, known);
+  }
+
+  /// To brighter corners of the elements around, in proportion to how much brighter they are; none rises beyond the
+  /// brightest element around it, or noise: what would stays where it was. taken: irradiance times the area of the
+  /// elements around.
+  void give_back(const Values& taken, const std::vector<Known>& known) {
+    // Of vertices that are not free no light is known: nothing comes to them.
+    std::vector<double> shares(values_.size(), 0);
+    const auto share = [&](const FilterPlan::Triangle& triangle, std::uint32_t from, std::uint32_t to) {
+      return triangle.area * std::max(0.0, known[to].light - known[from].light);
+    };
+    const auto for_all = [&](const auto& visit) {
+      for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
+        for (const std::uint32_t from : triangle.corner) {
+          for (const std::uint32_t to : triangle.corner) visit(from, to, share(triangle, from, to));
+        }
+      }
+    };
+    for_all([&](std::uint32_t from, std::uint32_t, double part) { shares[from] += part; });
+    Values offered(values_.size(), {0, 0, 0});
+    for_all([&](std::uint32_t from, std::uint32_t to, double part) {
+      if (part > 0) offered[to] = vec::add(offered[to], vec::scale(taken[from], part / shares[from]));
+    });
+    std::vector<double> accepted(values_.size(), 0);
+    for (const std::uint32_t v : plan_.free()) {
+      const double room = std::max(known[v].light + known[v].noise, known[v].brightest) - vec::sum(values_[v]);
+      const double rise = vec::sum(offered[v]) / known[v].area;
+      accepted[v] = rise > room ? std::max(0.0, room / rise) : 1;
+    }
+    for_all([&](std::uint32_t from, std::uint32_t to, double part) {
+      if (!(part > 0)) return;
+      const Vec3d flux = vec::scale(taken[from], part / shares[from]);
+      values_[to] = vec::add(values_[to], vec::scale(flux, accepted[to] / known[to].area));
+      values_[from] = vec::add(values_[from], vec::scale(flux, (1 - accepted[to]) / known[from].area));
+    });
   }
 
   Vec3d flux_by(const FilterPlan::Triangle& triangle, const Values& values) const {

@@ -17,7 +17,9 @@ namespace torolux {
 /// that miss least of the elements' flux, bent as little as may be where they meet: a smoothing spline (Reinsch 1967)
 /// whose penalty grows with a bend's square while noise alone could make it, and with the bend itself from there on
 /// (Huber 1964; Kim, Koh, Boyd & Gorinevsky 2009, "l1 trend filtering"). So a gradient stays as it is, and an edge of
-/// light does. No value moves by more than twice its standard deviation, so that what is narrow and bright stays, too.
+/// light does. No value moves by more than twice its standard deviation, so that what is narrow and bright stays, too;
+/// but down to the darkest element around it: what means around vertices have spread over a rim of light leaves the
+/// dark side, and goes to the bright one, where no value rises beyond the brightest element around it.
 /// Where no vertex is kept, the best values hold exactly what the elements received; steps end when no more
 /// is seen of the rest (docs/decisions/elements.md).
 /// flux: by global element [quanta]. flux_of_record: in the mean, of the channels [quanta], > 0. values: by vertex,
@@ -26,6 +28,6 @@ void filter_light(const FilterPlan& plan, std::span<const protocol::Flux> flux, 
                   std::vector<Vec3d>& values);
 
 /// So often filter_light comes by each triangle.
-inline constexpr std::uint64_t kFilterPasses = 28;
+inline constexpr std::uint64_t kFilterPasses = 32;
 
 }  // namespace torolux

@@ -19,12 +19,16 @@
 namespace torolux::references {
 namespace {
 
+/// Tries for a caustic, so many a side of the square that their directions come from.
+constexpr unsigned kTriesAside = 6;
+
 /// One light path, followed from the eye.
 class Path {
  public:
-  /// caustics: how those are found that light_paths.hpp describes.
-  Path(const World& world, LightFinding finding, Caustics caustics, Samples& samples)
-      : world_(world), finding_(finding), caustics_(caustics), samples_(samples) {
+  /// caustics: how those are found that light_paths.hpp describes. tries: for tries alone, so that the path is the same
+  /// with them and without.
+  Path(const World& world, LightFinding finding, Caustics caustics, Samples& samples, Samples& tries)
+      : world_(world), finding_(finding), caustics_(caustics), samples_(samples), tries_(tries) {
     if (world.sky()) far_.emplace(*world.sky());
   }
 
@@ -48,9 +52,42 @@ class Path {
     for (;;) {
       const auto hit = world_.closest(origin_, direction_, leaving_);
       if (!hit) return see_sky();
-      meet_emitter(*hit);
-      if (turns_ == 0) sees_diffuse_ = world_.material(*hit).model == Model::diffuse;
+      if (!found_otherwise()) meet_emitter(*hit);
+      if (straight_) sees_diffuse_ = world_.material(*hit).model == Model::diffuse;
       if (!turn(*hit) || !survives()) return;
+    }
+  }
+
+  /// Of an emitter's light: by paths from the light, or by tries.
+  bool found_otherwise() const {
+    return caustics_ == Caustics::from_light && density_ == 0 && (sees_diffuse_ || scatterings_ == 1);
+  }
+
+  /// Light that mirrors or glass bring from emitters to where this path scatters first. In view by way of mirrors or
+  /// glass itself, it is not found from the light, and one direction would find a small lamp by luck alone.
+  void try_for_caustics(const Hit& hit, const Reflection& reflection) {
+    Colour sum = Colour::Zero();
+    for (unsigned i = 0; i < kTriesAside * kTriesAside; ++i) {
+      Path path(world_, finding_, caustics_, tries_, tries_);
+      path.weight_ = weight_;
+      path.radiance_scale_ = radiance_scale_;
+      const double lobe = tries_.uniform();
+      const double first = (i % kTriesAside + tries_.uniform()) / kTriesAside;
+      const double second = (i / kTriesAside + tries_.uniform()) / kTriesAside;
+      if (path.leave(hit, reflection, lobe, {first, second})) path.follow_to_emitter();
+      sum += path.light_;
+    }
+    light_ += sum / (kTriesAside * kTriesAside);
+  }
+
+  /// By mirrors, glass and panes alone.
+  void follow_to_emitter() {
+    for (;;) {
+      const auto hit = world_.closest(origin_, direction_, leaving_);
+      if (!hit) return;
+      if (density_ == 0) meet_emitter(*hit);
+      const Model model = world_.material(*hit).model;
+      if (model == Model::diffuse || model == Model::glossy || !turn(*hit) || !survives()) return;
     }
   }
 
@@ -157,14 +194,20 @@ class Path {
       ask_emitters(hit, reflection, emitter, place);
       ask_openings(hit, reflection, emitter, place);
     }
-    const Vec out = reflection.sample(lobe, samples_.pair(dimension + 2));
+    if (caustics_ == Caustics::from_light && !sees_diffuse_ && scatterings_ == 0) try_for_caustics(hit, reflection);
+    return leave(hit, reflection, lobe, samples_.pair(dimension + 2));
+  }
+
+  /// False: the path has ended.
+  bool leave(const Hit& hit, const Reflection& reflection, double lobe, const std::array<double, 2>& place) {
+    const Vec out = reflection.sample(lobe, place);
     const double cosine = reflection.cosine(out);
     const double density = reflection.density(out);
     if (cosine <= 0 || density <= 0) return false;
     weight_ *= reflection.value(out) * (cosine / density);
     go(hit, out);
     density_ = density;
-    scattered_ = true;
+    ++scatterings_;
     return (weight_ > 0).any();
   }
 
@@ -195,9 +238,9 @@ class Path {
 
   /// What the emitter that the path has come upon adds.
   void meet_emitter(const Hit& hit) {
-    const Colour emission = scattered_ ? world_.emission_at(hit, -direction_) : world_.emission_seen(hit, -direction_);
+    const Colour emission =
+        scatterings_ > 0 ? world_.emission_at(hit, -direction_) : world_.emission_seen(hit, -direction_);
     if ((emission == 0).all()) return;
-    if (caustics_ == Caustics::from_light && sees_diffuse_ && density_ == 0) return;
     double share = 1;
     if (density_ > 0) {
       if (finding_ == LightFinding::emitters_only) return;  // asked for where the path was turned
@@ -216,6 +259,7 @@ class Path {
   }
 
   void go(const Hit& hit, const Vec& direction) {
+    straight_ = false;
     vertex_ = hit.point;
     origin_ = world_.leave(hit, direction);
     direction_ = direction;
@@ -236,9 +280,11 @@ class Path {
   LightFinding finding_;
   Caustics caustics_;
   Samples& samples_;
+  Samples& tries_;
   std::optional<DistantLight> far_;
-  bool scattered_ = false;     // since it left the eye
-  bool sees_diffuse_ = false;  // the camera, at the path's first turn
+  unsigned scatterings_ = 0;   // since it left the eye
+  bool straight_ = true;       // through panes alone, as light_paths.hpp sees
+  bool sees_diffuse_ = false;  // the camera, where the path first turns
   Vec vertex_ = Vec::Zero();   // where the path was last turned
   Vec origin_ = Vec::Zero();   // the same, off the surface
   Vec direction_ = Vec::Zero();
@@ -264,7 +310,7 @@ void add(const Picture& more, Picture& sum) {
 }  // namespace
 
 Colour incident_over_pi(const World& world, const Hit& hit, LightFinding finding, Samples& samples) {
-  return Path(world, finding, Caustics::from_eye, samples).from(hit);
+  return Path(world, finding, Caustics::from_eye, samples, samples).from(hit);
 }
 
 TracedPicture trace(const World& world, const Camera& camera, const TraceChoice& choice) {
@@ -280,11 +326,12 @@ TracedPicture trace(const World& world, const Camera& camera, const TraceChoice&
     // A stream for each half, so that they are independent.
     const auto sum = [&](std::uint64_t which) {
       Samples samples(choice.seed, 2 * pixel + which);
+      Samples tries(choice.seed, ~(2 * pixel + which));
       Colour light = Colour::Zero();
       for (std::uint32_t sample = 0; sample < half; ++sample) {
         samples.begin(sample);
         const auto [x, y] = samples.pair(0);
-        Path path(world, choice.finding, choice.caustics, samples);
+        Path path(world, choice.finding, choice.caustics, samples, tries);
         if (!eye.has_lens()) {
           light += path.along(eye.place(), eye.direction(column + x, row + y));
           continue;

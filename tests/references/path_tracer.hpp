@@ -18,6 +18,8 @@ namespace torolux::references {
 enum class LightFinding : std::uint8_t { both, emitters_only, directions_only };
 
 /// Light that comes to a diffuse surface in view by way of mirrors or glass: by luck, or as light_paths.hpp has it.
+/// With the latter, where such a surface is seen in mirrors or glass (or in what is glossy) in its turn, many tries in
+/// place of one look for emitters.
 enum class Caustics : std::uint8_t { from_eye, from_light };
 
 struct TraceChoice {
