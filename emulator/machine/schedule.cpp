@@ -99,9 +99,9 @@ bool Emulation::next_event(Event& event) {
     const Cycles known = std::min({time, least, until_});
     if (times_.releases.least() <= known && known != kNever) {
       NiuNetworkSide& niu = nius_[times_.releases.least_index()];
-      // It still waits, as nobody else lets it go. But what did not fit into its ring may fit now, and be what it waits
+      // What did not fit into its ring may fit now, and be what it waits for; or it has found by itself what it waited
       // for.
-      if (!niu.overflows() || !niu.refresh(events_, pool_, times_)) niu.release(known, times_);
+      if (!niu.refresh(events_, pool_, times_)) niu.release(known, times_);
       continue;
     }
     if (std::min(time, least) >= until_) return false;

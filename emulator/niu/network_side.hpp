@@ -73,8 +73,6 @@ class alignas(64) NiuNetworkSide {
     tells_polls_ = tells;
     set_times(times);
   }
-  /// What waits for room in the ring may find some at the next refresh.
-  bool overflows() const { return !overflow_.empty(); }
   /// The same for one that does not wait, but may ask.
   void publish_horizon(Cycles horizon);
   /// Before the scheduler waits for a processor that may go on. What this side writes does not wait to be seen (that is

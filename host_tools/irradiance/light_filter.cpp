@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "host_tools/scene/vec.hpp"
 
@@ -133,23 +134,29 @@ class LightFilter {
   /// What is known of light at a vertex without the filter.
   struct Known {
     double area = 0;            ///< of the elements around it [user units^2]
-    double darkest = HUGE_VAL;  ///< of these, what one received [quanta / user unit^2], all channels
-    double brightest = 0;
-    double noise = 0;  ///< how far off `light` it may be by chance
-    double light = 0;  ///< their mean
+    double moved = 0;           ///< likewise, with those around vertices that hang on it, as far as they do
+    double darkest = HUGE_VAL;  ///< of these, what one received, and may have missed by chance
+    double brightest = 0;       ///< of these, what one received [quanta / user unit^2], all channels
+    double noise = 0;           ///< how far off `light` it may be by chance
+    double light = 0;           ///< their mean
   };
   std::vector<Known> known_of(const Values& before) const {
     std::vector<Known> known(values_.size());
+    for (const std::uint32_t v : plan_.free()) known[v].light = std::max(0.0, vec::sum(before[v]));
     for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
       const double own = vec::sum(received(triangle)) / triangle.area;
       for (const std::uint32_t v : triangle.corner) {
         known[v].area += triangle.area;
-        known[v].darkest = std::min(known[v].darkest, own);
+        known[v].darkest = std::min(known[v].darkest, own + std::sqrt(noise_ * known[v].light / triangle.area));
         known[v].brightest = std::max(known[v].brightest, own);
       }
     }
+    for (Known& at : known) at.moved = at.area;
+    for (const FilterPlan::Hanging& at : plan_.hanging() | std::views::reverse) {
+      known[at.from].moved += known[at.vertex].moved * (1 - at.along);
+      known[at.to].moved += known[at.vertex].moved * at.along;
+    }
     for (const std::uint32_t v : plan_.free()) {
-      known[v].light = std::max(0.0, vec::sum(before[v]));
       known[v].noise = kMostDeviations * std::sqrt(noise_ * known[v].light / known[v].area);
     }
     return known;
@@ -168,15 +175,16 @@ class LightFilter {
       values_[v] = vec::add(before[v], vec::scale(vec::subtract(values_[v], before[v]), part));
       for (double& channel : values_[v]) channel = std::max(0.0, channel);
       const double fall = vec::sum(before[v]) - vec::sum(values_[v]);
-      if (fall > at.noise) taken[v] = vec::scale(vec::subtract(before[v], values_[v]), (1 - at.noise / fall) * at.area);
+      if (fall <= at.noise) continue;
+      const double beyond = (1 - at.noise / fall) * at.moved;
+      for (std::size_t c = 0; c < 3; ++c) taken[v][c] = beyond * std::max(0.0, before[v][c] - values_[v][c]);
     }
     give_back(taken, known);
   }
 
   /// To brighter corners of the elements around, in proportion to how much brighter they are; none rises beyond the
-  /// brightest element around it, or noise: what would stays where it was. taken: irradiance times the area of the
-  /// elements around.
-  void give_back(const Values& taken, const std::vector<Known>& known) {
+  /// brightest element around it, or noise: what would stays where it was. taken: irradiance times Known::moved.
+  void give_back(Values& taken, const std::vector<Known>& known) {
     // Of vertices that are not free no light is known: nothing comes to them.
     std::vector<double> shares(values_.size(), 0);
     const auto share = [&](const FilterPlan::Triangle& triangle, std::uint32_t from, std::uint32_t to) {
@@ -190,21 +198,28 @@ class LightFilter {
       }
     };
     for_all([&](std::uint32_t from, std::uint32_t, double part) { shares[from] += part; });
+    for (const std::uint32_t v : plan_.free()) {
+      if (shares[v] > 0) continue;  // else none around is brighter, and free
+      values_[v] = vec::add(values_[v], vec::scale(taken[v], 1 / known[v].moved));
+      taken[v] = {0, 0, 0};
+    }
     Values offered(values_.size(), {0, 0, 0});
     for_all([&](std::uint32_t from, std::uint32_t to, double part) {
       if (part > 0) offered[to] = vec::add(offered[to], vec::scale(taken[from], part / shares[from]));
     });
     std::vector<double> accepted(values_.size(), 0);
     for (const std::uint32_t v : plan_.free()) {
-      const double room = std::max(known[v].light + known[v].noise, known[v].brightest) - vec::sum(values_[v]);
-      const double rise = vec::sum(offered[v]) / known[v].area;
+      const Known& at = known[v];
+      const double if_all_stays = vec::sum(values_[v]) + vec::sum(taken[v]) / at.moved;
+      const double room = std::max(at.light + at.noise, at.brightest) - if_all_stays;
+      const double rise = vec::sum(offered[v]) / at.moved;
       accepted[v] = rise > room ? std::max(0.0, room / rise) : 1;
     }
     for_all([&](std::uint32_t from, std::uint32_t to, double part) {
       if (!(part > 0)) return;
       const Vec3d flux = vec::scale(taken[from], part / shares[from]);
-      values_[to] = vec::add(values_[to], vec::scale(flux, accepted[to] / known[to].area));
-      values_[from] = vec::add(values_[from], vec::scale(flux, (1 - accepted[to]) / known[from].area));
+      values_[to] = vec::add(values_[to], vec::scale(flux, accepted[to] / known[to].moved));
+      values_[from] = vec::add(values_[from], vec::scale(flux, (1 - accepted[to]) / known[from].moved));
     });
   }
 

@@ -12,13 +12,27 @@ export passed=$build/tidy
 export extra=
 
 # changed_sources: those that the working tree and the last commits have changed, tests aside; a header stands for the
-# source beside it. Where there is no git (an unpacked archive), all.
+# source beside it, or the first that includes it. Where this is no checkout of git's, or has no such history, all.
 changed_sources() {
-  local commits=60 changed
-  changed=$(git status --porcelain --no-renames 2>/dev/null | cut -c 4- &&
-    git log -n "$commits" --name-only --pretty=format: 2>/dev/null) || changed=$(printf '%s\n' "${sources[@]}")
-  printf '%s\n' "${sources[@]}" |
-    grep -xFf <(grep -vE '^tests/' <<<"$changed" | sed -nE 's/\.[ch]pp$/.cpp/p' | sort -u) || true
+  local commits=40 changed file
+  if [[ $(git rev-parse --show-toplevel 2>/dev/null) != "$root" ]] ||
+    ! changed=$(git diff --name-only "HEAD~$commits" 2>/dev/null && git ls-files --others --exclude-standard); then
+    printf '%s\n' "${sources[@]}"
+    return
+  fi
+  while IFS= read -r file; do
+    case $file in
+      tests/*) ;;
+      *.cpp) echo "$file" ;;
+      *.hpp)
+        if [[ -e ${file%.hpp}.cpp ]]; then
+          echo "${file%.hpp}.cpp"
+        else
+          printf '%s\n' "${sources[@]}" | grep -v '^tests/' | grep '\.cpp$' | xargs grep -lF "#include \"$file\"" | sed -n 1p || true
+        fi
+        ;;
+    esac
+  done <<<"$changed" | sort -u | grep -xFf - <(printf '%s\n' "${sources[@]}") || true
 }
 
 case $2 in
@@ -32,7 +46,7 @@ esac
 mkdir -p "$passed"
 # As the compiler is called, but for precompiled headers: those of GCC are nothing to clang, and each file has to include
 # what it needs.
-sed -E 's/ -Winvalid-pch//; s/ -include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" >"$passed/compile_commands.json"
+sed -E 's/ -Winvalid-pch//; s/( -Xclang)? -include(-pch)?( -Xclang)? [^ ]*cmake_pch\.hxx(\.pch)?//g' "$build/compile_commands.json" >"$passed/compile_commands.json"
 rules=$( (cat .clang-tidy && clang-tidy --version && echo "$extra") | sha256sum)
 export rules
 
