@@ -40,10 +40,11 @@ struct Shown {
   double spread = 0;  ///< of values about the light, over the light, over corners in the middle of the floor
   double flux = 0;    ///< that the floor shows, over what it received
   double peak = 0;    ///< the most light at any corner
+  double least = 0;   ///< of any channel at any corner
 };
 
-/// chance: whether records come by chance. least, most: of x, where corners count.
-Shown show(const Light& light, bool chance, double of_record, double least, double most) {
+/// chance: whether records come by chance. least, most: of x, where corners count. green: where it is other light.
+Shown show(const Light& light, bool chance, double of_record, double least, double most, const Light& green = {}) {
   const Mesh mesh = floor_mesh();
   std::mt19937 random(7);
   std::vector<protocol::Flux> flux(mesh.elements);
@@ -58,6 +59,10 @@ Shown show(const Light& light, bool chance, double of_record, double least, doub
       if (number < of.first_facet || number >= of.first_facet + of.facets) continue;
       const auto quanta = static_cast<std::int64_t>(came);
       flux[of.first_element[0] + facet.element] = {quanta, quanta, quanta};
+      if (green) {
+        const double green_light = green(middle_of(mesh, facet)) * kLight * mesh.facet_area(facet);
+        flux[of.first_element[0] + facet.element][1] = static_cast<std::int64_t>(green_light);
+      }
     }
     received += came;
   }
@@ -73,6 +78,9 @@ Shown show(const Light& light, bool chance, double of_record, double least, doub
       const double value = static_cast<double>(shown.triangles[shown.first[f]].irradiance_over_pi[c][0]);
       sum += value * mesh.facet_area(facet) / 3;
       result.peak = std::max(result.peak, value / kLight);
+      for (const float channel : shown.triangles[shown.first[f]].irradiance_over_pi[c]) {
+        result.least = std::min(result.least, static_cast<double>(channel) / kLight);
+      }
       const double x = mesh.space.to_user(corners[c])[0];
       if (x < least || x > most) continue;
       const double off = value / kLight / light(x) - 1;
@@ -126,6 +134,13 @@ TEST(LightFilter, LightThatWasSpreadOverARimGoesBack) {
     EXPECT_NEAR(filtered.flux, 1, 0.01) << middle;             // 0.85 at 2 if what finds no room were lost
     EXPECT_LT(filtered.peak, 51) << middle;
   }
+}
+
+// Where one colour's light falls, another's may rise: what goes back over a rim takes nothing away.
+TEST(LightFilter, NoColourIsLessThanNothing) {
+  const Light red = [](double x) { return 50 * std::exp(-(x - 2.1) * (x - 2.1) / 0.005); };
+  const Light green = [](double x) { return 50 * std::exp(-(x - 1.9) * (x - 1.9) / 0.005); };
+  EXPECT_GE(show(red, false, 500 * kRecord, 0, 4, green).least, 0);
 }
 
 TEST(LightFilter, AStepOfLightStaysAStep) {
