@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "host_tools/scene/vec.hpp"
 
@@ -152,7 +151,8 @@ class LightFilter {
       }
     }
     for (Known& at : known) at.moved = at.area;
-    for (const FilterPlan::Hanging& at : plan_.hanging() | std::views::reverse) {
+    for (std::size_t i = plan_.hanging().size(); i-- > 0;) {
+      const FilterPlan::Hanging& at = plan_.hanging()[i];
       known[at.from].moved += known[at.vertex].moved * (1 - at.along);
       known[at.to].moved += known[at.vertex].moved * at.along;
     }

@@ -179,9 +179,11 @@ async function checkAsking(page) {
 }
 
 async function checkRender(browser) {
-  const run = await start([...kRender, "--size", "640x480", "--samples", "16", "--output", "box.png", "--display", "0"]);
+  // It stands until the page is there, however long that takes on a busy computer.
+  const run = await start([...kRender, "--size", "640x480", "--samples", "16", "--output", "box.png", "--display", "0", "--paused"]);
   const { page, faults, close } = await open(browser, run.url);
   await page.waitForSelector("#torus canvas");
+  await page.getByText("Full speed").press("Enter");
   await checkChanges(page);
   await checkPicture(page, join(folder, "box.png"));
   await checkKeys(page);
