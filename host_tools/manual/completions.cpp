@@ -39,7 +39,7 @@ bool takes_scene(const CommandEntry& command) {
 }
 
 /// In single quotes, for bash, zsh and fish alike.
-std::string quoted(const std::string& text) {
+std::string shell_word(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
   return out + "'";
@@ -65,17 +65,17 @@ std::string zsh_option(const CommandOption& option) {
   }
   std::string text;
   for (const std::string& name : option.names)
-    text += "        " + quoted("*" + name + "[" + zsh_plain(option.help) + "]" + value) + " \\\n";
+    text += "        " + shell_word("*" + name + "[" + zsh_plain(option.help) + "]" + value) + " \\\n";
   return text;
 }
 
 std::string bash_case(const std::vector<CommandEntry>& commands, const CommandEntry& command,
                       const std::vector<std::string>& scenes) {
-  std::string text = "    " + quoted(command.words) + ")\n      case $previous in\n";
+  std::string text = "    " + shell_word(command.words) + ")\n      case $previous in\n";
   for (const CommandOption& option : command.options) {
     if (option.positional || option.value == ValueOf::nothing) continue;
     text += "        " + option.names.back() + ") ";
-    if (option.value == ValueOf::words) text += "words=" + quoted(joined(option.words));
+    if (option.value == ValueOf::words) text += "words=" + shell_word(joined(option.words));
     if (option.value == ValueOf::file) text += "files=-f";
     if (option.value == ValueOf::folder) text += "files=-d";
     if (option.value == ValueOf::other) text += "words=";
@@ -83,8 +83,8 @@ std::string bash_case(const std::vector<CommandEntry>& commands, const CommandEn
   }
   std::vector<std::string> others = commands_below(commands, command);
   if (takes_scene(command)) others.insert(others.end(), scenes.begin(), scenes.end());
-  text += "        *)\n          if [[ $word == -* ]]; then words=" + quoted(joined(option_names(command))) +
-          "\n          else words=" + quoted(joined(others)) + (command.has_commands ? "" : " files=-f") +
+  text += "        *)\n          if [[ $word == -* ]]; then words=" + shell_word(joined(option_names(command))) +
+          "\n          else words=" + shell_word(joined(others)) + (command.has_commands ? "" : " files=-f") +
           "\n          fi ;;\n";
   return text + "      esac ;;\n";
 }
@@ -112,7 +112,7 @@ std::string bash_completions(const std::vector<CommandEntry>& commands, const st
 
 std::string zsh_completions(const std::vector<CommandEntry>& commands, const std::vector<std::string>& scenes) {
   std::string known;
-  for (const CommandEntry& command : commands) known += " " + quoted(command.words);
+  for (const CommandEntry& command : commands) known += " " + shell_word(command.words);
   std::string text =
       "#compdef torolux\n# zsh completion of torolux; written by the program itself\n_torolux() {\n"
       "  local command= word i=2\n  local -a known=(" +
@@ -122,14 +122,14 @@ std::string zsh_completions(const std::vector<CommandEntry>& commands, const std
       "    (( ${known[(Ie)${command:+$command }$word]} )) || continue\n"
       "    command+=${command:+ }$word\n  done\n  case $command in\n";
   for (const CommandEntry& command : commands) {
-    text += "    (" + quoted(command.words) + ")\n      _arguments -S \\\n";
+    text += "    (" + shell_word(command.words) + ")\n      _arguments -S \\\n";
     for (const CommandOption& option : command.options)
       if (!option.positional) text += zsh_option(option);
     const std::vector<std::string> below = commands_below(commands, command);
     std::string rest = "_files";
     if (takes_scene(command)) rest = "{_files; compadd -- " + joined(scenes) + "}";
     if (!below.empty()) rest = "(" + joined(below) + ")";
-    text += "        " + quoted("*:argument:" + rest) + " ;;\n";
+    text += "        " + shell_word("*:argument:" + rest) + " ;;\n";
   }
   return text + "  esac\n}\n_torolux \"$@\"\n";
 }
@@ -146,24 +146,24 @@ std::string fish_completions(const std::vector<CommandEntry>& commands, const st
     }
     if (when.empty()) when = "__fish_use_subcommand";
     if (!command.words.empty() && !below.empty()) when += "; and not __fish_seen_subcommand_from " + joined(below);
-    const std::string head = "complete -c torolux -n " + quoted(when);
+    const std::string head = "complete -c torolux -n " + shell_word(when);
     for (const std::string& name : below) {
       const std::string words = command.words.empty() ? name : command.words + " " + name;
       const auto other = std::find_if(commands.begin(), commands.end(),
                                       [&words](const CommandEntry& entry) { return entry.words == words; });
-      text += head + " -f -a " + name + " -d " + quoted(other->help) + "\n";
+      text += head + " -f -a " + name + " -d " + shell_word(other->help) + "\n";
     }
-    if (takes_scene(command)) text += head + " -a " + quoted(joined(scenes)) + "\n";
+    if (takes_scene(command)) text += head + " -a " + shell_word(joined(scenes)) + "\n";
     for (const CommandOption& option : command.options) {
       if (option.positional) continue;
       text += head;
       for (const std::string& name : option.names)
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-      if (option.value == ValueOf::words) text += " -x -a " + quoted(joined(option.words));
+      if (option.value == ValueOf::words) text += " -x -a " + shell_word(joined(option.words));
       if (option.value == ValueOf::file) text += " -r -F";
       if (option.value == ValueOf::folder) text += " -x -a '(__fish_complete_directories)'";
       if (option.value == ValueOf::other) text += " -x";
-      text += " -d " + quoted(option.help) + "\n";
+      text += " -d " + shell_word(option.help) + "\n";
     }
   }
   return text;
