@@ -166,7 +166,7 @@ void fill(std::span<std::byte> memory, std::uint64_t seed) {
 TEST(TranslatedProtection, RandomSettingsRefuseWhatQemuRefuses) {
   const Image image = image_of(program());
   Word traps = 0;
-  constexpr std::uint64_t kPrograms = 40;
+  constexpr std::uint64_t kPrograms = 100;
   for (std::uint64_t seed = 1; seed <= kPrograms && !testing::Test::HasFailure(); ++seed) {
     const auto filled = [seed](std::span<std::byte> memory) { fill(memory, seed); };
     const Outcome outcome = run_on_all(image, "seed " + std::to_string(seed), filled, Counts::ignored);
