@@ -42,7 +42,7 @@ std::vector<std::byte> bytes_of(Content content) {
 /// Throws InputError where these are the bytes of something else.
 template <class Content>
 Content content_of(std::span<const std::byte> bytes) {
-  Content content{};  // a reader of a truth value looks at what it was
+  Content content;
   read_archive(bytes, [&content](SnapshotReader& reader) { reader(content); });
   return content;
 }

@@ -163,7 +163,8 @@ void value(Archive& archive, Value& v) {
   } else if constexpr (IsAtomic<Value>::value) {
     atomic(archive, v);
   } else if constexpr (std::same_as<Value, bool>) {
-    std::uint8_t byte = v ? 1 : 0;
+    std::uint8_t byte = 0;
+    if constexpr (!Archive::kReads) byte = v ? 1 : 0;  // what is read into need not be set
     value(archive, byte);
     if (byte > 1) refuse_snapshot("a truth value of " + std::to_string(byte));
     v = byte != 0;
