@@ -4,6 +4,7 @@
 #include "host_tools/mesh/clusters.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <numbers>
 
@@ -22,11 +23,14 @@ struct Member {
   double area = 0;
   std::vector<std::uint32_t> neighbours;
   std::size_t triangles = 0;
+  double length = HUGE_VAL;  ///< of a cluster that has it, at most
 };
 
 /// Normals of members differ from the first one's by no more than this.
 constexpr double kElementCosine = 0.8660254037844387;  ///< 30 degrees
 constexpr double kPatchCosine = 0.6427876096865394;    ///< 50 degrees
+/// Where another surface is near, elements are this much shorter, at most.
+constexpr double kShortest = 0.125;
 /// A cluster with less than this of a full one's area joins a neighbour.
 constexpr double kScrap = 0.25;
 /// A patch of fewer stays as it is: a small quadrilateral is no finely tessellated surface.
@@ -57,7 +61,8 @@ std::vector<std::uint32_t> grow(const std::vector<Member>& members, double lengt
       for (const std::uint32_t other : members[member].neighbours) {
         if (cluster[other] != none) continue;
         const double far = vec::length(vec::subtract(members[other].centre, members[seed].centre));
-        if (far > 0.5 * length || cosine(members[other].normal, members[seed].normal) < least_cosine) continue;
+        const double most = std::min({length, members[seed].length, members[other].length});
+        if (far > 0.5 * most || cosine(members[other].normal, members[seed].normal) < least_cosine) continue;
         if (triangles + members[other].triangles > kMostTriangles) continue;
         triangles += members[other].triangles;
         cluster[other] = next;
@@ -78,6 +83,7 @@ std::vector<Member> merged(const std::vector<Member>& members, const std::vector
     into.normal = vec::add(into.normal, members[m].normal);
     into.area += members[m].area;
     into.triangles += members[m].triangles;
+    into.length = std::min(into.length, members[m].length);
     for (const std::uint32_t other : members[m].neighbours) {
       if (cluster[other] != cluster[m]) into.neighbours.push_back(cluster[other]);
     }
@@ -94,7 +100,10 @@ std::vector<Member> merged(const std::vector<Member>& members, const std::vector
 void join_scraps(const std::vector<Member>& members, double length, double least_cosine,
                  std::vector<std::uint32_t>& cluster) {
   const std::vector<Member> clusters = merged(members, cluster);
-  const double full = std::numbers::pi / 4 * length * length;
+  const auto full = [&](std::uint32_t a, std::uint32_t b) {
+    const double least = std::min({length, clusters[a].length, clusters[b].length});
+    return std::numbers::pi / 4 * least * least;
+  };
   DisjointSets sets(clusters.size());
   std::vector<double> area;
   area.reserve(clusters.size());
@@ -105,12 +114,13 @@ void join_scraps(const std::vector<Member>& members, double length, double least
     triangles.push_back(member.triangles);
   }
   for (std::uint32_t c = 0; c < clusters.size(); ++c) {
-    if (area[sets.root(c)] > kScrap * full) continue;
+    if (area[sets.root(c)] > kScrap * full(c, c)) continue;
     std::uint32_t best = kNoNeighbour;
     double best_cosine = least_cosine;
     for (const std::uint32_t other : clusters[c].neighbours) {
       const double alike = cosine(clusters[c].normal, clusters[other].normal);
-      if (sets.root(other) == sets.root(c) || area[sets.root(other)] > full || !(alike > best_cosine)) continue;
+      if (sets.root(other) == sets.root(c) || area[sets.root(other)] > full(c, other) || !(alike > best_cosine))
+        continue;
       if (triangles[sets.root(c)] + triangles[sets.root(other)] > kMostTriangles) continue;
       best = other;
       best_cosine = alike;
@@ -164,15 +174,37 @@ std::vector<Member> members_of(const Mesh& mesh, const Scene& scene, const std::
   return members;
 }
 
+/// Gives each triangle the length of a cluster that has it: where another surface is near, less than `length`. Asked
+/// once for each part of the shortest length.
+void shorten_near_others(const Mesh& mesh, const Clearance& clearance, const std::vector<std::uint32_t>& triangle_of,
+                         double length, std::vector<Member>& triangles) {
+  const std::vector<std::uint32_t> part = clusters_of(triangles, kShortest * length, kElementCosine);
+  const std::vector<Member> parts = merged(triangles, part);
+  std::vector<double> lengths(parts.size(), 0);
+  for (std::size_t m = 0; m < triangles.size(); ++m) {
+    double& most = lengths[part[m]];
+    if (most == 0) {
+      const Member& all = parts[part[m]];
+      const double reach = length * mesh.space.scale;
+      most = clearance.at(triangle_of[m], mesh.space.to_normalised(all.centre), vec::unit(all.normal), reach);
+      most = std::max(most / mesh.space.scale, kShortest * length);
+    }
+    triangles[m].length = most;
+  }
+}
+
 }  // namespace
 
 std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, const std::vector<bool>& small,
-                                        double patch_length, double element_length) {
+                                        const Clearance& clearance, double patch_length, double element_length) {
   std::vector<std::uint32_t> triangle_of;
   std::vector<std::uint32_t> number;
-  const std::vector<Member> triangles = members_of(mesh, scene, small, triangle_of, number);
+  std::vector<Member> triangles = members_of(mesh, scene, small, triangle_of, number);
+  shorten_near_others(mesh, clearance, triangle_of, element_length, triangles);
   const std::vector<std::uint32_t> element = clusters_of(triangles, element_length, kElementCosine);
-  const std::vector<std::uint32_t> patch = clusters_of(merged(triangles, element), patch_length, kPatchCosine);
+  std::vector<Member> whole = merged(triangles, element);
+  for (Member& member : whole) member.length = patch_length;
+  const std::vector<std::uint32_t> patch = clusters_of(whole, patch_length, kPatchCosine);
 
   std::vector<ElementCluster> elements(patch.size());
   for (std::size_t m = 0; m < triangles.size(); ++m) elements[element[m]].push_back(triangle_of[m]);
@@ -190,19 +222,11 @@ std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, co
 }
 
 std::uint32_t count_smooth_surfaces(const Mesh& mesh) {
-  const SmoothSurfaces smooth =
-      find_smooth_surfaces(mesh, std::vector<bool>(mesh.triangles.size(), true), Pierced::goes_on);
-  DisjointSets sets(mesh.triangles.size());
+  const std::vector<std::uint32_t> surface =
+      surface_numbers(find_smooth_surfaces(mesh, std::vector<bool>(mesh.triangles.size(), true), Pierced::goes_on));
   std::uint32_t surfaces = 0;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.triangles[t].sides == 0) continue;
-    ++surfaces;
-    for (const std::uint32_t other : smooth.neighbour[t]) {
-      if (other == kNoNeighbour || sets.root(other) == sets.root(t)) continue;
-      sets.merge(t, other);
-      --surfaces;
-    }
-  }
+  for (std::uint32_t t = 0; t < surface.size(); ++t)
+    if (mesh.triangles[t].sides != 0 && surface[t] == t) ++surfaces;
   return surfaces;
 }
 

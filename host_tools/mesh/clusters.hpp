@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host_tools/mesh/clearance.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
 namespace torolux {
@@ -15,10 +16,11 @@ using ElementCluster = std::vector<std::uint32_t>;
 /// Elements of one patch: at least eight triangles in all.
 using PatchCluster = std::vector<ElementCluster>;
 
-/// small: triangles that may be part of a cluster. Lengths: about the greatest extent, user units. Clusters in the
+/// small: triangles that may be part of a cluster. Lengths: about the greatest extent, user units; elements
+/// are smaller where another surface is near. Clusters in the
 /// order of their first triangles; none holds a triangle twice, and what has few neighbours is in none.
 std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, const std::vector<bool>& small,
-                                        double patch_length, double element_length);
+                                        const Clearance& clearance, double patch_length, double element_length);
 
 /// Smooth surfaces that the mesh has, were all its triangles small.
 std::uint32_t count_smooth_surfaces(const Mesh& mesh);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each triangle's tree grows to its level, deeper at walls and splits. Then elements beside much smaller ones are cut,
-// until there are none.
+// Each triangle's tree grows to its level, deeper at walls, under what hangs over it, and at splits. Then elements
+// beside much smaller ones are cut, until there are none.
 #include "host_tools/mesh/element_trees.hpp"
 
 #include <algorithm>
@@ -17,12 +17,13 @@ GridPoint middle(const GridPoint& a, const GridPoint& b) {
   return {(a.i + b.i) / 2, (a.j + b.j) / 2};
 }
 
-/// What a wall crosses is cut so many times more than its length asks for.
-constexpr std::uint32_t kWallLevels = 2;
+/// What a wall crosses, and what lies close under another surface, is cut so many times more than its length asks for.
+constexpr std::uint32_t kDeeperLevels = 2;
 
 /// Grows the tree of one triangle.
 struct Grower {
   const Mesh& mesh;
+  const Clearance& clearance;
   const std::vector<Split>& splits;
   std::uint32_t triangle;
   std::uint32_t base;
@@ -40,7 +41,9 @@ struct Grower {
   bool is_cut(std::uint32_t code, std::uint32_t level) const {
     if (level < base) return true;
     if (level == kMostLevels) return false;
-    return (level < base + kWallLevels && mesh.walls.cross(triangle, code)) ||
+    return (level < base + kDeeperLevels &&
+            (mesh.walls.cross(triangle, code) ||
+             clearance.is_overhung(triangle, grid_corners(mesh.triangles[triangle], code)))) ||
            std::binary_search(splits.begin(), splits.end(), Split{triangle, code});
   }
 };
@@ -100,11 +103,12 @@ bool balance_once(const Mesh& mesh, Leaves& leaves) {
 
 }  // namespace
 
-Leaves element_leaves(const Mesh& mesh, const std::vector<int>& base_level, const std::vector<Split>& splits) {
+Leaves element_leaves(const Mesh& mesh, const Clearance& clearance, const std::vector<int>& base_level,
+                      const std::vector<Split>& splits) {
   Leaves leaves(mesh.triangles.size());
   for (std::uint32_t t = 0; t < leaves.size(); ++t) {
     if (base_level[t] < 0) continue;
-    Grower{mesh, splits, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
+    Grower{mesh, clearance, splits, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
   }
   while (balance_once(mesh, leaves)) {
   }

@@ -98,8 +98,8 @@ struct MeshPatch {
   double mean_reflectance() const {
     return (static_cast<double>(reflectance[0]) + reflectance[1] + reflectance[2]) * 0x1p-32 / 3;
   }
-  /// Its elements are of several triangles each.
-  bool is_clustered() const { return triangles > elements; }
+  /// Joined of small triangles. Near other surfaces an element may be a single one of them.
+  bool is_clustered() const { return triangles > 1; }
 };
 
 /// Global numbers run over patches in the order of their first triangles, then of its paths; front before back.
