@@ -76,11 +76,10 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
 
 /// What processors in this process send stays where they put it, and they tell the kinds of records.
 void Emulation::lend_to_near_pes() {
-  const bool tells_kinds = !kinds_.empty() && kinds_.size() <= kMostToldKinds;
   for (NiuChannel* channel : channels_) {
     if (channel->near == 0) continue;
     channel->payloads = &pool_.payloads();
-    channel->record_kinds = tells_kinds ? program_ : nullptr;
+    channel->record_kinds = kinds_.empty() ? nullptr : program_;
   }
 }
 

@@ -175,12 +175,20 @@ void MpiRank::close(std::span<const unsigned> lost, int exit_code) {
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);
   }
+  // Nobody leaves before all have handed theirs over: what is large is taken only as long as its receiver is there.
+  MPI_Request all = MPI_REQUEST_NULL;
+  bool has_said = false;
   for (;;) {
     {
       const std::lock_guard lock(mutex_);
       progress();
-      accept_messages();  // others may be waiting to hand theirs over
-      if (outgoing_.empty()) break;
+      accept_messages();
+      if (outgoing_.empty() && !has_said) {
+        MPI_Ibarrier(MPI_COMM_WORLD, &all);
+        has_said = true;
+      }
+      int done = 0;
+      if (has_said && (MPI_Test(&all, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS || done != 0)) break;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -19,7 +19,7 @@ static_assert(kCommandWindow + 3 * kLargestEntry <= kLeastRingBytes, "see kComma
 
 }  // namespace
 
-NetworkEnd::NetworkEnd(NiuChannel& channel) : channel_(&channel) {
+NetworkEnd::NetworkEnd(NiuChannel& channel, StandIns& stand_ins) : channel_(&channel), stand_ins_(&stand_ins) {
   channel.asleep.store(1);  // whatever it is woken for is told
 }
 
@@ -31,7 +31,6 @@ void NetworkEnd::resume() {
 
 /// Contents go where the network would put them.
 void NetworkEnd::push(const Command& command, std::span<const std::byte> contents) {
-  received_ += entry_bytes(command);
   if (contents.empty() || channel_->payloads == nullptr) return channel_->commands.push(command, contents);
   Command lending = command;
   lending.payload = channel_->payloads->take_or_make();
@@ -40,15 +39,31 @@ void NetworkEnd::push(const Command& command, std::span<const std::byte> content
   channel_->commands.push(lending, {});
 }
 
+void NetworkEnd::push_stand_in(const PacketName& name, const Command& command) {
+  Command lending = command;
+  lending.payload = channel_->payloads->take_or_make();
+  stand_ins_->add(lending.payload, name);
+  channel_->commands.push(lending, {});
+}
+
+void NetworkEnd::take_command(std::uint32_t pe, ByteReader& rest) {
+  const auto command = rest.get<Command>();
+  const auto contents = rest.get_bytes(command.bytes);
+  const auto refuse = [pe](const std::string& what) {
+    throw MachineFailure("PE " + std::to_string(pe) + ": its rank has sent " + what);
+  };
+  if (contents.size() > kMostBlockBytes || !channel_->commands.has_room(command.bytes))
+    refuse("more commands than there is room for");
+  received_ += entry_bytes(command);
+  if (command.lent == 0) return push(command, contents);
+  if (command.kind != CommandKind::send_records || command.lent > kMostBlockBytes || !contents.empty() ||
+      channel_->payloads == nullptr)
+    refuse("a command without what belongs to it");
+  push_stand_in({kept_++, static_cast<std::uint16_t>(pe), command.destination, command.lent}, command);
+}
+
 void NetworkEnd::take(const News& news, ByteReader& rest) {
-  for (std::uint32_t i = 0; i < news.commands; ++i) {
-    const auto command = rest.get<Command>();
-    const auto contents = rest.get_bytes(command.bytes);
-    if (contents.size() > kMostBlockBytes || !channel_->commands.has_room(command.bytes))
-      throw MachineFailure("PE " + std::to_string(news.pe) +
-                           ": its rank has sent more commands than there is room for");
-    push(command, contents);
-  }
+  for (std::uint32_t i = 0; i < news.commands; ++i) take_command(news.pe, rest);
   channel_->clock.store(news.clock, kRelaxed);
   channel_->copied.store(news.copied, kRelaxed);
   channel_->instructions.store(news.instructions, kRelaxed);
@@ -74,6 +89,20 @@ bool NetworkEnd::has_news() const {
          (told_consumed_ != received_ && channel_->commands.empty());
 }
 
+void NetworkEnd::put_arrival(const Arrival& arrival, ByteWriter& words) {
+  Arrival header = with_contents_behind(arrival);
+  const auto name = arrival.payload != nullptr ? stand_ins_->remove(arrival.payload) : std::nullopt;
+  if (name) {
+    header.lent = static_cast<std::uint16_t>(header.bytes);
+    header.bytes = 0;
+    words.put(header);
+    words.put(*name);
+  } else {
+    words.put(header);
+    words.put_bytes(contents_of(arrival));
+  }
+}
+
 bool NetworkEnd::collect(unsigned pe, ByteWriter& words) {
   channel_->asleep.store(1, kRelaxed);
   if (has_news()) {
@@ -93,8 +122,7 @@ bool NetworkEnd::collect(unsigned pe, ByteWriter& words) {
   depart(channel_->bus_departures, told_bus_);
   std::uint32_t arrivals = 0;
   for (; const Arrival* arrival = channel_->arrivals.front(); ++arrivals) {
-    words.put(with_contents_behind(*arrival));
-    words.put_bytes(contents_of(*arrival));
+    put_arrival(*arrival, words);
     pop_arrival(*channel_, *arrival);
   }
   told_horizon_ = channel_->horizon.load(kRelaxed);

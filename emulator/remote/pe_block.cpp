@@ -40,28 +40,32 @@ unsigned allowed_cores() {
 
 unsigned threads_of(const BlockSetup& setup) {
   if (setup.machine.threads != 0) return setup.machine.threads;
-  return std::max(1U, allowed_cores() / std::max(1U, setup.sharers));
+  return std::max(1U, allowed_cores() / std::max(1U, setup.place.sharers));
 }
 
 }  // namespace
 
 PeBlock::PeBlock(BlockSetup setup)
     : setup_(std::move(setup)),
+      own_(setup_.place.rank_of.at(setup_.place.numbers.at(0))),
       threads_(threads_of(setup_)),
-      is_active_(setup_.numbers.size()),
-      is_told_(setup_.numbers.size()),
+      outbox_(setup_.place.machine_number, setup_.place.rank_of),
+      inbox_(setup_.place.machine_number, setup_.place.rank_of, own_),
+      is_active_(setup_.place.numbers.size()),
+      is_told_(setup_.place.numbers.size()),
+      is_awaiting_(setup_.place.numbers.size()),
       begin_cpu_(cpu_seconds()) {
   const MachineSetup& machine = setup_.machine;
   const unsigned pes = machine.columns * machine.rows;
-  for (unsigned index = 0; index < setup_.numbers.size(); ++index) index_of_[setup_.numbers[index]] = index;
-  memory_ = make_pes(machine, setup_.images, setup_.numbers, std::vector<bool>(pes));
+  for (unsigned index = 0; index < setup_.place.numbers.size(); ++index) index_of_[setup_.place.numbers[index]] = index;
+  memory_ = make_pes(machine, setup_.images, setup_.place.numbers, std::vector<bool>(pes));
   engine_ = engine_named(machine.engine)({machine.description, setup_.images, memory_.pes, threads_});
   has_waker_ = engine_->waker(0) != nullptr;
-  for (unsigned index = 0; index < setup_.numbers.size(); ++index) {
+  for (unsigned index = 0; index < setup_.place.numbers.size(); ++index) {
     NiuChannel& channel = *niu_channel_at(memory_.pes[index].channel.bytes().data());
     set_up_channel(channel, pes, machine.description, has_waker_);
     channel.until = machine.until;
-    ends_.emplace_back(channel, setup_.numbers[index], index, engine_->waker(index));
+    ends_.emplace_back(channel, setup_.place.numbers[index], index, engine_->waker(index));
   }
 }
 
@@ -76,7 +80,15 @@ void PeBlock::stop() {
   engine_->stop();
 }
 
-void PeBlock::start() {
+/// PEs that are asked for kinds tell them as those of one process do.
+void PeBlock::start(const Start& start) {
+  const auto is_inside = [](const KindRule& rule) { return rule.at < rule.record_bytes; };
+  if (!std::ranges::all_of(start.kind_rules, is_inside)) throw MachineFailure("rank 0 tells kinds that cannot be");
+  if (!start.kind_rules.empty()) kinds_.emplace(start.kind_rules);
+  for (ProcessorEnd& end : ends_) {
+    end.channel().record_kinds = kinds_ ? &*kinds_ : nullptr;
+    if (start.keeps_payloads) end.keep_payloads();
+  }
   engine_->start();
   running_ = true;
   for (unsigned index = 0; index < ends_.size(); ++index) activate(index);
@@ -114,9 +126,52 @@ void PeBlock::take_words(std::span<const std::byte> bytes) {
   }
 }
 
+void PeBlock::take_payloads(unsigned from, std::span<const std::byte> bytes) {
+  inbox_.read(from, bytes, [this](const PacketName& name, std::span<const std::byte> payload) {
+    const unsigned index = index_of(name.destination);
+    ArrivalLine& line = ends_[index].arrivals();
+    const auto awaited = line.awaited();
+    line.keep(name, payload);
+    if (is_held_ || !awaited || line.awaited() == awaited) return;
+    collect(index);
+    if (stays_active(index)) activate(index);
+  });
+}
+
+/// Those for PEs of this rank are here.
+void PeBlock::send_payloads(const std::function<void(unsigned, std::span<const std::byte>)>& send) {
+  std::vector<std::byte> own;
+  outbox_.send_all([&](unsigned rank, std::span<const std::byte> bytes) {
+    if (rank != own_) return send(rank, bytes);
+    own.assign(bytes.begin(), bytes.end());
+  });
+  if (!own.empty()) take_payloads(own_, own);
+}
+
+std::optional<PacketName> PeBlock::first_missing() const {
+  for (const ProcessorEnd& end : ends_) {
+    if (const auto name = end.arrivals().missing()) return name;
+  }
+  if (!asked_) return std::nullopt;
+  for (const PacketName& name : *asked_) {
+    if (!ends_[index_of(name.destination)].arrivals().has(name)) return name;
+  }
+  return std::nullopt;
+}
+
+std::string PeBlock::awaited_payload() const {
+  const auto name = first_missing();
+  if (!name) return "nothing";
+  return "a packet's payload, of PE " + std::to_string(name->source) + " to PE " + std::to_string(name->destination) +
+         ", has not come from rank " + std::to_string(setup_.place.rank_of.at(name->source));
+}
+
 void PeBlock::collect(unsigned index) {
   const std::size_t before = news_.size();
-  ends_[index].collect(news_);
+  ends_[index].collect(news_, outbox_);
+  const bool awaits = ends_[index].arrivals().awaited().has_value();
+  if (awaits != is_awaiting_[index]) awaiting_ += awaits ? 1U : -1U;
+  is_awaiting_[index] = awaits;
   if (news_.size() == before) return;
   if (!is_told_[index]) told_.push_back(index);
   is_told_[index] = true;
@@ -167,8 +222,10 @@ void PeBlock::forget_news() {
 
 std::vector<std::byte> PeBlock::figures() {
   double seconds = cpu_seconds() - begin_cpu_;
+  std::uint64_t kept = 0;
+  for (const ProcessorEnd& end : ends_) kept += end.arrivals().unnamed();
   return bytes_of_archive([&](SnapshotWriter& writer) {
-    writer(seconds);
+    writer(seconds, kept);
     for (ProcessorEnd& end : ends_) archive_counts(writer, end.channel());
   });
 }
@@ -209,6 +266,21 @@ void PeBlock::let_go() {
   is_held_ = false;
   engine_->let_go();
   for (unsigned index = 0; index < ends_.size(); ++index) activate(index);
+}
+
+void PeBlock::ask_kept(std::span<const std::byte> bytes) {
+  asked_.emplace();
+  for (ByteReader reader(bytes); !reader.empty();) asked_->push_back(reader.get<PacketName>());
+}
+
+/// What is saved has the payloads of all that words have named.
+std::optional<std::vector<std::byte>> PeBlock::kept() {
+  if (!asked_ || first_missing()) return std::nullopt;
+  ByteWriter payloads;
+  for (const PacketName& name : *asked_)
+    payloads.put_bytes(ends_[index_of(name.destination)].arrivals().give(name));
+  asked_.reset();
+  return std::vector<std::byte>(payloads.bytes().begin(), payloads.bytes().end());
 }
 
 std::vector<std::byte> PeBlock::channel(unsigned pe) {

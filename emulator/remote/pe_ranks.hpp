@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,6 +30,8 @@ class PeRanks final : public PesElsewhere {
 
   /// Of each PE.
   std::vector<unsigned> place(unsigned pes) const;
+  /// Machines are made one after the other: a number for each.
+  std::uint32_t next_machine() { return machines_++; }
   /// This one included.
   unsigned count() const { return transport_.ranks().count; }
   /// Of these ranks, by their numbers: how many are on the computer of this one. Waits until all have said where.
@@ -54,6 +57,7 @@ class PeRanks final : public PesElsewhere {
   ranks::Transport& transport_;
   Placing placing_;
   std::string program_;
+  std::uint32_t machines_ = 0;
   std::vector<std::string> hosts_;        // by rank; empty: not known yet
   std::optional<ranks::LifeSigns> life_;  // until the end
 };

@@ -11,15 +11,15 @@
 
 namespace torolux::remote {
 
-void ProcessorEnd::collect(ByteWriter& news) {
-  refill();
+void ProcessorEnd::collect(ByteWriter& news, PayloadOutbox& payloads) {
+  if (line_.refill()) wake();
   // In this order: a wait that is seen belongs to a bound that is seen, and both to commands that are seen.
   std::uint64_t wait = channel_->wait.load(std::memory_order_seq_cst);
   std::uint64_t bound = channel_->bound.load(std::memory_order_acquire);
   if (bound == told_bound_ && wait == told_wait_ && channel_->commands.empty()) return;
   const std::size_t at = news.size();
   news.put(News{});
-  const Drained drained = drain(news);
+  const Drained drained = drain(news, payloads);
   blocked_ = !drained.all;
   // What waits for room here is not over: rank 0 must not believe that the PE waits for something else.
   if (!drained.all && drained.commands == 0 && wait_kind(told_wait_) == WaitKind::running) return news.cut_to(at);
@@ -47,7 +47,17 @@ void ProcessorEnd::collect(ByteWriter& news) {
   if (drained.commands != 0 && says() == WaitKind::running) wake();
 }
 
-ProcessorEnd::Drained ProcessorEnd::drain(ByteWriter& news) {
+/// Rank 0 counts kinds, and finds out where a record is of none.
+bool ProcessorEnd::keeps_payload_of(const Command& command) const {
+  if (!keeps_payloads_ || command.kind != CommandKind::send_records) return false;
+  if (channel_->record_kinds == nullptr) return true;
+  for (unsigned i = 0; i < command.records; ++i) {
+    if ((command.kinds >> (4 * i) & 15U) == 0) return false;
+  }
+  return true;
+}
+
+ProcessorEnd::Drained ProcessorEnd::drain(ByteWriter& news, PayloadOutbox& payloads) {
   auto& ring = channel_->commands;
   Drained drained;
   while (const Command* command = ring.front()) {
@@ -56,8 +66,17 @@ ProcessorEnd::Drained ProcessorEnd::drain(ByteWriter& news) {
       drained.all = false;
       break;
     }
-    news.put(*command);
-    news.put_bytes(contents_of(*command));
+    if (keeps_payload_of(*command)) {
+      Command header = *command;
+      header.lent = static_cast<std::uint16_t>(command->bytes);
+      header.bytes = 0;
+      news.put(header);
+      payloads.put({kept_++, static_cast<std::uint16_t>(number_), command->destination, command->bytes},
+                   contents_of(*command));
+    } else {
+      news.put(*command);
+      news.put_bytes(contents_of(*command));
+    }
     sent_ += bytes;
     ++drained.commands;
     ring.pop(*command);
@@ -78,22 +97,8 @@ void ProcessorEnd::take(const Words& words, ByteReader& rest) {
   };
   depart(channel_->torus_departures, words.torus_departures);
   depart(channel_->bus_departures, words.bus_departures);
-  for (std::uint32_t i = 0; i < words.arrivals; ++i) {
-    const auto arrival = rest.get<Arrival>();
-    const auto payload = rest.get_bytes(arrival.bytes);
-    if (late_.empty() && channel_->arrivals.has_room(payload.size())) {
-      channel_->arrivals.push(arrival, payload);
-    } else {
-      late_.push_back({arrival, {payload.begin(), payload.end()}});
-    }
-  }
   consumed_ = words.consumed;
-  if (words.wakes != channel_->wakes.load(std::memory_order_relaxed)) {
-    channel_->wake_time.store(words.wake_time, std::memory_order_relaxed);
-    channel_->wakes.store(words.wakes, std::memory_order_seq_cst);
-  }
-  horizon_ = words.horizon;
-  publish_horizon();
+  line_.take(words, rest);
   const WaitKind says_now = says();
   // It may have begun to wait after the network had told this.
   if (words.wake != 0 || says_now == WaitKind::poll || says_now == WaitKind::torus_place ||
@@ -102,42 +107,19 @@ void ProcessorEnd::take(const Words& words, ByteReader& rest) {
   }
 }
 
-/// What waits for room in the ring is not known to the processor.
-void ProcessorEnd::publish_horizon() {
-  const std::uint64_t horizon = late_.empty() ? horizon_ : std::min(horizon_, late_.front().arrival.time);
-  if (horizon > channel_->horizon.load(std::memory_order_relaxed))
-    channel_->horizon.store(horizon, std::memory_order_seq_cst);
-}
-
-void ProcessorEnd::refill() {
-  if (late_.empty()) return;
-  const std::size_t before = late_.size();
-  while (!late_.empty() && channel_->arrivals.has_room(late_.front().payload.size())) {
-    channel_->arrivals.push(late_.front().arrival, late_.front().payload);
-    late_.pop_front();
-  }
-  if (late_.size() == before) return;
-  publish_horizon();
-  wake();
-}
-
 void ProcessorEnd::save(SnapshotWriter& archive) {
   if (!channel_->commands.empty()) {
     throw MachineFailure("PE " + std::to_string(number_) + " is to be saved with commands that nobody has taken");
   }
-  std::atomic<std::uint64_t> horizon = horizon_;
+  std::atomic<std::uint64_t> horizon = line_.horizon();
   archive_channel_state(archive, *channel_, horizon);
-  std::uint64_t count = late_.size();
-  channel_->arrivals.for_each([&count](const Arrival&) { ++count; });
-  archive(count);
-  channel_->arrivals.for_each(
-      [&archive](const Arrival& arrival) { archive_arrival(archive, arrival, contents_of(arrival)); });
-  for (const Late& late : late_) archive_arrival(archive, late.arrival, late.payload);
+  line_.save(archive);
 }
 
 void ProcessorEnd::restore(SnapshotReader& archive) {
   std::atomic<std::uint64_t> of_network = 0;  // told again, behind the arrivals that it speaks of
   archive_channel_state(archive, *channel_, of_network);
+  line_.restored();
   told_bound_ = channel_->bound.load(std::memory_order_relaxed);
   told_wait_ = channel_->wait.load(std::memory_order_relaxed);
 }

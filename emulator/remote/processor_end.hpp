@@ -4,11 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <vector>
 
 #include "emulator/niu/channel.hpp"
 #include "emulator/niu/waker.hpp"
+#include "emulator/remote/arrival_line.hpp"
+#include "emulator/remote/payload_lanes.hpp"
 #include "emulator/remote/wire.hpp"
 #include "emulator/snapshot/archive.hpp"
 
@@ -19,10 +19,14 @@ class ProcessorEnd {
   /// channel: set up. number: of the PE in its machine; index: in the engine. waker: null where the processor sleeps on
   /// its channel.
   ProcessorEnd(NiuChannel& channel, unsigned number, unsigned index, ProcessorWaker* waker)
-      : channel_(&channel), waker_(waker), number_(number), index_(index) {}
+      : channel_(&channel), waker_(waker), number_(number), index_(index), line_(channel, number) {}
 
-  /// What is new; nothing is written where nothing is. Gives the processor what had no room before.
-  void collect(ByteWriter& news);
+  /// Before the start: payloads of packets to PEs do not go with the news, but into the outbox, where the channel's
+  /// RecordKinds knows their records, or nobody asks for kinds.
+  void keep_payloads() { keeps_payloads_ = true; }
+
+  /// What is new; nothing is written where nothing is. Gives the processor what had to wait before.
+  void collect(ByteWriter& news, PayloadOutbox& payloads);
   /// words: of this PE; rest: what follows them.
   void take(const Words& words, ByteReader& rest);
   void tell_to_stop();
@@ -34,19 +38,16 @@ class ProcessorEnd {
   /// Whether nothing comes of it before there are words for it.
   bool rests() const;
   NiuChannel& channel() { return *channel_; }
+  ArrivalLine& arrivals() { return line_; }
+  const ArrivalLine& arrivals() const { return line_; }
 
  private:
-  struct Late {
-    Arrival arrival;
-    std::vector<std::byte> payload;
-  };
   struct Drained {
     std::uint32_t commands = 0;
     bool all = true;
   };
-  Drained drain(ByteWriter& news);
-  void refill();
-  void publish_horizon();
+  Drained drain(ByteWriter& news, PayloadOutbox& payloads);
+  bool keeps_payload_of(const Command& command) const;
   WaitKind says() const { return wait_kind(channel_->wait.load(std::memory_order_seq_cst)); }
   void wake();
   void signal();
@@ -57,8 +58,9 @@ class ProcessorEnd {
   std::uint64_t told_bound_ = kCommandCycles, told_wait_ = 0;
   std::uint64_t sent_ = 0, consumed_ = 0;  // bytes of commands
   bool blocked_ = false;                   // some have not been sent: the network is to take others in first
-  std::uint64_t horizon_ = 0;
-  std::deque<Late> late_;  // arrivals that had no room in the ring: no more than the NIU has slots and buffers
+  bool keeps_payloads_ = false;
+  std::uint64_t kept_ = 0;  // packets whose payloads went into the outbox
+  ArrivalLine line_;
 };
 
 }  // namespace torolux::remote

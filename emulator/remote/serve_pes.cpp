@@ -2,6 +2,7 @@
 // A loop over messages and PEs.
 #include "emulator/remote/serve_pes.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -28,7 +29,8 @@ constexpr std::chrono::milliseconds kSleep{2}, kLongSleep{100};
 
 class Server {
  public:
-  Server(ranks::Transport& transport, ranks::LifeTimes times) : transport_(transport), life_(transport, {0}, times) {}
+  Server(ranks::Transport& transport, ranks::LifeTimes times)
+      : transport_(transport), times_(times), life_(transport, {0}, times) {}
 
   Close run(const std::string& program) {
     send(Kind::greeting, ranks::bytes_of(Greeting{ranks::host_name(), program}));
@@ -38,6 +40,7 @@ class Server {
       const bool ran = runs_ && attempt([this] { return block_->run(); });
       send_news();
       if (life_.silent(0)) transport_.abort("rank 0 is silent and counts as lost");
+      look_for_lost_payloads();
       if (ran) continue;
       if (runs_ && !block_->rests()) {
         std::this_thread::sleep_for(kBetweenLooks);
@@ -103,13 +106,18 @@ class Server {
       return send(Kind::stopped, {});
     }
     if (block_ == nullptr) return;  // it has failed, and rank 0 does not know that yet
+    if (kind == Kind::payloads) {
+      awaited_for_ = Clock::duration(0);
+      block_->take_payloads(message.from, message.bytes);
+      return send_kept();
+    }
     take_of_machine(kind, message.bytes);
   }
 
   void take_of_machine(Kind kind, std::span<const std::byte> bytes) {
     switch (kind) {
       case Kind::start:
-        block_->start();
+        block_->start(ranks::content_of<Start>(bytes));
         runs_ = true;
         return;
       case Kind::restore:
@@ -127,6 +135,9 @@ class Server {
         block_->hold();
         send_all_news();
         return send(Kind::held, {});
+      case Kind::ask_kept:
+        block_->ask_kept(bytes);
+        return send_kept();
       case Kind::ask_channel:
         return send(Kind::channel, block_->channel(ranks::content_of<std::uint32_t>(bytes)));
       case Kind::ask_saved:
@@ -142,21 +153,41 @@ class Server {
     if (!runs_ || block_->news().empty()) return;
     const Clock::time_point now = Clock::now();
     const bool due =
-        block_->has_wanted_news() || block_->rests() || block_->news().size() >= kManyBytes || now - sent_ >= kGather;
+        block_->has_wanted_news() || block_->rests() || block_->bytes_to_send() >= kManyBytes || now - sent_ >= kGather;
     if (due) send_all_news();
   }
 
   void send_all_news() {
     sent_ = Clock::now();
+    block_->send_payloads([this](unsigned rank, std::span<const std::byte> bytes) {
+      transport_.send(rank, static_cast<std::uint32_t>(Kind::payloads), bytes);
+    });
     send(Kind::news, block_->news().bytes());
     block_->forget_news();
   }
 
+  void send_kept() {
+    if (const auto payloads = block_->kept()) send(Kind::kept, *payloads);
+  }
+
+  /// Those that a word names were sent before. As in LifeSigns, time in which this rank was busy counts little.
+  void look_for_lost_payloads() {
+    const Clock::time_point now = Clock::now();
+    const Clock::duration since = std::min<Clock::duration>(now - looked_, times_.silence / 8);
+    looked_ = now;
+    const bool awaits = block_ != nullptr && block_->awaits_payload();
+    awaited_for_ = awaits ? awaited_for_ + since : Clock::duration(0);
+    if (awaited_for_ >= times_.silence) fail(block_->awaited_payload() + ": it counts as lost");
+  }
+
   ranks::Transport& transport_;
+  ranks::LifeTimes times_;
   ranks::LifeSigns life_;
   std::unique_ptr<PeBlock> block_;
   bool runs_ = false;
   Clock::time_point sent_;
+  Clock::time_point looked_ = Clock::now();
+  Clock::duration awaited_for_{0};
   std::optional<Close> close_;
 };
 

@@ -72,40 +72,41 @@ struct SentImage {
 
 struct SentSetup {
   MachineDescription description;
-  std::uint32_t columns = 0, rows = 0, local_memory_bytes = 0, threads = 0, sharers = 1;
+  std::uint32_t columns = 0, rows = 0, local_memory_bytes = 0, threads = 0, sharers = 1, machine_number = 0;
   std::string engine;
   std::vector<std::string> arguments;
   std::uint64_t until = 0;
-  std::vector<std::uint32_t> numbers, image_of;
+  std::vector<std::uint32_t> numbers, image_of, rank_of;
   std::vector<SentImage> images;
 
   template <class Archive>
   void archive(Archive& archive) {
-    archive(description, columns, rows, local_memory_bytes, threads, sharers, engine, arguments, until, numbers,
-            image_of, images);
+    archive(description, columns, rows, local_memory_bytes, threads, sharers, machine_number, engine, arguments, until,
+            numbers, image_of, rank_of, images);
   }
 };
 
 }  // namespace
 
-std::vector<std::byte> bytes_of_setup(const MachineSetup& machine, const ImageSet& images,
-                                      const std::vector<unsigned>& numbers, unsigned sharers) {
+std::vector<std::byte> bytes_of_setup(const MachineSetup& machine, const ImageSet& images, const BlockPlace& place) {
   SentSetup sent;
   sent.description = machine.description;
   sent.columns = machine.columns;
   sent.rows = machine.rows;
   sent.local_memory_bytes = machine.local_memory_bytes;
   sent.threads = machine.threads;
-  sent.sharers = sharers;
+  sent.sharers = place.sharers;
+  sent.machine_number = place.machine_number;
   sent.engine = machine.engine;
   sent.arguments = machine.arguments;
   sent.until = machine.until;
-  sent.numbers.assign(numbers.begin(), numbers.end());
+  sent.numbers.assign(place.numbers.begin(), place.numbers.end());
+  sent.rank_of.assign(place.rank_of.begin(), place.rank_of.end());
   std::map<std::size_t, std::uint32_t> places;  // of the images that its PEs have
-  for (const unsigned pe : numbers) {
-    const auto [place, is_new] = places.emplace(images.number_of(pe), static_cast<std::uint32_t>(places.size()));
+  for (const unsigned pe : place.numbers) {
+    const auto [image, is_new] = places.emplace(images.number_of(pe), static_cast<std::uint32_t>(places.size()));
     if (is_new) sent.images.emplace_back(images.of(pe));
-    sent.image_of.push_back(place->second);
+    sent.image_of.push_back(image->second);
   }
   return ranks::bytes_of(std::move(sent));
 }
@@ -121,8 +122,10 @@ BlockSetup setup_of_bytes(std::span<const std::byte> bytes) {
   setup.machine.engine = sent.engine;
   setup.machine.arguments = sent.arguments;
   setup.machine.until = sent.until;
-  setup.numbers.assign(sent.numbers.begin(), sent.numbers.end());
-  setup.sharers = sent.sharers;
+  setup.place.numbers.assign(sent.numbers.begin(), sent.numbers.end());
+  setup.place.rank_of.assign(sent.rank_of.begin(), sent.rank_of.end());
+  setup.place.sharers = sent.sharers;
+  setup.place.machine_number = sent.machine_number;
   std::vector<Image> images;
   images.reserve(sent.images.size());
   for (const SentImage& image : sent.images) images.push_back(image.image());

@@ -11,16 +11,22 @@
 
 namespace torolux::remote {
 
-/// The PEs of one rank.
-struct BlockSetup {
-  MachineSetup machine;           ///< what belongs to PEs and engine; nobody watches
-  std::vector<unsigned> numbers;  ///< of its PEs
-  ImageSet images;                ///< by place in `numbers`
-  unsigned sharers = 1;           ///< ranks with PEs on the same computer, this one included
+/// Which PEs one rank has, and who has the others.
+struct BlockPlace {
+  std::vector<unsigned> numbers;   ///< of its PEs
+  unsigned sharers = 1;            ///< ranks with PEs on the same computer, this one included
+  std::vector<unsigned> rank_of;   ///< of each PE of the machine
+  std::uint32_t machine_number = 0;  ///< of those that rank 0 makes, one after the other
 };
 
-std::vector<std::byte> bytes_of_setup(const MachineSetup& machine, const ImageSet& images,
-                                      const std::vector<unsigned>& numbers, unsigned sharers);
+/// The PEs of one rank.
+struct BlockSetup {
+  MachineSetup machine;  ///< what belongs to PEs and engine; nobody watches
+  BlockPlace place;
+  ImageSet images;  ///< by place in `place.numbers`
+};
+
+std::vector<std::byte> bytes_of_setup(const MachineSetup& machine, const ImageSet& images, const BlockPlace& place);
 /// Throws InputError where these are other bytes.
 BlockSetup setup_of_bytes(std::span<const std::byte> bytes);
 

@@ -13,6 +13,7 @@
 #include "emulator/engines/engine/registers.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/niu/channel.hpp"
+#include "emulator/torus/kind_rules.hpp"
 
 namespace torolux::remote {
 
@@ -22,9 +23,10 @@ enum class Kind : std::uint32_t {
   ready,          ///< to rank 0: the PEs are there, and whether they can be saved, as a bool
   restore,        ///< from rank 0, before the start: of one PE, as RestoredPe writes it
   restored,       ///< to rank 0, empty: the PE is, and the next may come
-  start,          ///< from rank 0, empty
+  start,          ///< from rank 0: Start
   words,          ///< from rank 0: WordsBegin, then Words with what follows them
   news,           ///< to rank 0: News with what follows them
+  payloads,       ///< from a rank with PEs to another: PayloadsBegin, then PacketNames, each with its payload behind it
   ask_figures,    ///< from rank 0, empty
   figures,        ///< to rank 0: PeCounts
   ask_memory,     ///< from rank 0: MemoryPart
@@ -33,6 +35,8 @@ enum class Kind : std::uint32_t {
   registers,      ///< to rank 0: std::optional<StackRegisters>
   hold,           ///< from rank 0, empty: no PE executes anything
   held,           ///< to rank 0, empty: that is so, and all news have been sent
+  ask_kept,       ///< from rank 0, while held: PacketNames, of packets for PEs of that rank
+  kept,           ///< to rank 0, once all that is under way has come: their payloads, which it keeps no longer
   ask_channel,    ///< from rank 0, while held: a PE's number
   channel,        ///< to rank 0: what NiuNetworkSide::save_channel writes
   ask_saved,      ///< from rank 0, while held: a PE's number
@@ -63,13 +67,38 @@ struct Close {
   }
 };
 
+/// Of a packet from PE to PE whose payload does not go through rank 0.
+struct PacketName {
+  std::uint64_t number;  ///< of those that its source has sent, counted from 0
+  std::uint16_t source, destination;
+  std::uint32_t bytes;  ///< of the payload
+
+  bool operator==(const PacketName&) const = default;
+};
+
+struct PayloadsBegin {
+  std::uint32_t machine;  ///< as in BlockSetup
+  std::uint32_t number;   ///< of these messages from that rank to this one, for that machine
+};
+
+struct Start {
+  bool keeps_payloads = false;       ///< from PE to PE, where kinds are told; else all go through rank 0
+  std::vector<KindRule> kind_rules;  ///< empty: nobody asks for kinds
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(keeps_payloads, kind_rules);
+  }
+};
+
 /// Whole pages.
 struct MemoryPart {
   std::uint32_t pe, offset, bytes;
 };
 
-/// Of one PE: what its side of the channel says. Behind it `commands` entries, each a Command and its payload. The
-/// commands come first, then all else, the bound next to last, the wait last.
+/// Of one PE: what its side of the channel says. Behind it `commands` entries, each a Command and its payload; one whose
+/// payload goes another way has its length in `lent`. The commands come first, then all else, the bound next to last, the
+/// wait last.
 struct News {
   std::uint32_t pe;
   std::uint32_t commands;
@@ -88,7 +117,8 @@ struct WordsBegin {
 };
 
 /// For one PE: what the network's side of its channel says. Behind it the times of departures, then the arrivals, each
-/// an Arrival and its payload. All counts but `arrivals` are since the start.
+/// an Arrival and its payload; or one with the payload's length in `lent`, and a PacketName. All counts but `arrivals`
+/// are since the start.
 struct Words {
   std::uint32_t pe;
   std::uint32_t arrivals;
@@ -149,6 +179,7 @@ class ByteReader {
     return bytes;
   }
   bool empty() const { return bytes_.empty(); }
+  std::size_t left() const { return bytes_.size(); }
 
  private:
   std::span<const std::byte> bytes_;
@@ -158,9 +189,9 @@ class ByteReader {
 /// the mirror's ring wherever they come to lie: a gap at its end and two of the largest entries are left.
 inline constexpr std::uint64_t kCommandWindow = kLeastRingBytes / 2;
 
-template <class Entry>
-constexpr std::size_t entry_bytes(const Entry& entry) {
-  return sizeof entry + (entry.bytes + 7U) / 8U * 8U;
+/// Wherever its payload is.
+constexpr std::size_t entry_bytes(const Command& command) {
+  return sizeof command + (command.bytes + command.lent + 7U) / 8U * 8U;
 }
 
 }  // namespace torolux::remote

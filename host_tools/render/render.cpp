@@ -90,7 +90,8 @@ struct RenderSession::Parts {
     machine_setup.watcher = choice.watcher;
     machine_setup.record_watcher = choice.follower;
     relay.to = choice.follower;
-    if (then == Machine::Then::stay) machine_setup.record_watcher = &relay;
+    const bool may_follow_later = then == Machine::Then::stay && choice.ranks == nullptr;
+    if (may_follow_later) machine_setup.record_watcher = &relay;
     machine_setup.pacer = choice.pacer;
     machine_setup.hop_watcher = choice.hop_watcher;
     machine_setup.profile = choice.profile;

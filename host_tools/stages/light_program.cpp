@@ -7,21 +7,33 @@
 #include "firmware/protocol/records.hpp"
 
 namespace torolux {
+namespace {
+
+using protocol::RadiosityRecord;
+using protocol::RayRecord;
+using protocol::RecordKind;
+
+constexpr std::array<std::string_view, 5> kNames = {"light", "point", "deposit", "ray", "shadow_ray"};
+constexpr std::array<KindRule, 5> kRules = {{
+    {sizeof(RadiosityRecord), offsetof(RadiosityRecord, kind), 0xFF, static_cast<std::uint8_t>(RecordKind::deposit), 2},
+    {sizeof(RadiosityRecord), offsetof(RadiosityRecord, kind), 0xFF, static_cast<std::uint8_t>(RecordKind::point), 1},
+    {sizeof(RadiosityRecord), 0, 0, 0, 0},
+    {sizeof(RayRecord), offsetof(RayRecord, flags), protocol::kShadow, protocol::kShadow, 4},
+    {sizeof(RayRecord), 0, 0, 0, 3},
+}};
+
+}  // namespace
 
 std::span<const std::string_view> LightProgram::record_kinds() const {
-  static constexpr std::array<std::string_view, 5> kNames = {"light", "point", "deposit", "ray", "shadow_ray"};
   return kNames;
 }
 
 std::size_t LightProgram::record_kind(std::span<const std::byte> record) const {
-  using protocol::RecordKind;
-  if (record.size() == sizeof(protocol::RadiosityRecord)) {
-    const auto kind = static_cast<RecordKind>(record[offsetof(protocol::RadiosityRecord, kind)]);
-    return kind == RecordKind::deposit ? 2 : kind == RecordKind::point ? 1 : 0;
-  }
-  if (record.size() != sizeof(protocol::RayRecord)) return kUnknown;
-  const auto flags = std::to_integer<std::uint8_t>(record[offsetof(protocol::RayRecord, flags)]);
-  return (flags & protocol::kShadow) != 0 ? 4 : 3;
+  return kind_by(kRules, record);
+}
+
+std::span<const KindRule> LightProgram::kind_rules() const {
+  return kRules;
 }
 
 }  // namespace torolux

@@ -3,15 +3,16 @@
 #pragma once
 
 #include "emulator/host/host_program.hpp"
+#include "emulator/torus/kind_rules.hpp"
 
 namespace torolux {
 
-class LightProgram : public HostProgram {
+class LightProgram : public HostProgram, public HasKindRules {
  public:
   /// Those of the radiosity stage, then those of the ray tracing stage.
   std::span<const std::string_view> record_kinds() const override;
-  /// Throws MachineFailure where no kind has that size.
   std::size_t record_kind(std::span<const std::byte> record) const override;
+  std::span<const KindRule> kind_rules() const override;
 };
 
 }  // namespace torolux

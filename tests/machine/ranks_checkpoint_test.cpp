@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Proves: a render that is interrupted again and again, and each time goes on from its checkpoint on another number of
-// ranks, other placing and delays of messages, or in one process, ends as one that never was, in one process.
+// Proves: a render that is interrupted again and again, with payloads in the network that other ranks hold, and each time
+// goes on from its checkpoint on another number of ranks, other placing and delays of messages, or in one process, ends
+// as one that never was, in one process.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "emulator/errors.hpp"
+#include "emulator/remote/wire.hpp"
 #include "tests/physics/same_picture.hpp"
 #include "tests/support/on_ranks.hpp"
 #include "tests/support/run_in_pieces.hpp"
@@ -27,18 +29,27 @@ constexpr std::array<OnRanks, 7> kPlaces = {{{3, 1, Placing::cyclic, {1, 100us}}
                                              {9, 1, Placing::block, {3, 50us}},
                                              {3, 2, Placing::random, {}}}};
 
+/// Bytes of payloads that rank 0 has had to fetch to save what was in the network.
+std::size_t fetched = 0;
+
 RenderResult run_at(const OnRanks& place, RenderCase piece) {
-  if (place.ranks != 1) return render_on(place, piece);
+  const auto count = [](const ranks::Message& message) {
+    if (message.kind == static_cast<std::uint32_t>(remote::Kind::kept)) fetched += message.bytes.size();
+    return true;
+  };
+  if (place.ranks != 1) return render_on(place, piece, count);
   piece.machine.threads = place.threads;
   return run_case(piece);
 }
 
 void expect_same_in_pieces(const RenderCase& render_case, unsigned messages, unsigned least_pieces) {
   const RenderResult whole = run_case(render_case);
+  fetched = 0;
   const Pieces pieces = run_in_pieces(render_case, messages, {}, true, [](const RenderCase& piece, unsigned number) {
     return run_at(kPlaces[number % kPlaces.size()], piece);
   });
   EXPECT_GE(pieces.interruptions, least_pieces);
+  EXPECT_GT(fetched, 0U);
   EXPECT_EQ(everything(pieces.result), everything(whole));
   EXPECT_EQ(bytes_of(pieces.result.picture), bytes_of(whole.picture));
 }

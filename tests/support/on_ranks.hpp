@@ -4,11 +4,13 @@
 #pragma once
 
 #include <exception>
+#include <functional>
 #include <string>
 
 #include "emulator/ranks/thread_ranks.hpp"
 #include "emulator/remote/pe_ranks.hpp"
 #include "emulator/remote/serve_pes.hpp"
+#include "tests/support/faulty_ranks.hpp"
 #include "tests/support/render_support.hpp"
 
 namespace torolux::test {
@@ -19,14 +21,17 @@ struct OnRanks {
   ranks::Delays delays;
 };
 
-/// Throws what the render throws, once all ranks have ended; each must end well.
-inline RenderResult render_on(const OnRanks& on, RenderCase render_case) {
+/// Throws what the render throws, once all ranks have ended; each must end well. tap: sees what rank 0 is sent.
+inline RenderResult render_on(
+    const OnRanks& on, RenderCase render_case,
+    const std::function<bool(ranks::Message&)>& tap = [](ranks::Message&) { return true; }) {
   render_case.machine.threads = on.threads;
   RenderResult result;
   std::exception_ptr thrown;
   const auto ends = ranks::run_as_threads(on.ranks, on.delays, [&](ranks::Transport& transport) {
     if (transport.ranks().own != 0) return remote::serve_pes(transport, "the same");
-    remote::PeRanks others(transport, on.placing, "the same");
+    TappedTransport tapped(transport, tap);
+    remote::PeRanks others(tapped, on.placing, "the same");
     render_case.machine.ranks = &others;
     try {
       result = run_case(render_case);

@@ -9,6 +9,7 @@
 #include "emulator/ranks/thread_ranks.hpp"
 #include "emulator/remote/pe_ranks.hpp"
 #include "emulator/remote/serve_pes.hpp"
+#include "tests/support/faulty_ranks.hpp"
 #include "tests/unit/emulator/machine/wanderers.hpp"
 
 namespace torolux::test {
@@ -23,13 +24,17 @@ struct RanksChoice {
 /// What each rank does; an empty one: as serve_pes.
 using OtherRank = std::function<void(ranks::Transport&)>;
 
+/// Sees, and may change, what rank 0 is sent; as TappedTransport's.
+using Tap = std::function<bool(ranks::Message&)>;
+
 /// work: rank 0's, with the others at hand. Leaves how each rank has ended; "": well.
 inline std::vector<std::string> with_ranks(const RanksChoice& choice, const std::function<void(remote::PeRanks&)>& work,
-                                           const OtherRank& other = {}) {
+                                           const OtherRank& other = {}, const Tap& tap = {}) {
   return ranks::run_as_threads(choice.count, choice.delays, [&](ranks::Transport& transport) {
     if (transport.ranks().own != 0)
       return other ? other(transport) : remote::serve_pes(transport, "the same", choice.times);
-    remote::PeRanks others(transport, choice.placing, "the same", choice.times);
+    TappedTransport tapped(transport, tap ? tap : [](ranks::Message&) { return true; });
+    remote::PeRanks others(tapped, choice.placing, "the same", choice.times);
     try {
       work(others);
     } catch (...) {
