@@ -66,7 +66,8 @@ class PayloadInbox {
     if (reader.left() < sizeof(PayloadsBegin)) refuse(from, "are damaged");
     const auto begin = reader.get<PayloadsBegin>();
     if (begin.machine < machine_) return;
-    if (begin.machine > machine_ || begin.number != read_[from]++) refuse(from, "are not the next: some have been lost");
+    if (begin.machine > machine_ || begin.number != read_[from]++)
+      refuse(from, "are not the next: some have been lost");
     while (!reader.empty()) {
       if (reader.left() < sizeof(PacketName)) refuse(from, "are damaged");
       const auto name = reader.get<PacketName>();

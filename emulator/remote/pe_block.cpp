@@ -277,8 +277,7 @@ void PeBlock::ask_kept(std::span<const std::byte> bytes) {
 std::optional<std::vector<std::byte>> PeBlock::kept() {
   if (!asked_ || first_missing()) return std::nullopt;
   ByteWriter payloads;
-  for (const PacketName& name : *asked_)
-    payloads.put_bytes(ends_[index_of(name.destination)].arrivals().give(name));
+  for (const PacketName& name : *asked_) payloads.put_bytes(ends_[index_of(name.destination)].arrivals().give(name));
   asked_.reset();
   return std::vector<std::byte>(payloads.bytes().begin(), payloads.bytes().end());
 }

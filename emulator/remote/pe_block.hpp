@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The PEs of one rank, of one machine: memory, engine and channels. Words from the network and payloads from other ranks
-// enter, news and payloads of the PEs leave.
+// The PEs of one rank, of one machine: memory, engine and channels. Words from the network and payloads from other
+// ranks enter, news and payloads of the PEs leave.
 #pragma once
 
 #include <cstddef>

@@ -69,8 +69,8 @@ void RemotePes::begin(const MachineSetup& setup, const ImageSet& images) {
   }
 }
 
-/// Payloads stay with the PEs' ranks where nobody looks at them here: only a watcher does, and who counts kinds of records
-/// that their senders cannot tell.
+/// Payloads stay with the PEs' ranks where nobody looks at them here: only a watcher does, and who counts kinds of
+/// records that their senders cannot tell.
 void RemotePes::start() {
   Start start{keeps_payloads_, {}};
   const RecordKinds* kinds = niu_channel_at(pes_[0].channel.bytes().data())->record_kinds;

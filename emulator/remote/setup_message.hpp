@@ -13,9 +13,9 @@ namespace torolux::remote {
 
 /// Which PEs one rank has, and who has the others.
 struct BlockPlace {
-  std::vector<unsigned> numbers;   ///< of its PEs
-  unsigned sharers = 1;            ///< ranks with PEs on the same computer, this one included
-  std::vector<unsigned> rank_of;   ///< of each PE of the machine
+  std::vector<unsigned> numbers;     ///< of its PEs
+  unsigned sharers = 1;              ///< ranks with PEs on the same computer, this one included
+  std::vector<unsigned> rank_of;     ///< of each PE of the machine
   std::uint32_t machine_number = 0;  ///< of those that rank 0 makes, one after the other
 };
 

@@ -96,9 +96,9 @@ struct MemoryPart {
   std::uint32_t pe, offset, bytes;
 };
 
-/// Of one PE: what its side of the channel says. Behind it `commands` entries, each a Command and its payload; one whose
-/// payload goes another way has its length in `lent`. The commands come first, then all else, the bound next to last, the
-/// wait last.
+/// Of one PE: what its side of the channel says. Behind it `commands` entries, each a Command and its payload; one
+/// whose payload goes another way has its length in `lent`. The commands come first, then all else, the bound next to
+/// last, the wait last.
 struct News {
   std::uint32_t pe;
   std::uint32_t commands;

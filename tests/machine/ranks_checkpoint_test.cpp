@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Proves: a render that is interrupted again and again, with payloads in the network that other ranks hold, and each time
-// goes on from its checkpoint on another number of ranks, other placing and delays of messages, or in one process, ends
-// as one that never was, in one process.
+// Proves: a render that is interrupted again and again, with payloads in the network that other ranks hold, and each
+// time goes on from its checkpoint on another number of ranks, other placing and delays of messages, or in one process,
+// ends as one that never was, in one process.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves: what a packet from PE to PE holds goes from rank to rank and not through rank 0, unless somebody looks at it
-// there; all is as in one process whenever it comes; nothing is left at the end; what is lost or damaged on the way ends
-// the run, and the rank that it came from is named.
+// there; all is as in one process whenever it comes; nothing is left at the end; what is lost or damaged on the way
+// ends the run, and the rank that it came from is named.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -271,17 +271,17 @@ TEST(Payloads, ThatAreDamagedAreRefused) {
 /// One machine after the other: what is late of one is not taken for the next one's.
 TEST(Payloads, OfOneMachineAreNotTheNextOnes) {
   register_native_engine(ring());
-  const auto ends = with_ranks({.count = 4, .placing = Placing::cyclic, .delays = {3, 2000us}},
-                               [&](remote::PeRanks& others) {
-                                 for (unsigned i = 0; i < 4; ++i) {
-                                   MachineSetup setup = small_machine(3, 2);
-                                   setup.until = i % 2 == 0 ? 1500 : 0;  // cut short: packets are on their way
-                                   setup.ranks = &others;
-                                   ListeningHost host(kPes);
-                                   Machine machine(setup, empty_image());
-                                   machine.run(host);
-                                 }
-                               });
+  const auto ends =
+      with_ranks({.count = 4, .placing = Placing::cyclic, .delays = {3, 2000us}}, [&](remote::PeRanks& others) {
+        for (unsigned i = 0; i < 4; ++i) {
+          MachineSetup setup = small_machine(3, 2);
+          setup.until = i % 2 == 0 ? 1500 : 0;  // cut short: packets are on their way
+          setup.ranks = &others;
+          ListeningHost host(kPes);
+          Machine machine(setup, empty_image());
+          machine.run(host);
+        }
+      });
   for (const std::string& end : ends) EXPECT_EQ(end, "");
 }
 

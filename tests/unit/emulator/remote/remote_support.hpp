@@ -33,7 +33,8 @@ inline std::vector<std::string> with_ranks(const RanksChoice& choice, const std:
   return ranks::run_as_threads(choice.count, choice.delays, [&](ranks::Transport& transport) {
     if (transport.ranks().own != 0)
       return other ? other(transport) : remote::serve_pes(transport, "the same", choice.times);
-    TappedTransport tapped(transport, tap ? tap : [](ranks::Message&) { return true; });
+    TappedTransport tapped(
+        transport, tap ? tap : [](ranks::Message&) { return true; });
     remote::PeRanks others(tapped, choice.placing, "the same", choice.times);
     try {
       work(others);
