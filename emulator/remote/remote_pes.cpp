@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
@@ -169,7 +170,7 @@ void RemotePes::take(const ranks::Message& message) {
       return take_figures(rank, message.bytes);
     case Kind::kept:
       rank.answered = true;
-      if (stand_ins_.fill(rank.asked, message.bytes)) return;
+      if (stand_ins_.fill(std::exchange(rank.asked, {}), message.bytes)) return;
       throw ranks::RankFailure(others_.name_of(message.from) + " has sent other payloads than it was asked for");
     default:
       throw ranks::RankFailure(others_.name_of(message.from) + " has sent a message of kind " +
