@@ -75,11 +75,9 @@ void RemotePes::begin(const MachineSetup& setup, const ImageSet& images) {
 void RemotePes::start() {
   Start start{keeps_payloads_, {}};
   const RecordKinds* kinds = niu_channel_at(pes_[0].channel.bytes().data())->record_kinds;
-  if (const auto* ruled = dynamic_cast<const HasKindRules*>(kinds)) {
+  if (const auto* ruled = dynamic_cast<const HasKindRules*>(kinds))
     start.kind_rules.assign(ruled->kind_rules().begin(), ruled->kind_rules().end());
-  } else if (kinds != nullptr) {
-    start.keeps_payloads = false;
-  }
+  if (kinds != nullptr && start.kind_rules.empty()) start.keeps_payloads = false;
   for (const Rank& rank : ranks_) {
     await_answer(rank);
     others_.send(rank.number, Kind::start, ranks::bytes_of(start));

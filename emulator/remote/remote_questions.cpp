@@ -66,6 +66,7 @@ void RemotePes::take_figures(Rank& rank, std::span<const std::byte> bytes) {
   ranks::read_archive(bytes, [&](SnapshotReader& reader) {
     std::uint64_t kept = 0;
     reader(rank.seconds, kept);
+    // Figures are asked for when all PEs are at rest: no news of a packet that a rank has can be on their way.
     if (kept > kept_at(rank).size())
       throw ranks::RankFailure(others_.name_of(rank.number) + " keeps payloads of packets that nobody knows any more");
     for (const unsigned pe : rank.pes) archive_counts(reader, *niu_channel_at(pes_[pe].channel.bytes().data()));

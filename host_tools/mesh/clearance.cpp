@@ -1,24 +1,55 @@
 // SPDX-License-Identifier: MIT
-// Each side of a triangle looks out from the plane that its smooth surface has there.
+// Each side of a triangle looks out from the plane that its surface has there.
 #include "host_tools/mesh/clearance.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/mesh/edges.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
 namespace torolux {
 namespace {
 
-/// Of the reach: what rises less over the plane is a surface beside, and light does not change there as it does under
-/// one.
+/// Of the reach. Surfaces that meet without a common edge are uneven there; light does not change by that.
 constexpr double kRise = 0.05;
+constexpr double kRiseOfOverhang = 0.01;
 /// Cosine of 60 degrees: what is steeper stands on the surface.
 constexpr double kLiesOver = 0.5;
 
+Vec3d normal_of(const MeshTriangle& triangle) {
+  const Vec3d first = to_double(triangle.corner[0]);
+  return vec::unit(vec::cross(vec::subtract(to_double(triangle.corner[1]), first),
+                              vec::subtract(to_double(triangle.corner[2]), first)));
+}
+
+/// By triangle: the lowest number of one that hangs together with it, over edges where none stands on the other.
+std::vector<std::uint32_t> surfaces_of(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> positions;
+  positions.reserve(mesh.triangles.size());
+  for (const MeshTriangle& triangle : mesh.triangles) positions.push_back(triangle.position);
+  DisjointSets sets(positions.size());
+  for_each_edge(edge_uses(positions), [&](std::span<const EdgeUse> uses) {
+    for (std::size_t i = 1; i < uses.size(); ++i) {
+      const std::uint32_t a = uses[i - 1].triangle;
+      const std::uint32_t b = uses[i].triangle;
+      const double wound_alike = uses[i - 1].forward != uses[i].forward ? 1 : -1;
+      const double cosine = vec::dot(normal_of(mesh.triangles[a]), normal_of(mesh.triangles[b]));
+      if (wound_alike * cosine >= kLiesOver) sets.merge(a, b);
+    }
+  });
+  std::vector<std::uint32_t> surface;
+  surface.reserve(positions.size());
+  for (std::uint32_t t = 0; t < positions.size(); ++t) surface.push_back(sets.root(t));
+  return surface;
+}
+
 }  // namespace
 
-Clearance::Clearance(const Mesh& mesh) : surface_(surface_numbers(mesh.smooth)) {
+Clearance::Clearance(const Mesh& mesh) : surface_(surfaces_of(mesh)) {
   std::vector<TriangleTree::Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -30,10 +61,9 @@ Clearance::Clearance(const Mesh& mesh) : surface_(surface_numbers(mesh.smooth)) 
   tree_ = TriangleTree(std::move(triangles));
 }
 
-double Clearance::least(std::uint32_t triangle, Outlook outlook, double reach) const {
+double Clearance::before(std::uint32_t triangle, Outlook outlook, double reach) const {
   if (surface_.empty()) return reach;
   outlook.own = surface_[triangle];
-  outlook.rise = kRise * reach;
   double distance = reach;
   if ((sides_[triangle] & protocol::kFrontPresent) != 0) distance = tree_.distance(outlook, distance);
   outlook.normal = vec::scale(outlook.normal, -1);
@@ -42,17 +72,19 @@ double Clearance::least(std::uint32_t triangle, Outlook outlook, double reach) c
 }
 
 double Clearance::at(std::uint32_t triangle, const Vec3d& point, const Vec3d& normal, double reach) const {
-  return least(triangle, {.point = point, .normal = normal}, reach);
+  return before(triangle, {.point = point, .normal = normal, .rise = kRise * reach}, reach);
 }
 
-bool Clearance::is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner) const {
+bool Clearance::is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner, double least) const {
   const auto& [a, b, c] = corner;
   const double longest =
       std::max({vec::length(vec::subtract(b, a)), vec::length(vec::subtract(c, b)), vec::length(vec::subtract(a, c))});
+  if (longest <= least) return false;
   const Outlook outlook{.point = vec::scale(vec::add(vec::add(a, b), c), 1.0 / 3),
                         .normal = vec::unit(vec::cross(vec::subtract(b, a), vec::subtract(c, a))),
+                        .rise = kRiseOfOverhang * longest,
                         .facing = kLiesOver};
-  return least(triangle, outlook, longest) < longest;
+  return before(triangle, outlook, longest) < longest;
 }
 
 }  // namespace torolux

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh with its smooth surfaces enters; how far others are in front of them leaves: light changes within about that
-// length (G. Ward, P. Heckbert, "Irradiance gradients", Eurographics Workshop on Rendering 1992).
+// A mesh enters; how far other surfaces are in front of one leaves: light changes within about that length (G. Ward,
+// P. Heckbert, "Irradiance gradients", Eurographics Workshop on Rendering 1992).
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,25 @@ namespace torolux {
 
 struct Mesh;
 
-/// Lengths normalised.
+/// Lengths normalised. Triangles that hang together over edges where they turn by less than 60 degrees are one surface.
 class Clearance {
  public:
   Clearance() = default;  ///< all is clear
-  /// Triangles, sides and smooth surfaces of it must be known.
+  /// Triangles and sides of it must be known.
   explicit Clearance(const Mesh& mesh);
 
-  /// Before the sides of a triangle, from a point of its smooth surface: to the nearest other surface, at most reach.
+  /// Before the sides of a triangle, from a point of its surface: to the nearest other one, at most reach. What rises
+  /// less than a twentieth of reach over the plane there does not count.
   double at(std::uint32_t triangle, const Vec3d& point, const Vec3d& normal, double reach) const;
 
   /// Whether from the middle of a part of the triangle another surface is nearer than the part is long, and lies over
-  /// it rather than stands on it: a wall on a floor does not count.
-  bool is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner) const;
+  /// it rather than stands on it: steeper than 60 degrees it does not count, nor where it rises less than a hundredth
+  /// of that length. Parts no longer than `least` are not.
+  bool is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner, double least) const;
 
  private:
-  double least(std::uint32_t triangle, Outlook outlook, double reach) const;
+  /// Before its sides. outlook: but for `own`.
+  double before(std::uint32_t triangle, Outlook outlook, double reach) const;
 
   TriangleTree tree_;
   std::vector<std::uint32_t> surface_;  ///< by triangle

@@ -16,9 +16,9 @@ using ElementCluster = std::vector<std::uint32_t>;
 /// Elements of one patch: at least eight triangles in all.
 using PatchCluster = std::vector<ElementCluster>;
 
-/// small: triangles that may be part of a cluster. Lengths: about the greatest extent, user units; elements
-/// are smaller where another surface is near. Clusters in the
-/// order of their first triangles; none holds a triangle twice, and what has few neighbours is in none.
+/// small: triangles that may be part of a cluster. Lengths: about the greatest extent, user units; elements are smaller
+/// where another surface is near. Clusters in the order of their first triangles; none holds a triangle twice, and what
+/// has few neighbours is in none.
 std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, const std::vector<bool>& small,
                                         const Clearance& clearance, double patch_length, double element_length);
 

@@ -20,11 +20,16 @@ GridPoint middle(const GridPoint& a, const GridPoint& b) {
 /// What a wall crosses, and what lies close under another surface, is cut so many times more than its length asks for.
 constexpr std::uint32_t kDeeperLevels = 2;
 
+/// Under another surface only what is longer than this, of an element's length, is cut: of a heap of small things each
+/// part would be.
+constexpr double kLeastUnderOthers = 0.25;
+
 /// Grows the tree of one triangle.
 struct Grower {
   const Mesh& mesh;
   const Clearance& clearance;
   const std::vector<Split>& splits;
+  double least;  ///< under another surface, longer than this: kLeastUnderOthers, normalised
   std::uint32_t triangle;
   std::uint32_t base;
   std::vector<std::uint32_t>& leaves;
@@ -43,7 +48,7 @@ struct Grower {
     if (level == kMostLevels) return false;
     return (level < base + kDeeperLevels &&
             (mesh.walls.cross(triangle, code) ||
-             clearance.is_overhung(triangle, grid_corners(mesh.triangles[triangle], code)))) ||
+             clearance.is_overhung(triangle, grid_corners(mesh.triangles[triangle], code), least))) ||
            std::binary_search(splits.begin(), splits.end(), Split{triangle, code});
   }
 };
@@ -106,9 +111,10 @@ bool balance_once(const Mesh& mesh, Leaves& leaves) {
 Leaves element_leaves(const Mesh& mesh, const Clearance& clearance, const std::vector<int>& base_level,
                       const std::vector<Split>& splits) {
   Leaves leaves(mesh.triangles.size());
+  const double least = kLeastUnderOthers * mesh.lengths.element * mesh.space.scale;
   for (std::uint32_t t = 0; t < leaves.size(); ++t) {
     if (base_level[t] < 0) continue;
-    Grower{mesh, clearance, splits, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
+    Grower{mesh, clearance, splits, least, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
   }
   while (balance_once(mesh, leaves)) {
   }

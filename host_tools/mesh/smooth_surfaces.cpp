@@ -146,7 +146,6 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& s
   return surfaces;
 }
 
-// As protocol::grid_triangle_of, without the weight that follows from the others: this is asked very often.
 std::vector<std::uint32_t> surface_numbers(const SmoothSurfaces& smooth) {
   DisjointSets sets(smooth.neighbour.size());
   for (std::uint32_t t = 0; t < smooth.neighbour.size(); ++t) {
@@ -158,6 +157,7 @@ std::vector<std::uint32_t> surface_numbers(const SmoothSurfaces& smooth) {
   return numbers;
 }
 
+// As protocol::grid_triangle_of, without the weight that follows from the others: this is asked very often.
 std::array<GridPoint, 3> grid_points(std::uint32_t code) {
   constexpr std::uint32_t one = 1U << protocol::kMostLevels;
   const auto middle = [](const GridPoint& p, const GridPoint& q) {

@@ -268,8 +268,9 @@ TEST(Payloads, ThatAreDamagedAreRefused) {
   EXPECT_THAT(failure, HasSubstr("from rank 2 are damaged"));
 }
 
-/// One machine after the other: what is late of one is not taken for the next one's.
-TEST(Payloads, OfOneMachineAreNotTheNextOnes) {
+/// Machines that are cut short leave packets on their way; the next one on the same ranks runs all the same. (That what
+/// is late of one machine is nobody's in the next: WhatIsLateOfAMachineThatIsNoMoreIsNobodys.)
+TEST(Payloads, OfAMachineThatIsCutShortDoNotTroubleTheNextOne) {
   register_native_engine(ring());
   const auto ends =
       with_ranks({.count = 4, .placing = Placing::cyclic, .delays = {3, 2000us}}, [&](remote::PeRanks& others) {

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/mesh/mesh.hpp"
@@ -105,6 +108,8 @@ TEST(Clearance, ElementsAreSmallerUnderWhatHangsOverThem) {
   EXPECT_NEAR(floor.length_at(1.5, 1.5), 0.3536, 0.0001);
   floor.builder.quad(floor.white, {1, 1, 0.08}, {1, 2, 0.08}, {2, 2, 0.08}, {2, 1, 0.08});
   EXPECT_NEAR(floor.length_at(1.5, 1.5), 0.0884, 0.0001);
+  floor.builder.quad(floor.white, {1, 3, 0.01}, {1, 4, 0.01}, {2, 4, 0.01}, {2, 3, 0.01});
+  EXPECT_NEAR(floor.length_at(1.5, 3.5), 0.0884, 0.0001);
   EXPECT_NEAR(floor.length_at(3.5, 3.5), 0.3536, 0.0001);
 }
 
@@ -133,6 +138,30 @@ TEST(Clearance, WhatStandsOnAFloorDoesNotCount) {
   Floor floor;
   floor.builder.quad(floor.white, {1, 1.02, 0}, {3, 1.02, 0}, {3, 1.02, 3}, {1, 1.02, 3});
   EXPECT_NEAR(floor.length_at(2, 1.3), 0.3536, 0.0001);
+}
+
+// 30 degrees: each would hang over the other, were they not one surface. With a slit between them they are two.
+TEST(Clearance, PartsOfOneFoldedSurfaceDoNotHangOverEachOther) {
+  for (const double slit : {0.0, 0.001}) {
+    Floor floor;
+    const double rise = 2 * std::tan(std::numbers::pi / 6);
+    floor.builder.quad(floor.white, {4 + slit, 0, 0}, {6, 0, rise}, {6, 4, rise}, {4 + slit, 4, 0});
+    EXPECT_NEAR(floor.length_at(3.9, 2), slit == 0 ? 0.3536 : 0.0884, 0.0001);
+  }
+}
+
+// Of a heap of leaves each lies close under another; they are so small that records come to few of them as they are.
+TEST(Clearance, SmallThingsAreNotCut) {
+  Floor floor;
+  for (int i = 0; i < 50; ++i) {
+    const double z = 1 + 0.05 * i;
+    floor.builder.quad(floor.white, {1, 1, z}, {1.08, 1, z}, {1.08, 1.08, z}, {1, 1.08, z});
+  }
+  const Mesh mesh = make_mesh(floor.builder.scene, {.patch_length = 2, .element_length = 0.5});
+  const auto leaves = std::ranges::count_if(mesh.patches, [](const MeshPatch& patch) { return patch.area < 0.01; });
+  ASSERT_GE(leaves, 50);
+  for (const MeshPatch& patch : mesh.patches)
+    if (patch.area < 0.01) EXPECT_EQ(patch.elements, 1U);
 }
 
 /// A wavy sheet of many small triangles, 4 x 4, so high over the floor.
