@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each side of a triangle looks out from the plane that its surface has there.
+// A triangle looks out from the plane that its surface has there. Of two sides with light the back may be the inside of
+// a thin thing, where all is near and nobody looks: the front decides.
 #include "host_tools/mesh/clearance.hpp"
 
 #include <algorithm>
@@ -14,9 +15,9 @@
 namespace torolux {
 namespace {
 
-/// Of the reach. Surfaces that meet without a common edge are uneven there; light does not change by that.
+/// Of the reach: surfaces that meet without a common edge are uneven there, and what lies closer over a surface hides
+/// it.
 constexpr double kRise = 0.05;
-constexpr double kRiseOfOverhang = 0.01;
 /// Cosine of 60 degrees: what is steeper stands on the surface.
 constexpr double kLiesOver = 0.5;
 
@@ -64,25 +65,21 @@ Clearance::Clearance(const Mesh& mesh) : surface_(surfaces_of(mesh)) {
 double Clearance::before(std::uint32_t triangle, Outlook outlook, double reach) const {
   if (surface_.empty()) return reach;
   outlook.own = surface_[triangle];
-  double distance = reach;
-  if ((sides_[triangle] & protocol::kFrontPresent) != 0) distance = tree_.distance(outlook, distance);
-  outlook.normal = vec::scale(outlook.normal, -1);
-  if ((sides_[triangle] & protocol::kBackPresent) != 0) distance = tree_.distance(outlook, distance);
-  return distance;
+  outlook.rise = kRise * reach;
+  if ((sides_[triangle] & protocol::kFrontPresent) == 0) outlook.normal = vec::scale(outlook.normal, -1);
+  return tree_.distance(outlook, reach);
 }
 
 double Clearance::at(std::uint32_t triangle, const Vec3d& point, const Vec3d& normal, double reach) const {
-  return before(triangle, {.point = point, .normal = normal, .rise = kRise * reach}, reach);
+  return before(triangle, {.point = point, .normal = normal}, reach);
 }
 
-bool Clearance::is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner, double least) const {
+bool Clearance::is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner) const {
   const auto& [a, b, c] = corner;
   const double longest =
       std::max({vec::length(vec::subtract(b, a)), vec::length(vec::subtract(c, b)), vec::length(vec::subtract(a, c))});
-  if (longest <= least) return false;
   const Outlook outlook{.point = vec::scale(vec::add(vec::add(a, b), c), 1.0 / 3),
                         .normal = vec::unit(vec::cross(vec::subtract(b, a), vec::subtract(c, a))),
-                        .rise = kRiseOfOverhang * longest,
                         .facing = kLiesOver};
   return before(triangle, outlook, longest) < longest;
 }

@@ -19,17 +19,17 @@ class Clearance {
   /// Triangles and sides of it must be known.
   explicit Clearance(const Mesh& mesh);
 
-  /// Before the sides of a triangle, from a point of its surface: to the nearest other one, at most reach. What rises
-  /// less than a twentieth of reach over the plane there does not count.
+  /// Before the front of a triangle, or the back of one that has no front with light, from a point of its surface: to
+  /// the nearest other one, at most reach. What rises less than a twentieth of reach over the plane there does not
+  /// count.
   double at(std::uint32_t triangle, const Vec3d& point, const Vec3d& normal, double reach) const;
 
   /// Whether from the middle of a part of the triangle another surface is nearer than the part is long, and lies over
-  /// it rather than stands on it: steeper than 60 degrees it does not count, nor where it rises less than a hundredth
-  /// of that length. Parts no longer than `least` are not.
-  bool is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner, double least) const;
+  /// it rather than stands on it: steeper than 60 degrees it does not count.
+  bool is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner) const;
 
  private:
-  /// Before its sides. outlook: but for `own`.
+  /// outlook: of the front; own and rise are set here.
   double before(std::uint32_t triangle, Outlook outlook, double reach) const;
 
   TriangleTree tree_;

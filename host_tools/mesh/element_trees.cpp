@@ -17,19 +17,16 @@ GridPoint middle(const GridPoint& a, const GridPoint& b) {
   return {(a.i + b.i) / 2, (a.j + b.j) / 2};
 }
 
-/// What a wall crosses, and what lies close under another surface, is cut so many times more than its length asks for.
-constexpr std::uint32_t kDeeperLevels = 2;
-
-/// Under another surface only what is longer than this, of an element's length, is cut: of a heap of small things each
-/// part would be.
-constexpr double kLeastUnderOthers = 0.25;
+/// What a wall crosses is cut so many times more than its length asks for,
+constexpr std::uint32_t kWallLevels = 2;
+/// and so many times what lies close under another surface.
+constexpr std::uint32_t kOverhungLevels = 1;
 
 /// Grows the tree of one triangle.
 struct Grower {
   const Mesh& mesh;
   const Clearance& clearance;
   const std::vector<Split>& splits;
-  double least;  ///< under another surface, longer than this: kLeastUnderOthers, normalised
   std::uint32_t triangle;
   std::uint32_t base;
   std::vector<std::uint32_t>& leaves;
@@ -46,10 +43,13 @@ struct Grower {
   bool is_cut(std::uint32_t code, std::uint32_t level) const {
     if (level < base) return true;
     if (level == kMostLevels) return false;
-    return (level < base + kDeeperLevels &&
-            (mesh.walls.cross(triangle, code) ||
-             clearance.is_overhung(triangle, grid_corners(mesh.triangles[triangle], code), least))) ||
+    return (level < base + kWallLevels && mesh.walls.cross(triangle, code)) ||
+           (level < base + kOverhungLevels && is_close_under_another(code)) ||
            std::binary_search(splits.begin(), splits.end(), Split{triangle, code});
+  }
+  /// What is no longer than an element as it is stays: of a heap of small things each would be cut.
+  bool is_close_under_another(std::uint32_t code) const {
+    return base > 0 && clearance.is_overhung(triangle, grid_corners(mesh.triangles[triangle], code));
   }
 };
 
@@ -111,10 +111,9 @@ bool balance_once(const Mesh& mesh, Leaves& leaves) {
 Leaves element_leaves(const Mesh& mesh, const Clearance& clearance, const std::vector<int>& base_level,
                       const std::vector<Split>& splits) {
   Leaves leaves(mesh.triangles.size());
-  const double least = kLeastUnderOthers * mesh.lengths.element * mesh.space.scale;
   for (std::uint32_t t = 0; t < leaves.size(); ++t) {
     if (base_level[t] < 0) continue;
-    Grower{mesh, clearance, splits, least, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
+    Grower{mesh, clearance, splits, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
   }
   while (balance_once(mesh, leaves)) {
   }

@@ -61,6 +61,22 @@ TEST(Feet, NoLightGetsUnderABlock) {
   EXPECT_LT(share, 15e-6);
 }
 
+struct Errors {
+  double mean = 0, rmse = 0;  ///< relative; of four seeds
+};
+
+Errors mean_errors(bool shadow_rays, const Picture& traced) {
+  Errors errors;
+  RenderCase render = blocks(shadow_rays);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    render.quality.seed = seed;
+    const auto error = references::picture_error(run_case(render).picture, traced);
+    errors.mean += error.plain_mean / 4;
+    errors.rmse += error.rmse / 4;
+  }
+  return errors;
+}
+
 TEST(Feet, FloorBesideABlockIsAsBrightAsInThePathTracer) {
   const RenderCase with_rays = blocks(true);
   const Scene scene = load_scene(with_rays.scene, {});
@@ -71,13 +87,13 @@ TEST(Feet, FloorBesideABlockIsAsBrightAsInThePathTracer) {
   const references::TracedPicture traced =
       references::trace(references::World(scene, false), *with_rays.camera, choice);
   EXPECT_LT(references::reference_noise(traced), 0.01);
-  // Seen: mean -2.2 % and +2.2 %, RMSE 5.9 % and 16 %: it is the deepest of the shadow that is looked at, two elements
-  // wide. With 4 x 4 points the mean would differ by some 7 % from seed to seed.
-  const auto sharp = references::picture_error(run_case(blocks(true)).picture, traced.picture);
-  EXPECT_NEAR(sharp.plain_mean, 0, 0.047);
+  // It is the deepest of the shadow that is looked at, two elements wide: the mean differs by some 5 % from seed to
+  // seed. Seen, of four seeds: -0.7 % and +1.2 %, RMSE 5.9 % and 15 %.
+  const Errors sharp = mean_errors(true, traced.picture);
+  EXPECT_NEAR(sharp.mean, 0, 0.047);
   EXPECT_LT(sharp.rmse, 0.12);
-  const auto soft = references::picture_error(run_case(blocks(false)).picture, traced.picture);
-  EXPECT_NEAR(soft.plain_mean, 0, 0.084);
+  const Errors soft = mean_errors(false, traced.picture);
+  EXPECT_NEAR(soft.mean, 0, 0.084);
   EXPECT_LT(soft.rmse, 0.21);
 }
 

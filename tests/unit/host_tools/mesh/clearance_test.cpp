@@ -102,34 +102,26 @@ struct Floor {
   }
 };
 
-// The floor's edges are halved until none is longer than 0.5: 0.354. Twice more under a table, not far beside it.
+// The floor's edges are halved until none is longer than 0.5: 0.354. Once more under a table, not far beside it.
 TEST(Clearance, ElementsAreSmallerUnderWhatHangsOverThem) {
   Floor floor;
   EXPECT_NEAR(floor.length_at(1.5, 1.5), 0.3536, 0.0001);
   floor.builder.quad(floor.white, {1, 1, 0.08}, {1, 2, 0.08}, {2, 2, 0.08}, {2, 1, 0.08});
-  EXPECT_NEAR(floor.length_at(1.5, 1.5), 0.0884, 0.0001);
-  floor.builder.quad(floor.white, {1, 3, 0.01}, {1, 4, 0.01}, {2, 4, 0.01}, {2, 3, 0.01});
-  EXPECT_NEAR(floor.length_at(1.5, 3.5), 0.0884, 0.0001);
+  EXPECT_NEAR(floor.length_at(1.5, 1.5), 0.1768, 0.0001);
   EXPECT_NEAR(floor.length_at(3.5, 3.5), 0.3536, 0.0001);
 }
 
 TEST(Clearance, WhatIsFarAboveDoesNotCount) {
   Floor floor;
-  floor.builder.quad(floor.white, {1, 1, 0.6}, {1, 2, 0.6}, {2, 2, 0.6}, {2, 1, 0.6});
+  floor.builder.quad(floor.white, {1, 1, 0.4}, {1, 2, 0.4}, {2, 2, 0.4}, {2, 1, 0.4});
   EXPECT_NEAR(floor.length_at(1.5, 1.5), 0.3536, 0.0001);
 }
 
-// An open floor's back has light, too; under the floor of a closed room, lit inside, there is none.
-TEST(Clearance, WhatIsBelowCountsWhereTheBackHasLight) {
-  Floor open;
-  open.builder.quad(open.white, {1, 1, -0.08}, {2, 1, -0.08}, {2, 2, -0.08}, {1, 2, -0.08});
-  EXPECT_NEAR(open.length_at(1.5, 1.5), 0.0884, 0.0001);
-  Floor closed;
-  closed.builder.box(closed.white, {-2, -2, 0}, {6, 6, 7}, true);
-  closed.builder.scene.triangles.erase(closed.builder.scene.triangles.begin(),
-                                       closed.builder.scene.triangles.begin() + 2);
-  closed.builder.quad(closed.white, {1, 1, -0.08}, {2, 1, -0.08}, {2, 2, -0.08}, {1, 2, -0.08});
-  EXPECT_NEAR(closed.length_at(1.5, 1.5), 0.3536, 0.0001);
+// An open floor's back has light, too, but so has the inside of many a thin thing.
+TEST(Clearance, WhatIsBehindDoesNotCount) {
+  Floor floor;
+  floor.builder.quad(floor.white, {1, 1, -0.08}, {2, 1, -0.08}, {2, 2, -0.08}, {1, 2, -0.08});
+  EXPECT_NEAR(floor.length_at(1.5, 1.5), 0.3536, 0.0001);
 }
 
 // What stands on a floor is a wall, and cuts only the elements that it touches: smaller ones beside a room's edges were
@@ -146,11 +138,11 @@ TEST(Clearance, PartsOfOneFoldedSurfaceDoNotHangOverEachOther) {
     Floor floor;
     const double rise = 2 * std::tan(std::numbers::pi / 6);
     floor.builder.quad(floor.white, {4 + slit, 0, 0}, {6, 0, rise}, {6, 4, rise}, {4 + slit, 4, 0});
-    EXPECT_NEAR(floor.length_at(3.9, 2), slit == 0 ? 0.3536 : 0.0884, 0.0001);
+    EXPECT_NEAR(floor.length_at(3.9, 2), slit == 0 ? 0.3536 : 0.1768, 0.0001);
   }
 }
 
-// Of a heap of leaves each lies close under another; they are so small that records come to few of them as they are.
+// Of a heap of leaves each lies close under another.
 TEST(Clearance, SmallThingsAreNotCut) {
   Floor floor;
   for (int i = 0; i < 50; ++i) {
@@ -158,13 +150,16 @@ TEST(Clearance, SmallThingsAreNotCut) {
     floor.builder.quad(floor.white, {1, 1, z}, {1.08, 1, z}, {1.08, 1.08, z}, {1, 1.08, z});
   }
   const Mesh mesh = make_mesh(floor.builder.scene, {.patch_length = 2, .element_length = 0.5});
-  const auto leaves = std::ranges::count_if(mesh.patches, [](const MeshPatch& patch) { return patch.area < 0.01; });
-  ASSERT_GE(leaves, 50);
-  for (const MeshPatch& patch : mesh.patches)
-    if (patch.area < 0.01) EXPECT_EQ(patch.elements, 1U);
+  std::size_t leaves = 0;
+  for (const MeshPatch& patch : mesh.patches) {
+    if (patch.area > 0.01) continue;
+    ++leaves;
+    EXPECT_EQ(patch.elements, 1U);
+  }
+  EXPECT_GE(leaves, 50U);
 }
 
-/// A wavy sheet of many small triangles, 4 x 4, so high over the floor.
+/// A wavy sheet of many small triangles, 4 x 4, so high over the floor, its front downwards.
 void add_sheet(Floor& floor, double height) {
   constexpr int edge = 80;
   const auto at = [height](int i, int j) {
@@ -174,8 +169,8 @@ void add_sheet(Floor& floor, double height) {
   };
   for (int j = 0; j < edge; ++j) {
     for (int i = 0; i < edge; ++i) {
-      floor.builder.triangle(floor.white, at(i, j), at(i + 1, j), at(i + 1, j + 1));
-      floor.builder.triangle(floor.white, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+      floor.builder.triangle(floor.white, at(i, j), at(i + 1, j + 1), at(i + 1, j));
+      floor.builder.triangle(floor.white, at(i, j), at(i, j + 1), at(i + 1, j + 1));
     }
   }
 }
@@ -189,8 +184,8 @@ std::size_t clustered_elements(const Floor& floor) {
   return elements;
 }
 
-// Elements a quarter as long are sixteen times as many; an eighth, the least there is, 64. Clusters have no even sizes,
-// and the sheet's front, which sees only the lamp, lies on the same triangles: half and twice are told apart.
+// Elements a quarter as long are sixteen times as many; an eighth, the least there is, 64. Clusters have no even sizes:
+// half and twice are told apart.
 TEST(Clearance, ClustersAreSmallerWhereAnotherSurfaceIsNear) {
   std::array<std::size_t, 3> elements{};
   constexpr std::array<double, 3> heights{1.0, 0.125, 0.05};
