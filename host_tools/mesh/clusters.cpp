@@ -222,11 +222,19 @@ std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, co
 }
 
 std::uint32_t count_smooth_surfaces(const Mesh& mesh) {
-  const std::vector<std::uint32_t> surface =
-      surface_numbers(find_smooth_surfaces(mesh, std::vector<bool>(mesh.triangles.size(), true), Pierced::goes_on));
+  const SmoothSurfaces smooth =
+      find_smooth_surfaces(mesh, std::vector<bool>(mesh.triangles.size(), true), Pierced::goes_on);
+  DisjointSets sets(mesh.triangles.size());
   std::uint32_t surfaces = 0;
-  for (std::uint32_t t = 0; t < surface.size(); ++t)
-    if (mesh.triangles[t].sides != 0 && surface[t] == t) ++surfaces;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangles[t].sides == 0) continue;
+    ++surfaces;
+    for (const std::uint32_t other : smooth.neighbour[t]) {
+      if (other == kNoNeighbour || sets.root(other) == sets.root(t)) continue;
+      sets.merge(t, other);
+      --surfaces;
+    }
+  }
   return surfaces;
 }
 

@@ -146,17 +146,6 @@ SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& s
   return surfaces;
 }
 
-std::vector<std::uint32_t> surface_numbers(const SmoothSurfaces& smooth) {
-  DisjointSets sets(smooth.neighbour.size());
-  for (std::uint32_t t = 0; t < smooth.neighbour.size(); ++t) {
-    for (const std::uint32_t other : smooth.neighbour[t])
-      if (other != kNoNeighbour) sets.merge(t, other);
-  }
-  std::vector<std::uint32_t> numbers(smooth.neighbour.size());
-  for (std::uint32_t t = 0; t < numbers.size(); ++t) numbers[t] = sets.root(t);
-  return numbers;
-}
-
 // As protocol::grid_triangle_of, without the weight that follows from the others: this is asked very often.
 std::array<GridPoint, 3> grid_points(std::uint32_t code) {
   constexpr std::uint32_t one = 1U << protocol::kMostLevels;

@@ -32,9 +32,6 @@ enum class Pierced : std::uint8_t { ends, goes_on };
 /// small: by triangle, whether it is smaller than half an element.
 SmoothSurfaces find_smooth_surfaces(const Mesh& mesh, const std::vector<bool>& small, Pierced pierced);
 
-/// By triangle: the lowest number of a triangle of its smooth surface.
-std::vector<std::uint32_t> surface_numbers(const SmoothSurfaces& smooth);
-
 /// A point of a triangle's grid: weights of corners 1 and 2 in units of 2^-kMostLevels.
 struct GridPoint {
   std::uint32_t i, j;
