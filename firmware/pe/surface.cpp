@@ -3,6 +3,7 @@
 #include "firmware/pe/surface.hpp"
 
 #include "firmware/pe/traverse.hpp"
+#include "firmware/protocol/element_light.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 
 namespace torolux::pe {
@@ -51,9 +52,10 @@ SurfaceLight light_at(const Scene& scene, protocol::PeNumber pe, const protocol:
     leaf = protocol::find_leaf(scene.nodes.data(), scene.kept[light.place].node, at);
   }
   if (!hit.front && (polygon.sides & protocol::kFrontPresent) != 0) ++leaf;
-  const auto& corner = scene.irradiance[leaf].irradiance_over_pi;
-  light.irradiance_over_pi =
-      (to_vector(corner[0]) * at.b0 + to_vector(corner[1]) * at.b1) + to_vector(corner[2]) * at.b2;
+  const protocol::CornerIrradiance& corners = scene.irradiance[leaf];
+  const protocol::Weights by = protocol::light_weights(protocol::concave_corners(corners), at);
+  const auto corner = [&corners](std::size_t c) { return to_vector(protocol::irradiance_at(corners, c)); };
+  light.irradiance_over_pi = (corner(0) * by.b0 + corner(1) * by.b1) + corner(2) * by.b2;
   return light;
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "host_tools/irradiance/concave_edges.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -20,9 +21,9 @@ struct FilterPlan::Edge {
 };
 
 void FilterPlan::add(const Mesh& mesh, std::uint32_t facet, std::uint32_t element,
-                     const std::array<std::uint32_t, 3>& corner) {
+                     const std::array<std::uint32_t, 3>& corner, protocol::ConcaveCorners concave) {
   const MeshFacet& of = mesh.facets[facet];
-  triangles_.push_back({element, corner, mesh.facet_area(of)});
+  triangles_.push_back({element, corner, mesh.facet_area(of), concave, mean_weights(concave)});
   auto& places = places_.emplace_back(grid_corners(mesh.triangles[of.triangle], of.code));
   for (Vec3d& place : places) place = vec::scale(place, 1 / mesh.space.scale);
 }
@@ -95,7 +96,7 @@ void FilterPlan::add_bend(const Edge& a, const Edge& b) {
     const std::size_t c = edge->corner;
     const Vec3d along = vec::subtract(place[(c + 1) % 3], place[c]);
     shared = vec::length(along);
-    const double height = 2 * triangle.area / shared;
+    const double height = 2 * triangle.area / shared / slope_at_side(triangle.concave, (c + 2) % 3);
     const double foot = vec::dot(vec::subtract(place[(c + 2) % 3], place[c]), along) / (shared * shared);
     add_term(triangle.corner[(c + 2) % 3], 1 / height);
     add_term(triangle.corner[c], (foot - 1) / height);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "firmware/protocol/element_light.hpp"
 #include "host_tools/irradiance/surface_vertices.hpp"
 #include "host_tools/mesh/mesh.hpp"
 
@@ -21,6 +22,8 @@ class FilterPlan {
     std::uint32_t element;                ///< global
     std::array<std::uint32_t, 3> corner;  ///< vertices
     double area;                          ///< [user units^2]
+    protocol::ConcaveCorners concave;
+    std::array<double, 3> of_mean;  ///< how much of each corner's light its mean is
   };
   /// An edge where two of them meet. Irradiance bends there by the sum of its values, each times its `of`.
   struct Bend {
@@ -30,7 +33,8 @@ class FilterPlan {
     std::array<std::uint32_t, 2> triangle;  ///< into triangles()
   };
   /// A facet that is an element of its own. corner: its vertices; element: global.
-  void add(const Mesh& mesh, std::uint32_t facet, std::uint32_t element, const std::array<std::uint32_t, 3>& corner);
+  void add(const Mesh& mesh, std::uint32_t facet, std::uint32_t element, const std::array<std::uint32_t, 3>& corner,
+           protocol::ConcaveCorners concave);
   /// Once all have been added. kept: by vertex, whether it keeps the light that it has. hanging: larger elements come
   /// first.
   void finish(const std::vector<bool>& kept, std::vector<Hanging> hanging);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "host_tools/irradiance/concave_edges.hpp"
+
 namespace torolux {
 namespace {
 
@@ -16,10 +18,21 @@ class SidePlanner {
  public:
   /// first: by facet, of its entries in VertexIrradiance.
   SidePlanner(const Mesh& mesh, const std::vector<std::uint32_t>& first, std::uint32_t side)
-      : mesh_(mesh), first_(first), side_(side), vertices_(mesh, side) {
+      : mesh_(mesh),
+        first_(first),
+        side_(side),
+        vertices_(mesh, side),
+        follows_(follows_corners(mesh, side)),
+        concave_(mesh, vertices_, side, follows_) {
     for (const MeshFacet& facet : mesh.facets) {
       narrow_.push_back(facet.seen < kNarrow);
       covered_.push_back(facet.sends_from != facet.code);
+    }
+    plan_.anchored = vertices_.hanging();
+    hangs_.assign(vertices_.count(), false);
+    for (SidePlan::Hanging& at : plan_.anchored) {
+      at.along = light_along(concave_.has(at.from), concave_.has(at.to), at.along);
+      hangs_[at.vertex] = true;
     }
   }
 
@@ -38,6 +51,19 @@ class SidePlanner {
 
   const SidePlan::Corners& corners(std::uint32_t facet) const { return vertices_.corners(facet); }
 
+  /// Clusters have fits of their own, and what walls cut is known too badly: light over others follows their corners.
+  static std::vector<bool> follows_corners(const Mesh& mesh, std::uint32_t side) {
+    std::vector<bool> follows(mesh.facets.size(), false);
+    for (const MeshPatch& patch : mesh.patches) {
+      if (patch.side[side] == protocol::kNoSide || patch.is_clustered()) continue;
+      for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+        const MeshFacet& facet = mesh.facets[f];
+        follows[f] = !facet.is_piece && !(facet.seen < 1) && facet.of_element == 1;
+      }
+    }
+    return follows;
+  }
+
   void take_facets() {
     for (const MeshPatch& patch : mesh_.patches) {
       if (patch.side[side_] == protocol::kNoSide) continue;
@@ -45,8 +71,9 @@ class SidePlanner {
       const bool behind = side_ == 1 && patch.side[0] != protocol::kNoSide;
       for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
         const MeshFacet& facet = mesh_.facets[f];
-        Facet& here = plan_.facets.emplace_back(Facet{patch.first_element[side_] + facet.element,
-                                                      first_[f] + (behind ? 1 : 0), corners(f), 0, facet.of_element});
+        Facet& here =
+            plan_.facets.emplace_back(Facet{patch.first_element[side_] + facet.element, first_[f] + (behind ? 1 : 0),
+                                            corners(f), 0, concave_.corners(f), facet.of_element});
         if (patch.is_clustered()) here.of_cluster = plan_.clusters.add(mesh_, f, corners(f), here.element);
         number_.push_back(f);
       }
@@ -86,7 +113,6 @@ class SidePlanner {
   /// Vertices among what is narrow take their light from vertices on the same side, from one to the next.
   /// What cannot be reached so shows what came there, unless a thing lies on a part of it: then it stays unknown.
   void plan_spread() {
-    plan_.anchored = vertices_.hanging();
     for (const SidePlan::Hanging& hanging : plan_.anchored) {
       if (!known_[hanging.from] || !known_[hanging.to]) continue;
       plan_.first_known.push_back(hanging);
@@ -123,28 +149,35 @@ class SidePlanner {
   /// The mean of the elements around a vertex is their light there only if they lie all around it. At a border it is
   /// the light half an element away.
   void plan_borders() {
-    const auto follows = [this](std::size_t i) {
+    const auto is_border = [this](std::uint32_t v) { return vertices_.open(v) && !at_wall_[v] && !hangs_[v]; };
+    const auto is_seen_whole = [this](std::size_t i) {
       return plan_.facets[i].of_cluster == SidePlan::kNone && !(mesh_.facets[number_[i]].seen < 1);
     };
     std::vector<double> area(vertices_.count(), 0);
     for (std::size_t i = 0; i < plan_.facets.size(); ++i) {
-      if (!follows(i)) continue;
+      if (!is_seen_whole(i)) continue;
       const double facet_area = mesh_.facet_area(mesh_.facets[number_[i]]);
-      for (const std::uint32_t v : plan_.facets[i].corner) area[v] += facet_area;
+      // On a concave edge light is corrected to the end, as it falls steeply there; elsewhere halfway or so, as what an
+      // element lacks may be a peak's.
+      const auto of_mean = mean_weights(plan_.facets[i].concave);
+      double of_concave = 0;
+      for (std::size_t c = 0; c < 3; ++c) of_concave += concave_.has(plan_.facets[i].corner[c]) ? of_mean[c] : 0;
+      for (const std::uint32_t v : plan_.facets[i].corner) area[v] += facet_area * (concave_.has(v) ? of_concave : 1);
     }
     std::vector<std::uint32_t> border_of(vertices_.count(), SidePlan::kNone);
     for (std::uint32_t v = 0; v < vertices_.count(); ++v) {
-      if (!vertices_.open(v) || !(area[v] > 0) || at_wall_[v]) continue;
+      if (!is_border(v) || !(area[v] > 0)) continue;
       border_of[v] = static_cast<std::uint32_t>(plan_.borders.size());
       plan_.borders.push_back({v, area[v]});
     }
     for (std::size_t i = 0; i < plan_.facets.size(); ++i) {
-      if (!follows(i)) continue;
+      if (!is_seen_whole(i)) continue;
       const Facet& facet = plan_.facets[i];
       const auto& [a, b, c] = facet.corner;
       const SidePlan::Corners border{border_of[a], border_of[b], border_of[c]};
       if (std::ranges::all_of(border, [](std::uint32_t at) { return at == SidePlan::kNone; })) continue;
-      plan_.border_facets.push_back({facet.element, facet.corner, border, mesh_.facet_area(mesh_.facets[number_[i]])});
+      plan_.border_facets.push_back({facet.element, facet.corner, border, mesh_.facet_area(mesh_.facets[number_[i]]),
+                                     mean_weights(facet.concave)});
     }
   }
 
@@ -180,14 +213,13 @@ class SidePlanner {
     }
   }
 
-  /// Clusters have fits of their own, and what walls cut is known too badly: vertices there keep their light.
+  /// Vertices of what does not follow them keep their light.
   void plan_filter() {
     std::vector<bool> kept(vertices_.count(), false);
     for (std::size_t i = 0; i < plan_.facets.size(); ++i) {
       const Facet& facet = plan_.facets[i];
-      const MeshFacet& of = mesh_.facets[number_[i]];
-      if (facet.of_cluster == SidePlan::kNone && !of.is_piece && !(of.seen < 1) && facet.of_element == 1) {
-        plan_.filter.add(mesh_, number_[i], facet.element, facet.corner);
+      if (follows_[number_[i]]) {
+        plan_.filter.add(mesh_, number_[i], facet.element, facet.corner, facet.concave);
       } else {
         for (const std::uint32_t v : facet.corner) kept[v] = true;
       }
@@ -199,7 +231,10 @@ class SidePlanner {
   const std::vector<std::uint32_t>& first_;
   std::uint32_t side_;
   SurfaceVertices vertices_;
+  std::vector<bool> follows_;  ///< by facet: light over it is shown by its corners alone
+  ConcaveEdges concave_;
   SidePlan plan_;
+  std::vector<bool> hangs_;            ///< by vertex: on a larger element's edge
   std::vector<bool> narrow_;           ///< by facet: little of it is seen
   std::vector<bool> covered_;          ///< by facet: a thing lies on a part of it
   std::vector<std::uint32_t> number_;  ///< of the mesh's facet, by the plan's

@@ -22,9 +22,10 @@ struct SidePlan {
 
   struct Facet {
     std::uint32_t element;
-    std::uint32_t triangle;            ///< of VertexIrradiance::triangles
-    Corners corner;                    ///< vertices
-    std::uint32_t counts;              ///< bit c: its flux goes to corner c's sum; 0 where it is a cluster's
+    std::uint32_t triangle;  ///< of VertexIrradiance::triangles
+    Corners corner;          ///< vertices
+    std::uint32_t counts;    ///< bit c: its flux goes to corner c's sum; 0 where it is a cluster's
+    protocol::ConcaveCorners concave;
     double of_element;                 ///< so much of the flux
     std::uint32_t of_cluster = kNone;  ///< number in `clusters`
     std::uint32_t of_hidden = kNone;   ///< into `hidden`
@@ -35,14 +36,16 @@ struct SidePlan {
   };
   struct Border {
     std::uint32_t vertex;
-    double area;  ///< of the elements around it [user units^2]
+    /// Of the elements around it; on a concave edge, as far as light there makes their means [user units^2].
+    double area;
   };
   /// A facet at such a vertex.
   struct BorderFacet {
     std::uint32_t element;
     Corners corner;
-    Corners border;  ///< into `borders`, or kNone
-    double area;     ///< [user units^2]
+    Corners border;                 ///< into `borders`, or kNone
+    double area;                    ///< [user units^2]
+    std::array<double, 3> of_mean;  ///< how much of each corner's light its mean is
   };
   /// A vertex where both sides of a wall meet narrow elements: the lightest of all with the same `place` shows there.
   struct Lit {

@@ -92,7 +92,7 @@ class LightFilter {
       for (const std::uint32_t t : bend.triangle) {
         const FilterPlan::Triangle& triangle = plan_.triangles()[t];
         area += triangle.area;
-        for (const std::uint32_t v : triangle.corner) light += vec::sum(values_[v]) / 6;
+        for (std::size_t c = 0; c < 3; ++c) light += triangle.of_mean[c] * vec::sum(values_[triangle.corner[c]]) / 2;
       }
       // Smoothed over `reach`, noise leaves bends of a spread of sqrt(noise) / reach^3 over a unit of length.
       const double reach = kReach * std::sqrt(area);
@@ -106,7 +106,8 @@ class LightFilter {
   void find_scale() {
     scale_.assign(values_.size(), 0);
     for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
-      for (const std::uint32_t v : triangle.corner) scale_[v] += triangle.area / 9;
+      for (std::size_t c = 0; c < 3; ++c)
+        scale_[triangle.corner[c]] += triangle.area * triangle.of_mean[c] * triangle.of_mean[c];
     }
     for (std::size_t b = 0; b < weight_.size(); ++b) {
       const FilterPlan::Bend& bend = plan_.bends()[b];
@@ -133,31 +134,34 @@ class LightFilter {
   /// What is known of light at a vertex without the filter.
   struct Known {
     double area = 0;            ///< of the elements around it [user units^2]
-    double moved = 0;           ///< likewise, with those around vertices that hang on it, as far as they do
+    double shown = 0;           ///< likewise, each thrice as far as its light is that of the vertex
+    double moved = 0;           ///< the same, with those around vertices that hang on it, as far as they do
     double darkest = HUGE_VAL;  ///< of these, what one received, and may have missed by chance
     double brightest = 0;       ///< of these, what one received [quanta / user unit^2], all channels
     double noise = 0;           ///< how far off `light` it may be by chance
-    double light = 0;           ///< their mean
+    double light = 0;           ///< what is known of it
   };
   std::vector<Known> known_of(const Values& before) const {
     std::vector<Known> known(values_.size());
     for (const std::uint32_t v : plan_.free()) known[v].light = std::max(0.0, vec::sum(before[v]));
     for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
       const double own = vec::sum(received(triangle)) / triangle.area;
-      for (const std::uint32_t v : triangle.corner) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t v = triangle.corner[c];
         known[v].area += triangle.area;
+        known[v].shown += 3 * triangle.of_mean[c] * triangle.area;
         known[v].darkest = std::min(known[v].darkest, own + std::sqrt(noise_ * known[v].light / triangle.area));
         known[v].brightest = std::max(known[v].brightest, own);
       }
     }
-    for (Known& at : known) at.moved = at.area;
+    for (Known& at : known) at.moved = at.shown;
     for (std::size_t i = plan_.hanging().size(); i-- > 0;) {
       const FilterPlan::Hanging& at = plan_.hanging()[i];
       known[at.from].moved += known[at.vertex].moved * (1 - at.along);
       known[at.to].moved += known[at.vertex].moved * at.along;
     }
     for (const std::uint32_t v : plan_.free()) {
-      known[v].noise = kMostDeviations * std::sqrt(noise_ * known[v].light / known[v].area);
+      known[v].noise = kMostDeviations * std::sqrt(noise_ * known[v].light * known[v].area) / known[v].shown;
     }
     return known;
   }
@@ -224,8 +228,18 @@ class LightFilter {
   }
 
   Vec3d flux_by(const FilterPlan::Triangle& triangle, const Values& values) const {
-    const auto& [a, b, c] = triangle.corner;
-    return vec::scale(vec::add(vec::add(values[a], values[b]), values[c]), triangle.area / 3);
+    Vec3d mean{0, 0, 0};
+    for (std::size_t c = 0; c < 3; ++c) {
+      mean = vec::add(mean, vec::scale(values[triangle.corner[c]], triangle.of_mean[c]));
+    }
+    return vec::scale(mean, triangle.area);
+  }
+  /// What pulls at a triangle's mean pulls at its corners.
+  static void add_by_mean(const FilterPlan::Triangle& triangle, const Vec3d& pull, Values& pulls) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      Vec3d& at = pulls[triangle.corner[c]];
+      at = vec::add(at, vec::scale(pull, triangle.of_mean[c]));
+    }
   }
   Vec3d received(const FilterPlan::Triangle& triangle) const {
     const protocol::Flux& flux = flux_[triangle.element];
@@ -236,8 +250,7 @@ class LightFilter {
   Values pulls_of(const Values& values) const {
     Values pulls(values.size(), {0, 0, 0});
     for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
-      const Vec3d third = vec::scale(flux_by(triangle, values), 1.0 / 3);
-      for (const std::uint32_t v : triangle.corner) pulls[v] = vec::add(pulls[v], third);
+      add_by_mean(triangle, flux_by(triangle, values), pulls);
     }
     for (std::size_t b = 0; b < weight_.size(); ++b) {
       const FilterPlan::Bend& bend = plan_.bends()[b];
@@ -252,8 +265,7 @@ class LightFilter {
   Values errors() const {
     Values errors(values_.size(), {0, 0, 0});
     for (const FilterPlan::Triangle& triangle : plan_.triangles()) {
-      const Vec3d third = vec::scale(received(triangle), 1.0 / 3);
-      for (const std::uint32_t v : triangle.corner) errors[v] = vec::add(errors[v], third);
+      add_by_mean(triangle, received(triangle), errors);
     }
     share_out(errors);
     const Values pulls = pulls_of(values_);

@@ -9,6 +9,7 @@
 #include <queue>
 
 #include "firmware/protocol/triangle_grid.hpp"
+#include "host_tools/irradiance/concave_edges.hpp"
 #include "host_tools/irradiance/surface_vertices.hpp"
 #include "host_tools/irradiance/vertex_irradiance.hpp"
 
@@ -130,9 +131,10 @@ class SideErrors {
     const bool behind = side_ == 1 && patch.side[0] != protocol::kNoSide;
     const auto& corners = irradiance.triangles[irradiance.first[facet] + (behind ? 1U : 0U)];
     std::array<double, 3> value{};
-    for (std::size_t c = 0; c < 3; ++c) value[c] = sum_of(corners.irradiance_over_pi[c], reflectance);
-    return {sum_of(own, reflectance) - (value[0] + value[1] + value[2]) / 3, value[1] - value[0], value[2] - value[1],
-            value[0] - value[2]};
+    for (std::size_t c = 0; c < 3; ++c) value[c] = sum_of(protocol::irradiance_at(corners, c), reflectance);
+    const auto weight = mean_weights(protocol::concave_corners(corners));
+    const double mean = value[0] * weight[0] + value[1] * weight[1] + value[2] * weight[2];
+    return {sum_of(own, reflectance) - mean, value[1] - value[0], value[2] - value[1], value[0] - value[2]};
   }
 
   Noise noise_of(std::uint32_t facet) const {

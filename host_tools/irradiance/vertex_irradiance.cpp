@@ -7,6 +7,7 @@
 #include <array>
 #include <numbers>
 
+#include "firmware/protocol/element_light.hpp"
 #include "host_tools/irradiance/cluster_light.hpp"
 #include "host_tools/irradiance/light_filter.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -81,7 +82,8 @@ class SideLight {
     for (const SidePlan::BorderFacet& facet : plan_.border_facets) {
       const auto& corner = facet.corner;
       for (std::size_t c = 0; c < 3; ++c) {
-        const double mean = (values_[corner[0]][c] + values_[corner[1]][c] + values_[corner[2]][c]) / 3;
+        double mean = 0;
+        for (std::size_t i = 0; i < 3; ++i) mean += facet.of_mean[i] * values_[corner[i]][c];
         const double lacks = static_cast<double>(flux_[facet.element][c]) - mean * facet.area;
         for (const std::uint32_t at : facet.border) {
           if (at != SidePlan::kNone) missing[at][c] += lacks;
@@ -141,6 +143,7 @@ VertexIrradiance make_vertex_irradiance(const IrradiancePlan& plan, std::span<co
       const std::array<Vec3d, 3> corners = light.at_corners(facet);
       auto& to = irradiance.triangles[facet.triangle].irradiance_over_pi;
       for (std::size_t c = 0; c < 3; ++c) to[c] = to_float(vec::scale(corners[c], factor));
+      protocol::mark_concave(irradiance.triangles[facet.triangle], facet.concave);
     }
   }
   return irradiance;

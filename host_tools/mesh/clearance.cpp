@@ -20,6 +20,10 @@ namespace {
 constexpr double kRise = 0.05;
 /// Cosine of 60 degrees: what is steeper stands on the surface.
 constexpr double kLiesOver = 0.5;
+/// What rises from an edge is as far from a point of the edge's normal as this one is high, times the angle's cosine.
+/// It is looked for so high, in lengths of the edge, and counts up to this cosine, of 41 and 139 degrees.
+constexpr double kLookedAt = 0.125;
+constexpr double kCosine = 0.75;
 
 Vec3d normal_of(const MeshTriangle& triangle) {
   const Vec3d first = to_double(triangle.corner[0]);
@@ -82,6 +86,17 @@ bool Clearance::is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& 
                         .normal = vec::unit(vec::cross(vec::subtract(b, a), vec::subtract(c, a))),
                         .facing = kLiesOver};
   return before(triangle, outlook, longest) < longest;
+}
+
+bool Clearance::rises_from(std::uint32_t triangle, const Vec3d& normal, const Vec3d& from, const Vec3d& to) const {
+  if (surface_.empty()) return false;
+  const double height = kLookedAt * vec::length(vec::subtract(to, from));
+  const Vec3d middle = vec::scale(vec::add(from, to), 0.5);
+  const Outlook outlook{.point = vec::add(middle, vec::scale(normal, height)),
+                        .normal = normal,
+                        .rise = -height,
+                        .own = surface_[triangle]};
+  return tree_.distance(outlook, kCosine * height) < kCosine * height;
 }
 
 }  // namespace torolux

@@ -28,6 +28,11 @@ class Clearance {
   /// it rather than stands on it: steeper than 60 degrees it does not count.
   bool is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner) const;
 
+  /// Whether another surface rises from the middle of an edge in the triangle, given by its ends, on the side to which
+  /// the normal points: at an angle of between 41 and
+  /// 139 degrees. Beyond 120 that is one that shares no edge with the triangle's: else both are one surface.
+  bool rises_from(std::uint32_t triangle, const Vec3d& normal, const Vec3d& from, const Vec3d& to) const;
+
  private:
   /// outlook: of the front; own and rise are set here.
   double before(std::uint32_t triangle, Outlook outlook, double reach) const;

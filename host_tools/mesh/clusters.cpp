@@ -176,8 +176,8 @@ std::vector<Member> members_of(const Mesh& mesh, const Scene& scene, const std::
 
 /// Gives each triangle the length of a cluster that has it: where another surface is near, less than `length`. Asked
 /// once for each part of the shortest length.
-void shorten_near_others(const Mesh& mesh, const Clearance& clearance, const std::vector<std::uint32_t>& triangle_of,
-                         double length, std::vector<Member>& triangles) {
+void shorten_near_others(const Mesh& mesh, const std::vector<std::uint32_t>& triangle_of, double length,
+                         std::vector<Member>& triangles) {
   const std::vector<std::uint32_t> part = clusters_of(triangles, kShortest * length, kElementCosine);
   const std::vector<Member> parts = merged(triangles, part);
   std::vector<double> lengths(parts.size(), 0);
@@ -186,7 +186,7 @@ void shorten_near_others(const Mesh& mesh, const Clearance& clearance, const std
     if (most == 0) {
       const Member& all = parts[part[m]];
       const double reach = length * mesh.space.scale;
-      most = clearance.at(triangle_of[m], mesh.space.to_normalised(all.centre), vec::unit(all.normal), reach);
+      most = mesh.clearance.at(triangle_of[m], mesh.space.to_normalised(all.centre), vec::unit(all.normal), reach);
       most = std::max(most / mesh.space.scale, kShortest * length);
     }
     triangles[m].length = most;
@@ -196,11 +196,11 @@ void shorten_near_others(const Mesh& mesh, const Clearance& clearance, const std
 }  // namespace
 
 std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, const std::vector<bool>& small,
-                                        const Clearance& clearance, double patch_length, double element_length) {
+                                        double patch_length, double element_length) {
   std::vector<std::uint32_t> triangle_of;
   std::vector<std::uint32_t> number;
   std::vector<Member> triangles = members_of(mesh, scene, small, triangle_of, number);
-  shorten_near_others(mesh, clearance, triangle_of, element_length, triangles);
+  shorten_near_others(mesh, triangle_of, element_length, triangles);
   const std::vector<std::uint32_t> element = clusters_of(triangles, element_length, kElementCosine);
   std::vector<Member> whole = merged(triangles, element);
   for (Member& member : whole) member.length = patch_length;

@@ -20,7 +20,7 @@ using PatchCluster = std::vector<ElementCluster>;
 /// where another surface is near. Clusters in the order of their first triangles; none holds a triangle twice, and what
 /// has few neighbours is in none.
 std::vector<PatchCluster> find_clusters(const Mesh& mesh, const Scene& scene, const std::vector<bool>& small,
-                                        const Clearance& clearance, double patch_length, double element_length);
+                                        double patch_length, double element_length);
 
 /// Smooth surfaces that the mesh has, were all its triangles small.
 std::uint32_t count_smooth_surfaces(const Mesh& mesh);

@@ -25,7 +25,6 @@ constexpr std::uint32_t kOverhungLevels = 1;
 /// Grows the tree of one triangle.
 struct Grower {
   const Mesh& mesh;
-  const Clearance& clearance;
   const std::vector<Split>& splits;
   std::uint32_t triangle;
   std::uint32_t base;
@@ -49,7 +48,7 @@ struct Grower {
   }
   /// What is no longer than an element as it is stays: of a heap of small things each would be cut.
   bool is_close_under_another(std::uint32_t code) const {
-    return base > 0 && clearance.is_overhung(triangle, grid_corners(mesh.triangles[triangle], code));
+    return base > 0 && mesh.clearance.is_overhung(triangle, grid_corners(mesh.triangles[triangle], code));
   }
 };
 
@@ -108,12 +107,11 @@ bool balance_once(const Mesh& mesh, Leaves& leaves) {
 
 }  // namespace
 
-Leaves element_leaves(const Mesh& mesh, const Clearance& clearance, const std::vector<int>& base_level,
-                      const std::vector<Split>& splits) {
+Leaves element_leaves(const Mesh& mesh, const std::vector<int>& base_level, const std::vector<Split>& splits) {
   Leaves leaves(mesh.triangles.size());
   for (std::uint32_t t = 0; t < leaves.size(); ++t) {
     if (base_level[t] < 0) continue;
-    Grower{mesh, clearance, splits, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
+    Grower{mesh, splits, t, static_cast<std::uint32_t>(base_level[t]), leaves[t]}.grow(1, 0);
   }
   while (balance_once(mesh, leaves)) {
   }

@@ -7,7 +7,6 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
-#include "host_tools/mesh/clearance.hpp"
 #include "host_tools/mesh/clusters.hpp"
 #include "host_tools/mesh/element_trees.hpp"
 #include "host_tools/mesh/levels.hpp"
@@ -105,7 +104,6 @@ void choose_sides(const Scene& scene, const MeshChoice& choice, Mesh& mesh) {
 struct Cutting {
   std::vector<int> patch_level;    ///< by triangle; -1: not cut
   std::vector<int> element_level;  ///< likewise, at least patch_level
-  Clearance clearance;
   std::vector<PatchCluster> clusters;
 };
 
@@ -117,7 +115,7 @@ static_assert((sizeof(protocol::Element) * 2 + sizeof(protocol::Facet) + sizeof(
               protocol::kDefaultLocalMemory * 3 / 4);
 
 Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes, Mesh& mesh) {
-  Cutting cutting{std::vector<int>(mesh.triangles.size(), -1), std::vector<int>(mesh.triangles.size(), -1), {}, {}};
+  Cutting cutting{std::vector<int>(mesh.triangles.size(), -1), std::vector<int>(mesh.triangles.size(), -1), {}};
   std::vector<CutTriangle> cut;
   std::vector<SizedTriangle> sized;
   for (const MeshTriangle& triangle : mesh.triangles) {
@@ -145,8 +143,8 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64
     }
   }
   mesh.smooth = find_smooth_surfaces(mesh, small, Pierced::ends);
-  cutting.clearance = Clearance(mesh);
-  cutting.clusters = find_clusters(mesh, scene, small, cutting.clearance, lengths.patch, lengths.cluster);
+  mesh.clearance = Clearance(mesh);
+  cutting.clusters = find_clusters(mesh, scene, small, lengths.patch, lengths.cluster);
   for (const PatchCluster& cluster : cutting.clusters) {
     for (const ElementCluster& element : cluster) {
       for (const std::uint32_t t : element) cutting.patch_level[t] = cutting.element_level[t] = -1;
@@ -284,7 +282,7 @@ class PatchMaker {
 };
 
 void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh& mesh) {
-  const Leaves leaves = element_leaves(mesh, cutting.clearance, cutting.element_level, splits);
+  const Leaves leaves = element_leaves(mesh, cutting.element_level, splits);
   PatchMaker maker(mesh, leaves);
   std::size_t next_cluster = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

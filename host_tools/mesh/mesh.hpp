@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware/protocol/stores.hpp"
+#include "host_tools/mesh/clearance.hpp"
 #include "host_tools/mesh/levels.hpp"
 #include "host_tools/mesh/normalise.hpp"
 #include "host_tools/mesh/occlusion.hpp"
@@ -110,6 +111,7 @@ struct Mesh {
   std::vector<protocol::TexturePoint> texture_points;
   std::vector<MachineTexture> textures;  ///< by number in the scene
   SmoothSurfaces smooth;
+  Clearance clearance;
   Walls walls;  ///< of triangles that are cut
   Occlusion occlusion;
   std::vector<MeshPart> parts;

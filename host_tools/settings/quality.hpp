@@ -18,7 +18,7 @@ inline constexpr std::uint32_t kMostTexels = 4U << 20U;
 /// Everything that determines the picture, and nothing that does not.
 struct Quality {
   std::uint32_t width = 512, height = 512;
-  std::uint32_t samples = 16;      ///< per pixel
+  std::uint32_t samples = 32;      ///< per pixel
   std::uint32_t most_samples = 0;  ///< not 0: pixels have from `samples` to so many, as they need them
   double noise = 2;                ///< then: halves of a block's samples that differ by more [L*] ask for more
   PixelFilter filter = PixelFilter::box;
@@ -30,8 +30,8 @@ struct Quality {
   double cluster_factor = 1;
   /// Elements that are added where a draft of the solution says so, as a multiple of those without; 0: no draft.
   double refine = 0;
-  std::uint32_t hemicube = 6;     ///< pixels across the top, even, 4..256
-  std::uint32_t shot_points = 8;  ///< k: k * k points per patch
+  std::uint32_t hemicube = 4;      ///< pixels across the top, even, 4..256
+  std::uint32_t shot_points = 16;  ///< k: k * k points per patch
   /// With which all emitters together begin, about: their light casts the sharpest shadows, so that a patch that emits
   /// gets more points than one that only reflects.
   std::uint32_t emission_records = 4'000'000;

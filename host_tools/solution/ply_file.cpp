@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "firmware/protocol/element_light.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -59,7 +60,7 @@ class PlyWriter {
       for (const std::size_t c :
            side == 0 ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{2, 1, 0}) {
         for (const double along : mesh_.space.to_user(corners[c])) put(static_cast<float>(along));
-        for (std::size_t k = 0; k < 3; ++k) put(radiosity(patch, side, light->irradiance_over_pi[c][k], k));
+        for (std::size_t k = 0; k < 3; ++k) put(radiosity(patch, side, protocol::irradiance_at(*light, c)[k], k));
         put(patch.first_element[side] + facet.element);
       }
       ++light;

@@ -27,11 +27,11 @@ inline constexpr std::array<Setting, 6> kSettings = {{
      {.samples = 8,
       .patch_factor = 1.4,
       .element_factor = 1.4,
-      .shot_points = 4,
+      .shot_points = 9,
       .emission_records = 1'500'000,
       .unshot = 0.006}},
     kPresets[1],
-    {"good", "", {.samples = 32, .patch_factor = 0.7, .refine = 0.25, .emission_records = 8'000'000, .unshot = 0.001}},
+    {"good", "", {.samples = 64, .patch_factor = 0.7, .refine = 0.25, .emission_records = 8'000'000, .unshot = 0.001}},
     kPresets[2],
 }};
 

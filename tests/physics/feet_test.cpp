@@ -15,6 +15,7 @@ RenderCase blocks(bool shadow_rays) {
   quality.width = 64;
   quality.height = 32;
   quality.samples = 16;
+  quality.hemicube = 6;
   quality.shot_points = 8;
   quality.unshot = 0.01;
   quality.shadow_rays = shadow_rays;

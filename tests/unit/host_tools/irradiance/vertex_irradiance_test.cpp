@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "firmware/protocol/element_light.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/unit/host_tools/test_scenes.hpp"
@@ -16,14 +17,16 @@
 namespace torolux {
 namespace {
 
-/// Value at a point of a triangle, by linear interpolation over the facet that holds it.
+/// Value at a point of a triangle, as light over the facet that holds it shows it.
 double value_at(const Mesh& mesh, const VertexIrradiance& irradiance, std::uint32_t t, float b1, float b2,
                 std::uint32_t side = 0) {
   const std::uint32_t f = mesh.facet_at(t, b1, b2);
   protocol::Weights at{(1.0F - b1) - b2, b1, b2};
   protocol::enter_level(at, protocol::level_of_code(mesh.facets[f].code));
-  const auto& corner = irradiance.triangles[irradiance.first[f] + side].irradiance_over_pi;
-  return static_cast<double>(at.b0 * corner[0][0] + at.b1 * corner[1][0] + at.b2 * corner[2][0]);
+  const protocol::CornerIrradiance& light = irradiance.triangles[irradiance.first[f] + side];
+  const protocol::Weights by = protocol::light_weights(protocol::concave_corners(light), at);
+  const auto red = [&light](std::size_t c) { return protocol::irradiance_at(light, c)[0]; };
+  return static_cast<double>(by.b0 * red(0) + by.b1 * red(1) + by.b2 * red(2));
 }
 
 /// along: 0..1 from corner `edge` to corner edge + 1.
@@ -73,7 +76,8 @@ TEST(VertexIrradiance, EqualIrradianceStaysEqual) {
   // 3 W/m^2 over pi, in units of 2; the flux is rounded to 1e-12 of it, floats to 6e-8.
   const double expected = 3 / std::numbers::pi / 2;
   for (const auto& triangle : irradiance.triangles) {
-    for (const protocol::Vec3f& value : triangle.irradiance_over_pi) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const protocol::Vec3f value = protocol::irradiance_at(triangle, c);
       EXPECT_NEAR(static_cast<double>(value[0]), expected, 1e-6 * expected);
       EXPECT_EQ(value[1], 0.0F);
     }
@@ -119,7 +123,7 @@ TEST(VertexIrradiance, SharpEdgesKeepTheirOwnValues) {
   std::vector<protocol::Flux> flux(mesh.elements);
   flux[mesh.patches[0].first_element[0]] = {100, 0, 0};
   const VertexIrradiance irradiance = make_vertex_irradiance(mesh, flux, std::numbers::pi, 1.0);
-  EXPECT_FLOAT_EQ(irradiance.triangles[irradiance.first[0]].irradiance_over_pi[0][0], 200.0F);
+  EXPECT_FLOAT_EQ(protocol::irradiance_at(irradiance.triangles[irradiance.first[0]], 0)[0], 200.0F);
   EXPECT_EQ(irradiance.triangles[irradiance.first[1]].irradiance_over_pi[0][0], 0.0F);
   EXPECT_EQ(irradiance.triangles[irradiance.first[0] + 1].irradiance_over_pi[0][0], 0.0F)
       << "the back has sums of its own";

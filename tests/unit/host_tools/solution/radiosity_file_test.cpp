@@ -88,7 +88,7 @@ TEST_F(RadiosityFileTest, SaysWhatDiffers) {
   quality.hemicube = 32;
   quality.seed = 77;
   EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_))
-                .find("--seed 1, this run has 77; give --seed 1 --hemicube 6, or make them anew"),
+                .find("--seed 1, this run has 77; give --seed 1 --hemicube 4, or make them anew"),
             std::string::npos);
   Scene scene = scene_;
   scene.positions[3][1] += 1e-9;
