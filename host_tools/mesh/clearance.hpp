@@ -29,8 +29,7 @@ class Clearance {
   bool is_overhung(std::uint32_t triangle, const std::array<Vec3d, 3>& corner) const;
 
   /// Whether another surface rises from the middle of an edge in the triangle, given by its ends, on the side to which
-  /// the normal points: at an angle of between 41 and
-  /// 139 degrees. Beyond 120 that is one that shares no edge with the triangle's: else both are one surface.
+  /// the normal points: by 41 to 139 degrees; one that shares an edge with the triangle's surface, by up to 120.
   bool rises_from(std::uint32_t triangle, const Vec3d& normal, const Vec3d& from, const Vec3d& to) const;
 
  private:

@@ -215,14 +215,14 @@ TEST(Resolve, APresetIsAllThatABareSceneGets) {
 // A scene says what it needs at `normal`, or at the preset that it names.
 TEST(Resolve, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   Scene scene = bare_scene();
-  scene.defaults.given.set(&Quality::samples, 32);
+  scene.defaults.given.set(&Quality::samples, 64);
   scene.defaults.given.set(&Quality::emission_records, 12'000'000);
   scene.defaults.given.set(&Quality::patch_length, 2);
   scene.defaults.given.set(&Quality::element_length, 1);
   scene.defaults.given.set(&Quality::refine, 6);
   scene.defaults.given.set(&Quality::shadow_rays, false);
   const Quality fine = quality_of(scene, "fine");
-  EXPECT_EQ(fine.samples, 128U);
+  EXPECT_EQ(fine.samples, 256U);
   EXPECT_EQ(fine.emission_records, 72'000'000U);
   EXPECT_EQ(fine.patch_length, 1.0);
   EXPECT_EQ(fine.element_length, 2.0);
@@ -237,8 +237,8 @@ TEST(Resolve, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   EXPECT_EQ(draft.refine, 0.0);
   EXPECT_FALSE(draft.shadow_rays);
   scene.defaults.quality = PlacedText{"fine", ""};
-  EXPECT_EQ(quality_of(scene, "fine").samples, 32U);
-  EXPECT_EQ(quality_of(scene, "normal").samples, 8U);
+  EXPECT_EQ(quality_of(scene, "fine").samples, 64U);
+  EXPECT_EQ(quality_of(scene, "normal").samples, 16U);
 }
 
 TEST(Resolve, PresetsSendNoShadowRaysToLargeEmitters) {
