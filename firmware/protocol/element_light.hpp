@@ -69,36 +69,19 @@ inline void from_side_inside(float& opposite, float& a, float& b) {
 /// another element meets it is the same on both sides.
 inline Weights light_weights(ConcaveCorners concave, const Weights& at) {
   Weights light = at;
-  switch (concave) {
-    case 0b001:
-      from_corner(light.b0, light.b1, light.b2);
-      break;
-    case 0b010:
-      from_corner(light.b1, light.b2, light.b0);
-      break;
-    case 0b100:
-      from_corner(light.b2, light.b0, light.b1);
-      break;
-    case 0b110:
-      from_side(light.b0, light.b1, light.b2);
-      break;
-    case 0b101:
-      from_side(light.b1, light.b2, light.b0);
-      break;
-    case 0b011:
-      from_side(light.b2, light.b0, light.b1);
-      break;
-    case 0b110 | kSideInside:
-      from_side_inside(light.b0, light.b1, light.b2);
-      break;
-    case 0b101 | kSideInside:
-      from_side_inside(light.b1, light.b2, light.b0);
-      break;
-    case 0b011 | kSideInside:
-      from_side_inside(light.b2, light.b0, light.b1);
-      break;
-    default:
-      break;
+  if (concave == 0) return light;
+  const auto from = [&light](ConcaveCorners corner, auto shape) {
+    if (corner == 0b001) shape(light.b0, light.b1, light.b2);
+    if (corner == 0b010) shape(light.b1, light.b2, light.b0);
+    if (corner == 0b100) shape(light.b2, light.b0, light.b1);
+  };
+  // Of three corners one is on the edge, or one is not, or neither.
+  const ConcaveCorners on_edge = concave & 0b111U;
+  from(on_edge, from_corner);
+  if ((concave & kSideInside) != 0) {
+    from(on_edge ^ 0b111U, from_side_inside);
+  } else {
+    from(on_edge ^ 0b111U, from_side);
   }
   return light;
 }

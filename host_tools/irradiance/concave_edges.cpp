@@ -4,44 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <span>
 
+#include "host_tools/mesh/edges.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 namespace {
 
-/// From corner `corner` of a facet to the next one.
-struct Edge {
-  std::uint32_t low, high;  ///< vertices
-  std::uint32_t facet, corner;
-
-  bool same_ends(const Edge& other) const { return low == other.low && high == other.high; }
-};
-
-/// Those whose ends are open, sorted by these.
-std::vector<Edge> open_edges(const SurfaceVertices& vertices, const std::vector<bool>& follows) {
-  std::vector<Edge> edges;
-  for (std::uint32_t f = 0; f < follows.size(); ++f) {
-    if (!follows[f]) continue;
-    const auto& vertex = vertices.corners(f);
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      const std::uint32_t a = vertex[c];
-      const std::uint32_t b = vertex[(c + 1) % 3];
-      if (vertices.open(a) && vertices.open(b)) edges.push_back({std::min(a, b), std::max(a, b), f, c});
-    }
-  }
-  std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.facet, a.corner) < std::tie(b.low, b.high, b.facet, b.corner);
-  });
-  return edges;
-}
-
-bool is_concave(const Mesh& mesh, std::uint32_t side, const Edge& edge) {
-  const MeshFacet& facet = mesh.facets[edge.facet];
+/// edge: from this corner to the next one.
+bool is_concave(const Mesh& mesh, std::uint32_t side, const MeshFacet& facet, std::size_t edge) {
   const auto corner = grid_corners(mesh.triangles[facet.triangle], facet.code);
   const Vec3d normal = vec::scale(mesh.facet_normal(facet), side == 0 ? 1 : -1);
-  return mesh.clearance.rises_from(facet.triangle, normal, corner[edge.corner], corner[(edge.corner + 1) % 3]);
+  return mesh.clearance.rises_from(facet.triangle, normal, corner[edge], corner[(edge + 1) % 3]);
 }
 
 }  // namespace
@@ -49,15 +24,23 @@ bool is_concave(const Mesh& mesh, std::uint32_t side, const Edge& edge) {
 ConcaveEdges::ConcaveEdges(const Mesh& mesh, const SurfaceVertices& vertices, std::uint32_t side,
                            const std::vector<bool>& follows)
     : vertices_(vertices), on_edge_(vertices.count(), false), sides_(mesh.facets.size(), 0) {
-  const std::vector<Edge> edges = open_edges(vertices, follows);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Edge& edge = edges[i];
-    const bool shared =
-        (i > 0 && edge.same_ends(edges[i - 1])) || (i + 1 < edges.size() && edge.same_ends(edges[i + 1]));
-    if (shared || !is_concave(mesh, side, edge)) continue;
-    on_edge_[edge.low] = on_edge_[edge.high] = true;
-    sides_[edge.facet] = static_cast<std::uint8_t>(sides_[edge.facet] | 1U << edge.corner);
+  std::vector<std::uint32_t> facets;  // that have an edge between open vertices, and by these
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
+    const auto& vertex = vertices.corners(f);
+    const auto is_open = [&vertices](std::uint32_t v) { return vertices.open(v); };
+    if (!follows[f] || std::ranges::count_if(vertex, is_open) < 2) continue;
+    facets.push_back(f);
+    corners.push_back(vertex);
   }
+  for_each_edge(edge_uses(corners), [&](std::span<const EdgeUse> uses) {
+    const EdgeUse& use = uses.front();
+    const std::uint32_t f = facets[use.triangle];
+    const bool borders = uses.size() == 1 && vertices.open(use.low) && vertices.open(use.high);
+    if (!borders || !is_concave(mesh, side, mesh.facets[f], use.edge)) return;
+    on_edge_[use.low] = on_edge_[use.high] = true;
+    sides_[f] = static_cast<std::uint8_t>(sides_[f] | 1U << use.edge);
+  });
   for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
     if (follows[f]) continue;
     for (const std::uint32_t v : vertices.corners(f)) on_edge_[v] = false;

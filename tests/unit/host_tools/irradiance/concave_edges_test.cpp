@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host_tools/irradiance/vertex_irradiance.hpp"
+#include "host_tools/mesh/occlusion.hpp"
 #include "host_tools/scene/vec.hpp"
 #include "tests/unit/host_tools/test_scenes.hpp"
 
@@ -88,12 +89,10 @@ TEST(ConcaveEdges, MeansAreThoseOfTheLightShown) {
     std::array<double, 3> sum{};
     constexpr std::uint32_t level = 7;
     for (std::uint32_t path = 0; path < protocol::triangles_of_level(level); ++path) {
-      const protocol::GridTriangle grid = protocol::grid_triangle(path, level);
-      std::array<float, 3> middle{};
-      for (std::size_t i = 0; i < 3; ++i)
-        middle[i] = static_cast<float>(grid.corner[0][i] + grid.corner[1][i] + grid.corner[2][i]) /
-                    (3.0F * (1U << protocol::kMostLevels));
-      const protocol::Weights light = protocol::light_weights(concave, {middle[0], middle[1], middle[2]});
+      const PlanePoint middle = middle_of_grid(protocol::location_code(path, level));
+      const auto b1 = static_cast<float>(middle.b1);
+      const auto b2 = static_cast<float>(middle.b2);
+      const protocol::Weights light = protocol::light_weights(concave, {1 - b1 - b2, b1, b2});
       sum[0] += static_cast<double>(light.b0);
       sum[1] += static_cast<double>(light.b1);
       sum[2] += static_cast<double>(light.b2);
@@ -118,10 +117,15 @@ double root_light(double distance) {
   return 1 + std::sqrt(distance);
 }
 
-/// The floor receives root_light, exactly; what of it is shown at the edge and between, at most so far off.
-double most_off(double flux_of_record) {
-  constexpr double of_light = 1e12;
-  const Mesh mesh = floor_and_wall(90);
+constexpr double kLight = 1e12;  // quanta in a unit of area
+
+/// Of a triangle; b1, b2: weights of corners 1 and 2.
+Vec3d point_of(const std::array<Vec3d, 3>& corner, double b1, double b2) {
+  return vec::add(vec::add(vec::scale(corner[0], 1 - b1 - b2), vec::scale(corner[1], b1)), vec::scale(corner[2], b2));
+}
+
+/// root_light of the distance from y = 0, over each facet.
+std::vector<protocol::Flux> received(const Mesh& mesh) {
   std::vector<protocol::Flux> flux(mesh.elements);
   for (const MeshPatch& patch : mesh.patches) {
     for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
@@ -130,22 +134,25 @@ double most_off(double flux_of_record) {
       double mean = 0;
       constexpr std::uint32_t level = 5;
       for (std::uint32_t path = 0; path < protocol::triangles_of_level(level); ++path) {
-        const protocol::GridTriangle grid = protocol::grid_triangle(path, level);
-        Vec3d middle{0, 0, 0};
-        for (std::size_t i = 0; i < 3; ++i)
-          middle = vec::add(middle, vec::scale(corner[i], (grid.corner[0][i] + grid.corner[1][i] + grid.corner[2][i]) /
-                                                              (3.0 * (1U << protocol::kMostLevels))));
-        mean += root_light(std::abs(mesh.space.to_user(middle)[1])) / protocol::triangles_of_level(level);
+        const PlanePoint middle = middle_of_grid(protocol::location_code(path, level));
+        const double distance = std::abs(mesh.space.to_user(point_of(corner, middle.b1, middle.b2))[1]);
+        mean += root_light(distance) / protocol::triangles_of_level(level);
       }
       for (const std::uint32_t first : patch.first_element) {
         if (first == protocol::kNoSide) continue;
-        const auto quanta = static_cast<std::int64_t>(mean * mesh.facet_area(facet) * of_light);
+        const auto quanta = static_cast<std::int64_t>(mean * mesh.facet_area(facet) * kLight);
         flux[first + facet.element] = {quanta, quanta, quanta};
       }
     }
   }
+  return flux;
+}
+
+/// What of the floor's light is shown at the edge and between is at most so far off.
+double most_off(double flux_of_record) {
+  const Mesh mesh = floor_and_wall(90);
   const VertexIrradiance shown =
-      make_vertex_irradiance(IrradiancePlan(mesh), flux, std::numbers::pi / of_light, 1, flux_of_record);
+      make_vertex_irradiance(IrradiancePlan(mesh), received(mesh), std::numbers::pi / kLight, 1, flux_of_record);
   double off = 0;
   for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
     const MeshFacet& facet = mesh.facets[f];
@@ -167,10 +174,7 @@ double most_off(double flux_of_record) {
       const protocol::Weights by = protocol::light_weights(protocol::concave_corners(light), at);
       const auto red = [&light](std::size_t c) { return protocol::irradiance_at(light, c)[0]; };
       const double value = static_cast<double>(by.b0 * red(0) + by.b1 * red(1) + by.b2 * red(2));
-      Vec3d place{0, 0, 0};
-      const std::array<float, 3> weight{at.b0, at.b1, at.b2};
-      for (std::size_t i = 0; i < 3; ++i)
-        place = vec::add(place, vec::scale(corner[i], static_cast<double>(weight[i])));
+      const Vec3d place = point_of(corner, static_cast<double>(at.b1), static_cast<double>(at.b2));
       off = std::max(off, std::abs(value / root_light(mesh.space.to_user(place)[1]) - 1));
     }
   }
