@@ -31,11 +31,11 @@ inline constexpr std::array<Preset, 3> kPresets{{
      "minutes: little noise, light followed into corners",
      {.samples = 128,
       .patch_factor = 0.5,
-      .element_factor = 2,
-      .refine = 4,
+      .element_factor = 0.8,
+      .refine = 1,
       .hemicube = 6,
-      .shot_points = 21,
-      .emission_records = 24'000'000,
+      .shot_points = 20,
+      .emission_records = 16'000'000,
       .unshot = 0.0005}},
 }};
 

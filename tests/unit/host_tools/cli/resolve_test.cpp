@@ -223,10 +223,10 @@ TEST(Resolve, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   scene.defaults.given.set(&Quality::shadow_rays, false);
   const Quality fine = quality_of(scene, "fine");
   EXPECT_EQ(fine.samples, 256U);
-  EXPECT_EQ(fine.emission_records, 72'000'000U);
+  EXPECT_EQ(fine.emission_records, 48'000'000U);
   EXPECT_EQ(fine.patch_length, 1.0);
-  EXPECT_EQ(fine.element_length, 2.0);
-  EXPECT_EQ(fine.cluster_factor, 0.25) << "half of normal's, as patches";
+  EXPECT_EQ(fine.element_length, 0.8);
+  EXPECT_EQ(fine.cluster_factor, 0.625) << "half of normal's length, as patches";
   EXPECT_EQ(fine.refine, 6.0);
   EXPECT_FALSE(fine.shadow_rays);
   const Quality draft = quality_of(scene, "draft");
@@ -266,7 +266,7 @@ TEST(Resolve, PresetsSendNoShadowRaysToLargeEmitters) {
 TEST(Resolve, ClustersAreAsFineAsPatches) {
   EXPECT_EQ(quality_of(bare_scene(), "normal").cluster_factor, 1.0);
   EXPECT_EQ(quality_of(bare_scene(), "draft").cluster_factor, 1.0);
-  EXPECT_EQ(quality_of(bare_scene(), "fine").cluster_factor, 0.25);
+  EXPECT_EQ(quality_of(bare_scene(), "fine").cluster_factor, 0.625);
   RenderOptions options;
   options.preset = preset_named("fine");
   options.given.set(&Quality::element_length, 0.5);
