@@ -60,20 +60,26 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
           static_cast<std::uint32_t>(bits(l.points_per_quantum)));
 }
 
-}  // namespace
-
-void check_view(Niu& niu, const StageLayout& l) {
-  const protocol::CameraView& view = l.view;
-  require(niu, view.samples == l.sample_places.count && view.samples <= protocol::kMostPixelSamples,
-          LayoutField::samples, view.samples, l.sample_places.count);
-  require(niu, view.filter_bits >= 1 && view.filter_bits <= protocol::kMostFilterBits, LayoutField::filter_bits,
-          view.filter_bits, protocol::kMostFilterBits);
-  require(niu, l.filter.count == (1U << view.filter_bits) + 1U, protocol::StoreName::filter, l.filter.address,
-          l.filter.count);
+/// What tells a sample's place in the picture, whoever makes its ray.
+void check_picture(Niu& niu, const protocol::CameraView& view) {
+  require(niu, view.samples >= 1 && view.samples <= protocol::kMostPixelSamples, LayoutField::samples, view.samples,
+          protocol::kMostPixelSamples);
   for (const std::uint32_t edge : {view.width, view.height}) {
     require(niu, edge >= 1 && edge <= protocol::kMostPictureEdge, LayoutField::picture_edge, edge,
             protocol::kMostPictureEdge);
   }
+}
+
+}  // namespace
+
+void check_view(Niu& niu, const StageLayout& l) {
+  const protocol::CameraView& view = l.view;
+  check_picture(niu, view);
+  require(niu, view.samples == l.sample_places.count, LayoutField::samples, view.samples, l.sample_places.count);
+  require(niu, view.filter_bits >= 1 && view.filter_bits <= protocol::kMostFilterBits, LayoutField::filter_bits,
+          view.filter_bits, protocol::kMostFilterBits);
+  require(niu, l.filter.count == (1U << view.filter_bits) + 1U, protocol::StoreName::filter, l.filter.address,
+          l.filter.count);
 }
 
 void check_layout(Niu& niu, const StageLayout& l) {
@@ -101,6 +107,7 @@ void check_layout(Niu& niu, const StageLayout& l) {
     require(niu, finite_positive(l.pixel_scale), LayoutField::pixel_scale,
             static_cast<std::uint32_t>(bits(l.pixel_scale)));
     require(niu, l.layers >> protocol::kPlanes == 0, LayoutField::layers, l.layers, protocol::kPlanes);
+    check_picture(niu, l.view);
     if (l.sample_places.count > 0) check_view(niu, l);
   }
 }

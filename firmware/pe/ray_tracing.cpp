@@ -10,6 +10,7 @@
 #include "firmware/pe/sky.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
+#include "firmware/protocol/picture_order.hpp"
 #include "firmware/protocol/random.hpp"
 
 namespace torolux::pe {
@@ -51,12 +52,16 @@ void see_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, cons
   pe.results.add_pixel(niu, record.pixel, (to_vector(record.weight) * radiance) * pe.scene.layout.pixel_scale);
 }
 
-/// Key of numbers that keep apart over the samples of a pixel that come this way: the same bounce, with as many
-/// branches waiting.
+/// Key of numbers that keep apart over the samples of a pixel, and of neighbours, that come this way: the same bounce,
+/// with as many branches waiting.
 std::uint32_t way_key(const Pe& pe, const RayRecord& record, Dimension dimension) {
-  const std::uint32_t pixel = protocol::hash_combine(pe.scene.layout.seed, record.pixel);
-  const std::uint32_t way = protocol::hash_combine(pixel, record.bounce * 4U + record.waiting);
+  const std::uint32_t way = protocol::hash_combine(pe.scene.layout.seed, record.bounce * 4U + record.waiting);
   return protocol::hash_combine(way, static_cast<std::uint32_t>(dimension));
+}
+
+std::uint32_t place_in_picture(const Pe& pe, const RayRecord& record) {
+  const protocol::CameraView& view = pe.scene.layout.view;
+  return protocol::place_in_picture(record.pixel % view.width, record.pixel / view.width, record.sample, view.samples);
 }
 
 /// A shadow ray has met something: the emitter, a pane, or what else is before it. Glass and mirrors cast shadows: the
@@ -65,6 +70,8 @@ bool pass_shadow(Pe& pe, Niu& niu, RayRecord& record, const Hit& hit) {
   const Polygon& polygon = pe.scene.polygons[hit.polygon];
   const Material& material = pe.scene.materials[polygon.material];
   if (material.kind == MaterialKind::pane) {
+    // Of two panes in one plane each may lie behind the other, over and over.
+    if (++record.bounce >= pe.scene.layout.bounces) return false;
     const glm::vec3 direction = to_vector(record.direction);
     const glm::vec3 passed =
         pane_parts(direction, unit_normal(polygon), material.refractive_index, to_vector(material.transmittance))
@@ -183,7 +190,7 @@ bool aim_at_emitters(const Pe& pe, RayRecord& record, const Hit& hit) {
   const glm::vec3 normal = shading_normal(pe.scene, polygon, hit) * to_side;
   const glm::vec3 geometric = unit_normal(polygon) * to_side;
   const protocol::StratifiedTriple numbers =
-      protocol::stratified_triple(record.sample, way_key(pe, record, Dimension::emitter));
+      protocol::stratified_triple(place_in_picture(pe, record), way_key(pe, record, Dimension::emitter));
   Aim sun{};
   Aim others{};
   sun.goes = sample_sun(pe.scene, numbers, origin, normal, geometric, sun.from);
@@ -219,7 +226,7 @@ bool choose_lobe(const Pe& pe, const RayRecord& record, const Hit& hit, Onward& 
   way.key = protocol::hash_combine(record.key, way.bounce);
   const glm::vec3 in = to_vector(record.direction);
   const protocol::StratifiedPair numbers =
-      protocol::stratified_pair(record.sample, way_key(pe, record, Dimension::lobe));
+      protocol::stratified_pair(place_in_picture(pe, record), way_key(pe, record, Dimension::lobe));
   const LobeSample lobe = sample_lobe(material, in, unit_normal(polygon), shading_normal(pe.scene, polygon, hit),
                                       protocol::uniform_float(numbers.x), protocol::uniform_float(numbers.y));
   way.origin = leaving_point(polygon, to_vector(record.origin) + in * hit.t);

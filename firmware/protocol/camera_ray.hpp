@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <span>
 
+#include "firmware/protocol/picture_order.hpp"
 #include "firmware/protocol/random.hpp"
 #include "firmware/protocol/records.hpp"
 #include "firmware/protocol/sine_cosine.hpp"
+#include "firmware/protocol/stratified.hpp"
 
 namespace torolux::protocol {
 
@@ -43,6 +45,7 @@ struct CameraPixel {
   std::uint32_t moved_x, moved_y;  ///< of the pattern, which goes round [2^-32 of the pixel's square]
   std::uint32_t number;            ///< row * width + column
   std::uint32_t key;               ///< hash of (seed, number)
+  std::uint32_t first_place;       ///< of its samples in the picture (picture_order.hpp)
 };
 
 /// Each pixel has the same pattern, moved by a part of the pixel's square that neighbours share out evenly (M. Roberts,
@@ -64,7 +67,8 @@ constexpr CameraPixel camera_pixel(const CameraView& view, std::uint32_t column,
           x_by_column * column + x_by_row * row,
           y_by_column * column + y_by_row * row,
           number,
-          hash_combine(view.seed, number)};
+          hash_combine(view.seed, number),
+          place_in_picture(column, row, 0, view.samples)};
 }
 
 /// Distance from the pixel's middle below which `part` of the filter lies [pixels]; part: in units of 2^-32. table:
@@ -113,17 +117,14 @@ constexpr std::array<float, 2> disc_point(float x, float y) {
   return {y * turn.sine, y * turn.cosine};
 }
 
-/// From the eye to a sample's point of the lens. The points of one pixel follow an additive recurrence, which shares
-/// them out evenly however many are taken (Roberts 2018, as above), begun at a hash of the pixel.
+/// From the eye to a sample's point of the lens: points keep apart over a pixel's samples and over neighbours.
 inline Vec3f lens_offset(const CameraView& view, const CameraPixel& pixel, std::uint32_t sample) {
-  // Reciprocals of the number that solves x^3 = x + 1 and of its square.
-  constexpr auto x_by_sample = static_cast<std::uint32_t>(0.7548776662466927 * 0x1p32);
-  constexpr auto y_by_sample = static_cast<std::uint32_t>(0.5698402909980532 * 0x1p32);
-  const auto in_square = [&](Dimension dimension, std::uint32_t by_sample) {
-    const std::uint32_t at = hash_combine(pixel.key, static_cast<std::uint32_t>(dimension)) + by_sample * sample;
+  const StratifiedPair pair =
+      stratified_pair(pixel.first_place | sample, hash_combine(view.seed, static_cast<std::uint32_t>(Dimension::lens)));
+  const auto in_square = [](std::uint32_t at) {
     return static_cast<float>(static_cast<std::int32_t>(at >> 8U) - 0x80'0000) * 0x1p-23F;
   };
-  const auto [x, y] = disc_point(in_square(Dimension::lens_x, x_by_sample), in_square(Dimension::lens_y, y_by_sample));
+  const auto [x, y] = disc_point(in_square(pair.x), in_square(pair.y));
   return {view.lens_right[0] * x + view.lens_down[0] * y, view.lens_right[1] * x + view.lens_down[1] * y,
           view.lens_right[2] * x + view.lens_down[2] * y};
 }

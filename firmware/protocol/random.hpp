@@ -34,8 +34,7 @@ enum class Dimension : std::uint32_t {
   lobe,
   lobe_height,
   lobe_turn,
-  lens_x,
-  lens_y,
+  lens,
 };
 
 constexpr float uniform(std::uint32_t key, Dimension dimension) {

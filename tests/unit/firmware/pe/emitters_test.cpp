@@ -326,6 +326,24 @@ TEST(ShadowRays, WhatStandsBeforeTheLampTakesItsLight) {
   EXPECT_NEAR(seen(half, {0.9F, 0.1F, 0.2F}, kUnderLamp, 1024), kDirect / 2 + kIndirect, 2e-3);
 }
 
+// Of panes in one plane each may be met behind the other without end: a shadow ray ends with the other segments.
+TEST(ShadowRays, PassNoMorePanesThanThereAreBounces) {
+  const auto behind = [](int panes, float apart) {
+    TestScene glazed = lit_room();
+    glazed.bounces = 4;
+    glazed.materials.push_back(pane_material(1.5F, 1.0F));
+    for (int i = 0; i < panes; ++i) {
+      add_wall(glazed, {0.2F, 0.2F, 0.4F + apart * static_cast<float>(i)}, {0, 0.6F, 0}, {0.6F, 0, 0}, 1, 4);
+      glazed.polygons.back().sides = glazed.polygons[glazed.polygons.size() - 2].sides = 0;
+    }
+    return seen(glazed, kEye, kUnderLamp, 256);
+  };
+  const double passed = 0.92;  // of light that comes straight
+  EXPECT_NEAR(behind(3, 0.02F), kDirect * passed * passed * passed + kIndirect, 1e-2);
+  EXPECT_NEAR(behind(4, 0.02F), kIndirect, 1e-6);
+  EXPECT_LE(behind(2, 0), kDirect + kIndirect) << "in one plane: it ends, whichever is met";
+}
+
 // The lamp in view shows its radiance, seen straight or by way of the mirror, and no shadow ray adds to that.
 TEST(ShadowRays, ALampInViewIsCountedOnce) {
   EXPECT_NEAR(seen(lit_room(), kEye, {0.5F, 0.45F, 0.6F}, 64), 3.0, 1e-5);

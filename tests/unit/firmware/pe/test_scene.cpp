@@ -94,6 +94,8 @@ class Builder {
     l.pixel_scale = scene_.pixel_scale;
     l.least_weight = scene_.least_weight;
     l.layers = scene_.layers;
+    l.view.width = l.view.height = protocol::kMostPictureEdge;
+    l.view.samples = 1;
   }
 
   /// Every PE holds every polygon here (lists of subspaces name only what stands in them).
