@@ -65,26 +65,14 @@ float walk_to(const Scene& scene, const Shot& shot, float until, FacetWalk& walk
 /// A. Owen, "Low discrepancy constructions in the triangle", SIAM Journal on Numerical Analysis 53(2), 2015).
 glm::vec3 point_of(const protocol::Polygon& polygon, std::uint32_t code, float along) {
   constexpr std::uint32_t all = 2U * protocol::kMostLevels;
-  constexpr auto one = std::int32_t{1} << protocol::kMostLevels;
   const std::uint32_t known = 2U * protocol::level_of_code(code);
   const auto fraction = static_cast<std::uint32_t>(along * static_cast<float>(1U << all));
   const std::uint32_t digits = (along < 1.0F ? fraction : (1U << all) - 1U) >> known;
   const std::uint32_t path = protocol::path_of_code(code) << (all - known) | digits;
-  // A child at corner c lies half of what its parent reaches nearer to it; the middle one has the parent's middle, and
-  // reaches the other way. The middle is a third of each corner, and what lies nearer less a third of all such steps.
-  std::array<std::int32_t, 3> nearer{};
-  std::int32_t reach = one;
-  for (std::uint32_t shift = all; shift > 0; shift -= 2U) {
-    const std::uint32_t child = (path >> (shift - 2U)) & 3U;
-    reach /= child < 3U ? 2 : -2;
-    if (child < 3U) nearer[child] += reach;
-  }
-  const std::int32_t thirds = one - (nearer[0] + nearer[1] + nearer[2]);
+  const auto middle = protocol::middle_of_grid_triangle(path, protocol::kMostLevels);
+  constexpr float unit = 1.0F / (3.0F * static_cast<float>(1U << protocol::kMostLevels));
   glm::vec3 point(0.0F);
-  for (std::size_t i = 0; i < 3; ++i) {
-    constexpr float unit = 1.0F / (3.0F * static_cast<float>(one));
-    point += to_vector(polygon.corner[i]) * (static_cast<float>(thirds + 3 * nearer[i]) * unit);
-  }
+  for (std::size_t i = 0; i < 3; ++i) point += to_vector(polygon.corner[i]) * (static_cast<float>(middle[i]) * unit);
   return point;
 }
 

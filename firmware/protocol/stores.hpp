@@ -170,7 +170,7 @@ constexpr std::uint32_t hemicube_pixels(std::uint32_t n) {
 /// Irradiance / pi at the corners of one side of an element, in units of the scene's greatest emitted radiance; times
 /// reflectance = radiance.
 struct CornerIrradiance {
-  std::array<Vec3f, 3> irradiance_over_pi;  ///< by corner; red negative, or -0: on a concave edge (element_light.hpp)
+  std::array<Vec3f, 3> irradiance_over_pi;  ///< by corner; signs mark concave edges (element_light.hpp)
 };
 static_assert(sizeof(CornerIrradiance) == 36);
 

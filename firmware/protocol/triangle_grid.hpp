@@ -2,6 +2,7 @@
 // How a polygon (triangle) is cut into patches and elements. Level L cuts every edge into 2^L.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/protocol/machine.hpp"
@@ -36,6 +37,22 @@ constexpr GridTriangle grid_triangle(std::uint32_t path, std::uint32_t level) {
     g = next;
   }
   return g;
+}
+
+/// The middle of a triangle named by a path: weights of polygon corners 0, 1, 2, in units of a third of 2^-kMostLevels;
+/// exactly the sums of its corners'. A child at a corner lies half of what its parent reaches nearer to it; the middle
+/// one has its parent's middle, and reaches the other way.
+constexpr std::array<std::int32_t, 3> middle_of_grid_triangle(std::uint32_t path, std::uint32_t level) {
+  constexpr auto one = std::int32_t{1} << kMostLevels;
+  std::array<std::int32_t, 3> nearer{};
+  std::int32_t reach = one;
+  for (std::uint32_t shift = 2U * level; shift > 0; shift -= 2U) {
+    const std::uint32_t child = (path >> (shift - 2U)) & 3U;
+    reach /= child < 3U ? 2 : -2;
+    if (child < 3U) nearer[child] += reach;
+  }
+  const std::int32_t rest = one - (nearer[0] + nearer[1] + nearer[2]);
+  return {rest + 3 * nearer[0], rest + 3 * nearer[1], rest + 3 * nearer[2]};
 }
 
 /// A path with its level in one word, by a leading 1 (I. Gargantini, "An effective way to represent quadtrees",

@@ -85,10 +85,9 @@ Sets sets_of(const Mesh& mesh) {
 }  // namespace
 
 PlanePoint middle_of_grid(std::uint32_t code) {
-  const auto corner = grid_points(code);
+  const auto middle = protocol::middle_of_grid_triangle(protocol::path_of_code(code), protocol::level_of_code(code));
   constexpr double unit = 1.0 / (1U << protocol::kMostLevels);
-  return {unit * ((corner[0].i + corner[1].i + corner[2].i) / 3.0),
-          unit * ((corner[0].j + corner[1].j + corner[2].j) / 3.0)};
+  return {unit * (middle[1] / 3.0), unit * (middle[2] / 3.0)};
 }
 
 Occlusion::Occlusion(const Mesh& mesh, const Scene& scene) {

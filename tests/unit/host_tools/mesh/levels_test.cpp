@@ -43,6 +43,22 @@ TEST(Levels, GridPointsAreThoseOfTheGridTriangle) {
   }
 }
 
+// Worked out apart from corners, as PEs place their points by it.
+TEST(Levels, TheMiddleOfAGridTriangleIsTheMeanOfItsCorners) {
+  for (std::uint32_t level = 0; level <= protocol::kMostLevels; ++level) {
+    const std::uint32_t paths = protocol::triangles_of_level(level);
+    const std::uint32_t step = std::max(1U, paths / 997);  // coprime to powers of 4, so that all children take part
+    for (std::uint32_t path = 0; path < paths; path += step) {
+      const protocol::GridTriangle triangle = protocol::grid_triangle(path, level);
+      const auto middle = protocol::middle_of_grid_triangle(path, level);
+      for (std::size_t w = 0; w < 3; ++w) {
+        ASSERT_EQ(middle[w], triangle.corner[0][w] + triangle.corner[1][w] + triangle.corner[2][w])
+            << "path " << path << " of level " << level;
+      }
+    }
+  }
+}
+
 TEST(Levels, ElementsAreNeverCoarserThanPatches) {
   const Mesh mesh = make_mesh(test::room_with_box(), {.patch_length = 0.1, .element_length = 3.0});
   for (const MeshPatch& patch : mesh.patches) EXPECT_EQ(patch.elements, 1U);
