@@ -58,9 +58,10 @@ struct MachineSetup {
   HopWatcher* hop_watcher = nullptr;        ///< told of each hop of packets; likewise
   SnapshotKeeper* keeper = nullptr;         ///< given the machine's state whenever it wants that; likewise
   profile::CycleProfile* profile =
-      nullptr;                    ///< told of each instruction; likewise. With the engine `interpreted` alone
-  PesElsewhere* ranks = nullptr;  ///< these run the PEs; likewise. Null: this process does
-  TurnLog* turns = nullptr;       ///< filled in by an engine of this process with one thread; likewise
+      nullptr;                             ///< told of each instruction; likewise. With the engine `interpreted` alone
+  PesElsewhere* ranks = nullptr;           ///< these run the PEs; likewise. Null: this process does
+  TurnLog* turns = nullptr;                ///< filled in by an engine of this process with one thread; likewise
+  std::function<bool()> interrupted = {};  ///< asked while engines get ready (EngineSetup); null: never
 };
 
 struct PeFigures {

@@ -6,6 +6,7 @@
 
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
+#include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/ideal_option.hpp"
 #include "host_tools/cli/named_value.hpp"
@@ -74,6 +75,7 @@ MachineSetup setup_from(const RunOptions& options) {
   setup.description.ideal = either(setup.description.ideal, options.ideal);
   options.faults.apply_to(setup.description);
   setup.profile = options.profile;
+  setup.interrupted = &interrupted;
   return setup;
 }
 

@@ -43,6 +43,7 @@ MachineSetup machine_setup(const RenderSetup& setup, const Quality& quality, con
   machine.frame_height = quality.height;
   machine.frame_layers = quality.layers;
   machine.progress_seconds = choice.progress_seconds;
+  machine.interrupted = choice.interrupted;
   return machine;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -48,6 +49,7 @@ struct MachineChoice {
   profile::CycleProfile* profile = nullptr;  ///< likewise; with the engine `interpreted` alone
   PesElsewhere* ranks = nullptr;  ///< run the PEs, of drafts' machines too; likewise. Null: this process does
   TurnLog* turns = nullptr;       ///< of the machine that makes the picture; by an engine of one thread here; likewise
+  std::function<bool()> interrupted = {};  ///< asked while engines get ready; null: never
   double progress_seconds = 0.1;  ///< from one call of a render's `progress` to the next, about [s of wall time]
 };
 

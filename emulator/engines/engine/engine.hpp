@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,8 @@ struct EngineSetup {
   profile::CycleProfile* profile = nullptr;  ///< filled in while the PEs run; null: none
   PeDebugger* debugger = nullptr;            ///< holds some of the PEs, where the engine can lend them; null: nobody
   TurnLog* turns = nullptr;                  ///< filled in, where one thread runs PEs of this process; null: none
+  std::function<bool()> interrupted = {};    ///< asked while the engine gets ready, which may take a minute; then that
+                                             ///< ends by a MachineFailure. Null: never
 
   bool holds(unsigned pe) const { return debugger != nullptr && debugger->holds(pe); }
   bool runs(std::size_t pe) const { return elsewhere.empty() || !elsewhere[pe]; }

@@ -15,8 +15,10 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <thread>
 
 #include "emulator/errors.hpp"
@@ -74,7 +76,8 @@ std::optional<std::string> on_path(const std::string& name) {
 /// A running program; its output goes to a file. It ends, with all that it has started, when it is to stop.
 class Process {
  public:
-  Process(const std::vector<std::string>& arguments, const std::filesystem::path& output, std::stop_token stop = {})
+  Process(const std::vector<std::string>& arguments, const std::filesystem::path& output,
+          std::function<bool()> stop = {})
       : output_(output), stop_(std::move(stop)) {
     std::vector<char*> pointers;
     pointers.reserve(arguments.size() + 1);
@@ -87,8 +90,15 @@ class Process {
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    if (stop_.stop_possible()) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // a group of its own
-    const int error = posix_spawn(&process_, pointers[0], &actions, &attributes, pointers.data(), environ);
+    if (stop_) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // a group of its own
+    // Compilers that are ended leave their own temporary files behind: they are to lie beside the output.
+    std::string temporary = "TMPDIR=" + output.parent_path().string();
+    std::vector<char*> environment{temporary.data()};
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+      if (!std::string_view(*entry).starts_with("TMPDIR=")) environment.push_back(*entry);
+    }
+    environment.push_back(nullptr);
+    const int error = posix_spawn(&process_, pointers[0], &actions, &attributes, pointers.data(), environment.data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) throw MachineFailure("cannot start " + arguments[0] + ": " + std::strerror(error));
@@ -105,7 +115,7 @@ class Process {
 
  private:
   void wait() {
-    if (process_ > 0 && stop_.stop_possible()) wait_or_stop();
+    if (process_ > 0 && stop_) wait_or_stop();
     while (process_ > 0 && waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
@@ -113,7 +123,7 @@ class Process {
   void wait_or_stop() {
     constexpr std::chrono::milliseconds kBetweenLooks{5};
     while (waitpid(process_, &status_, WNOHANG) == 0) {
-      if (stop_.stop_requested()) {
+      if (stop_()) {
         kill(-process_, SIGKILL);
         return;
       }
@@ -123,7 +133,7 @@ class Process {
   }
 
   std::filesystem::path output_;
-  std::stop_token stop_;
+  std::function<bool()> stop_;
   pid_t process_ = -1;
   int status_ = 0;
 };
@@ -188,7 +198,8 @@ std::vector<std::string> HostCompiler::command(const std::filesystem::path& fold
 }
 
 std::filesystem::path HostCompiler::build(std::span<const SourceText> headers, std::span<const SourceText> units,
-                                          const std::filesystem::path& folder, const std::stop_token& stop) const {
+                                          const std::filesystem::path& folder,
+                                          const std::function<bool()>& stop) const {
   for (const SourceText& header : headers) write_file(folder / header.name, header.text);
   const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
   std::filesystem::path result = folder / "translated.so";
@@ -204,7 +215,7 @@ std::filesystem::path HostCompiler::build(std::span<const SourceText> headers, s
     const std::string object = source.string() + ".o";
     write_file(source, unit.text);
     if (running.size() == most) finish_first();
-    if (stop.stop_requested()) throw MachineFailure("translating the firmware was stopped");
+    if (stop && stop()) throw MachineFailure("translating the firmware was stopped");
     std::vector<std::string> compile = command(folder);
     compile.insert(compile.end(), {"-c", source.string(), "-o", object});
     running.emplace_back(compile, source.string() + ".log", stop);

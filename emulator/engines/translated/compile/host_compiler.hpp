@@ -3,8 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -21,10 +21,11 @@ class HostCompiler {
   const std::string& identity() const { return identity_; }
 
   /// headers: lie in `folder` (existing, empty) under their names; units become one shared object, whose path is
-  /// returned. As many compilers run at once as the computer has cores. Throws MachineFailure with what they wrote,
-  /// and when it is to stop: then none of them runs any more.
+  /// returned. As many compilers run at once as the computer has cores; all that they write lies in `folder`. stop:
+  /// asked again and again, null: never. Throws MachineFailure with what they wrote, and when it is to stop: then none
+  /// of them runs any more.
   std::filesystem::path build(std::span<const SourceText> headers, std::span<const SourceText> units,
-                              const std::filesystem::path& folder, const std::stop_token& stop = {}) const;
+                              const std::filesystem::path& folder, const std::function<bool()>& stop = {}) const;
 
  private:
   std::vector<std::string> command(const std::filesystem::path& folder) const;

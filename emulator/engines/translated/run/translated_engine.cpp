@@ -53,8 +53,10 @@ class TranslatedEngine final : public Engine, private ProcessorWaker {
         interprets_(options.interpret),
         queue_(setup.pes.size(), setup.threads - 1),
         turns_(setup.threads == 1 ? setup.turns : nullptr, setup.pes.size()) {
+    translated::TranslationOptions of_images = options;
+    of_images.interrupted = setup.interrupted;
     for (const Image& image : setup.images.images()) {
-      codes_.emplace_back(image, setup.machine.processor.latency, options);
+      codes_.emplace_back(image, setup.machine.processor.latency, of_images);
     }
     for (unsigned pe = 0; pe < setup.pes.size(); ++pe) {
       // A debugger's PEs are run by nobody else.

@@ -122,11 +122,11 @@ void TranslatedImage::load(const Image& image, const TranslationOptions& options
   } else if (options.in_background) {
     compile_in_background(std::move(*source));
   } else {
-    compile(*source, {});
+    compile(*source, options.interrupted);
   }
 }
 
-void TranslatedImage::compile(const Source& source, const std::stop_token& stop) {
+void TranslatedImage::compile(const Source& source, const std::function<bool()>& stop) {
   const TemporaryFolder folder;
   const std::filesystem::path built = source.compiler.build(source.headers, source.units, folder.path(), stop);
   source.cache.store(source.key, built);
@@ -136,7 +136,7 @@ void TranslatedImage::compile(const Source& source, const std::stop_token& stop)
 void TranslatedImage::compile_in_background(Source source) {
   background_ = std::jthread([this, source = std::move(source)](const std::stop_token& stop) {
     try {
-      compile(source, stop);
+      compile(source, [&stop] { return stop.stop_requested(); });
     } catch (const MachineFailure& failure) {
       if (!stop.stop_requested()) tell_interpreted(failure.what());
     }

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -31,12 +32,13 @@ struct TranslationOptions {
   bool interpret = false;              ///< translate nothing: slow, needs no compiler
   bool in_background = false;          ///< what the cache does not have is interpreted until it has been compiled, and
                                        ///< to the end where that cannot be
+  std::function<bool()> interrupted = {};  ///< asked while it is compiled, else; null: never
 };
 
 class TranslatedImage {
  public:
   /// Takes the code from the cache, or translates and compiles it (seconds). Throws MachineFailure where no compiler
-  /// is found or it fails.
+  /// is found, it fails or is interrupted.
   TranslatedImage(const Image& image, const LatencyTable& latency, const TranslationOptions& options = {});
   ~TranslatedImage();
   TranslatedImage(const TranslatedImage&) = delete;
@@ -83,7 +85,7 @@ class TranslatedImage {
 
   void load(const Image& image, const TranslationOptions& options);
   std::optional<Source> source_of(const Image& image, const TranslationOptions& options);
-  void compile(const Source& source, const std::stop_token& stop);
+  void compile(const Source& source, const std::function<bool()>& stop);
   void compile_in_background(Source source);
   void take(std::unique_ptr<Library> library);
   bool may_run_translated(const TranslatedPe& pe) const;
