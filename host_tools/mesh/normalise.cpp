@@ -25,11 +25,20 @@ SceneSpace scene_space(const Scene& scene) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Vec3d low{infinite, infinite, infinite};
   Vec3d high{-infinite, -infinite, -infinite};
+  const auto hold = [&low, &high](const Vec3d& at) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], at[axis]);
+      high[axis] = std::max(high[axis], at[axis]);
+    }
+  };
   for (const SceneTriangle& triangle : scene.triangles) {
-    for (const std::uint32_t index : triangle.position) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], scene.positions[index][axis]);
-        high[axis] = std::max(high[axis], scene.positions[index][axis]);
+    for (const std::uint32_t index : triangle.position) hold(scene.positions[index]);
+  }
+  if (scene.sky && !scene.triangles.empty()) {
+    for (const SkyQuad& opening : scene.sky->openings) {
+      for (const Vec3d& near : {opening.corner, vec::add(opening.corner, opening.along)}) {
+        hold(near);
+        hold(vec::add(near, opening.across));
       }
     }
   }

@@ -8,8 +8,8 @@
 
 namespace torolux {
 
-/// The object space is the bounding box of all triangles, grown on every side by kSpaceMargin of its longest edge, so
-/// that no polygon lies in an outer face, where rounding could let a ray leave before it meets the polygon.
+/// The object space is the bounding box of triangles and openings, grown on every side by kSpaceMargin of its longest
+/// edge, so that no polygon lies in an outer face, where rounding could let a ray leave before it meets the polygon.
 inline constexpr double kSpaceMargin = 1.0 / 1024;
 
 struct SceneSpace {
@@ -21,7 +21,7 @@ struct SceneSpace {
   Vec3d to_user(const Vec3d& normalised) const;
 };
 
-/// Of all positions that triangles use. Throws InputError where there is no triangle or no extent.
+/// Of all positions that triangles use, and of openings. Throws InputError where there is no triangle or no extent.
 SceneSpace scene_space(const Scene& scene);
 
 protocol::Vec3f to_float(const Vec3d& v);

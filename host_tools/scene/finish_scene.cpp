@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The last step of building: what does not count is left out, what is equal is merged, numbers close ranks.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <tuple>
 
@@ -9,16 +12,22 @@
 namespace torolux {
 namespace {
 
-/// For each position the number of the first one equal to it.
-std::vector<std::uint32_t> first_equal(const std::vector<Vec3d>& positions) {
+/// For each position the number of the first one at the same place. Programs reckon the two sides of a seam apart, and
+/// write all digits of what should be equal: places are of a 2^40th of the scene's longest edge.
+std::vector<std::uint32_t> first_equal(const std::vector<Vec3d>& positions, const vec::Box& box, double longest) {
+  std::vector<std::array<std::int64_t, 3>> places;
+  places.reserve(positions.size());
+  for (const Vec3d& p : positions) {
+    const Vec3d scaled = vec::scale(vec::subtract(p, box.low), 0x1p40 / longest);
+    places.push_back({std::llround(scaled[0]), std::llround(scaled[1]), std::llround(scaled[2])});
+  }
   std::vector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), std::uint32_t{0});
-  std::sort(order.begin(), order.end(), [&positions](std::uint32_t a, std::uint32_t b) {
-    return std::tie(positions[a], a) < std::tie(positions[b], b);
-  });
+  std::sort(order.begin(), order.end(),
+            [&places](std::uint32_t a, std::uint32_t b) { return std::tie(places[a], a) < std::tie(places[b], b); });
   std::vector<std::uint32_t> first(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && positions[order[i]] == positions[order[i - 1]] ? first[order[i - 1]] : order[i];
+    first[order[i]] = i > 0 && places[order[i]] == places[order[i - 1]] ? first[order[i - 1]] : order[i];
   return first;
 }
 
@@ -96,10 +105,14 @@ bool SceneBuilder::has_surface() const {
 }
 
 void SceneBuilder::finish(Scene& scene, const Place& place) {
-  if (!has_surface()) refuse(place, "no surface with an area: there is nothing to render");
+  if (!has_surface()) {
+    std::string why = "no surface with an area: there is nothing to render";
+    for (const std::string& line : notices_.lines()) why += "\n  " + line;
+    refuse(place, why);
+  }
   const vec::Box box = bounds();
   const double longest = vec::largest(box.extent());
-  const std::vector<std::uint32_t> first = first_equal(positions_);
+  const std::vector<std::uint32_t> first = first_equal(positions_, box, longest);
   for (SceneTriangle& triangle : triangles_)
     for (std::uint32_t& p : triangle.position) p = first[p];
   const std::vector<bool> again = repeated(triangles_);

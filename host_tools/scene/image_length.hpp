@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A TGA or BMP enters; whether its pixels end before the file does leaves. stb_image takes what is missing for black.
+// A TGA or BMP enters; what stb_image does not tell leaves: whether its pixels end before the file does (what is
+// missing is black to it), and where a TGA's rows begin.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,9 @@ namespace torolux {
 
 /// Truevision TGA 2.0: header of 18 bytes, name, palette, pixels or packets of them. width, height: as read of it.
 bool tga_is_whole(std::string_view bytes, std::uint64_t width, std::uint64_t height);
+
+/// Its rows begin with the rightmost pixel, which stb_image takes for the leftmost.
+bool tga_begins_right(std::string_view bytes);
 
 /// A bitmap without compression: rows of whole words; the last one's filling may be left out.
 bool bmp_is_whole(std::string_view bytes, std::uint64_t width, std::uint64_t height);

@@ -76,9 +76,14 @@ void inspect_emitters(const Scene& scene, double size, std::vector<std::string>&
       continue;
     }
     const Vec3d back = vec::scale(emitter.normal, -1);
-    const double behind_it = nearest_hit(scene, emitter.centre, back, emitter.triangle);
-    if (ahead < kClose * size && behind_it > kOpen * ahead) ++count.close;
-    if (ahead == HUGE_VAL && behind_it > 1e-5 * size && behind_it < HUGE_VAL) ++count.away;
+    const auto behind_it = cast_ray(scene, emitter.centre, back, emitter.triangle);
+    const double way_back = behind_it ? behind_it->distance : HUGE_VAL;
+    if (ahead < kClose * size && way_back > kOpen * ahead) ++count.close;
+    // A bulb has its own other side behind each of its fronts.
+    const auto material_of = [&scene](std::uint32_t t) { return scene.triangles[t].material; };
+    if (ahead == HUGE_VAL && behind_it && way_back > 1e-5 * size &&
+        material_of(behind_it->triangle) != material_of(emitter.triangle))
+      ++count.away;
   }
   for (const auto& [material, count] : by_material) {
     const std::string which =

@@ -154,7 +154,7 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
   scene.name = file.name.value_or(scene_name(path));
   scene.defaults = file.defaults;
   scene.sky = file.sky;
-  if (file.sky_image) scene.sky->radiance = load_sky_image(*file.sky_image, path.parent_path(), files);
+  if (file.sky_image) scene.sky->radiance = load_sky_image(*file.sky_image, path.parent_path(), files, notices);
   take_suns(brought.suns, scene.sky, notices);
   scene.camera = choose_camera(brought.cameras, options.camera_name, file.camera, whole, notices);
   const vec::Box bounds = builder.bounds();

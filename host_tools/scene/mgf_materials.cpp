@@ -30,7 +30,8 @@ Field field_of(std::string_view keyword) {
   if (keyword == "td") return {&MgfMaterial::diffuse_through, MaterialValue::filter, false, 1, "td TRANSMITTANCE"};
   if (keyword == "ed")
     return {&MgfMaterial::emitted, MaterialValue::emission, false, kMostCoordinate, "ed LUMENS_PER_SQUARE_METRE"};
-  if (keyword == "rs") return {&MgfMaterial::specular, MaterialValue::specular, true, 1, "rs REFLECTANCE ROUGHNESS"};
+  // What is not read here is 0, as if there were none: it decides what kind of surface this is.
+  if (keyword == "rs") return {&MgfMaterial::specular, MaterialValue::model, true, 1, "rs REFLECTANCE ROUGHNESS"};
   return {&MgfMaterial::specular_through, MaterialValue::filter, true, 1, "ts TRANSMITTANCE ROUGHNESS"};
 }
 

@@ -143,6 +143,9 @@ ImportedMaterial resolve_material(const ImportedMesh& mesh, std::size_t number, 
     if (needs(material, given == nullptr ? MaterialOverride{} : *given, fault.value))
       refuse(fault.place, fault.message);
   tell_faults(material.faults, notices);
+  if (given != nullptr && given->transmittance && material.material.kind != SurfaceKind::glass)
+    notices.note("a material has a transmittance, which only glass uses: give its 'glass', a refractive index, too",
+                 given->place, in_quotes(name));
   return material;
 }
 

@@ -69,7 +69,7 @@ MaterialOverride read_material(const std::string& name, TomlTable table) {
   material.exponent = table.number("exponent", 0, kMost);
   material.transmittance = table.triple("transmittance", 0, 1, true);
   material.thin = table.flag("thin");
-  if (material.thin && !material.glass)
+  if (material.thin.value_or(false) && !material.glass)
     refuse(material.place,
            "material '" + name + "' is thin, which only glass can be: give its 'glass', a refractive index");
   if ((material.diffuse ? 1 : 0) + (material.mirror ? 1 : 0) + (material.glass ? 1 : 0) > 1)

@@ -64,7 +64,7 @@ SkyModel read_model(TomlTable& table, const Sky& sky, bool sun_given) {
     const double turbidity = table.number("turbidity", 1.9, 10).value_or(kTurbidity);
     return preetham_sky(turbidity, high_sun(table, sky, sun_given, model));
   }
-  refuse(table.place("model"), "[sky] 'model': " + no_such_name(model, "model of a sky",
+  refuse(table.place("model"), "[sky] 'model': " + no_such_name(model, "no model of a sky",
                                                                 {"uniform", "overcast", "clear", "preetham", "image"}));
 }
 

@@ -52,10 +52,36 @@ std::vector<Share> sectors_of(double begin, double end) {
   return shares;
 }
 
+/// The largest of the half floats in which skies are kept: what was brighter is infinite in them.
+constexpr double kMostHalf = 65504;
+
 Vec3d light_of(const std::array<float, 3>& pixel) {
   Vec3d light{};
-  for (std::size_t c = 0; c < 3; ++c) light[c] = std::isfinite(pixel[c]) ? std::max(0.0, double{pixel[c]}) : 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (pixel[c] > 0) light[c] = std::isinf(pixel[c]) ? kMostHalf : double{pixel[c]};
+  }
   return light;
+}
+
+/// Of pixels that do not say how bright they are.
+void note_odd_pixels(const Picture& picture, const SkyImageEntry& entry, Notices& notices) {
+  std::size_t infinite = 0;
+  std::size_t none = 0;
+  for (const auto& pixel : picture.pixels) {
+    const auto any = [&pixel](const auto& is) { return std::any_of(pixel.begin(), pixel.end(), is); };
+    if (any([](float value) { return !(value >= 0); }))
+      ++none;
+    else if (any([](float value) { return std::isinf(value); }))
+      ++infinite;
+  }
+  const auto note = [&](std::size_t count, const std::string& what) {
+    if (count != 0)
+      notices.note("[sky] '" + entry.file + "' has " + std::to_string(count) + " pixels " + what, entry.place);
+  };
+  note(infinite,
+       "that are infinite; counted as 65504, the most that a half float holds (a sun that was cut off: give it by "
+       "[sky.sun])");
+  note(none, "below 0 or no number; their channels count as 0");
 }
 
 }  // namespace
@@ -86,7 +112,8 @@ std::vector<Vec3d> sky_image_table(const Picture& picture, const Vec3d& scale) {
   return table;
 }
 
-std::vector<Vec3d> load_sky_image(const SkyImageEntry& entry, const std::filesystem::path& folder, SceneFiles& files) {
+std::vector<Vec3d> load_sky_image(const SkyImageEntry& entry, const std::filesystem::path& folder, SceneFiles& files,
+                                  Notices& notices) {
   const std::filesystem::path file = folder / entry.file;
   const std::string extension = file.extension().string();
   if (extension != ".exr" && extension != ".pfm")
@@ -95,6 +122,7 @@ std::vector<Vec3d> load_sky_image(const SkyImageEntry& entry, const std::filesys
   const std::string text = files.read(file, entry.place, kMostMeshBytes);
   const auto bytes = std::as_bytes(std::span(text));
   const Picture picture = extension == ".exr" ? decode_exr(bytes, file.string()) : decode_pfm(bytes, file.string());
+  note_odd_pixels(picture, entry, notices);
   std::vector<Vec3d> table = sky_image_table(picture, entry.scale);
   const auto shines = [](const Vec3d& radiance) { return vec::largest(radiance) > 0; };
   if (std::none_of(table.begin(), table.end(), shines))

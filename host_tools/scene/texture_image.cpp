@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -22,6 +23,13 @@ constexpr std::string_view kAdobeSegment(
     "\xFF\xEE\0\x0E"
     "Adobe",
     9);  // APP14, its length
+
+/// What begins with the rightmost pixel of each row.
+template <class Texel>
+void turn_rows(std::vector<Texel>& texels, std::size_t width) {
+  for (auto row = texels.begin(); row != texels.end(); row += static_cast<std::ptrdiff_t>(width))
+    std::reverse(row, row + static_cast<std::ptrdiff_t>(width));
+}
 
 struct Decoder {
   const std::string& file;
@@ -74,15 +82,18 @@ struct Decoder {
     int height = 0;
     int channels = 0;
     if (stbi_info_from_memory(from, size, &width, &height, &channels) == 0) damaged(stbi_failure_reason());
+    const bool bmp = bytes.starts_with("BM");
+    if (bmp && height < 0 && height != std::numeric_limits<int>::min()) height = -height;  // its highest row is first
     check_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
-    const bool whole = (bytes.starts_with("BM") ? bmp_is_whole : tga_is_whole)(bytes, static_cast<std::uint64_t>(width),
-                                                                               static_cast<std::uint64_t>(height));
+    const bool whole = (bmp ? bmp_is_whole : tga_is_whole)(bytes, static_cast<std::uint64_t>(width),
+                                                           static_cast<std::uint64_t>(height));
     if (!whole) damaged("it is cut short");
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> read(
         stbi_load_from_memory(from, size, &width, &height, &channels, 4), stbi_image_free);
     if (!read) damaged(stbi_failure_reason());
     std::vector<std::array<std::uint8_t, 4>> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     std::memcpy(pixels.data(), read.get(), pixels.size() * 4);
+    if (!bmp && tga_begins_right(bytes)) turn_rows(pixels, static_cast<std::size_t>(width));
     return colours(pixels, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
   }
 

@@ -135,6 +135,9 @@ TEST(ParseRates, AreAboveZeroAndAtMostOne) {
 
 TEST(ParseCount, HasLimits) {
   EXPECT_EQ(parse_count("18446744073709551615", 0, ~std::uint64_t{0}), ~std::uint64_t{0});
+  EXPECT_EQ(parse_count("0018446744073709551615", 0, ~std::uint64_t{0}), ~std::uint64_t{0});
+  for (const char* text : {"18446744073709551616", "99918446744073709551615", "-18446744073709551615"})
+    EXPECT_THROW(parse_count(text, 0, ~std::uint64_t{0}), InputError) << text;
   EXPECT_EQ(parse_count("7", 1, 7), 7U);
   EXPECT_THROW(parse_count("8", 1, 7), InputError);
   EXPECT_THROW(parse_count("0", 1, 7), InputError);

@@ -5,11 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "firmware/protocol/sky.hpp"
 #include "firmware/protocol/stratified.hpp"
+#include "host_tools/layout/chances.hpp"
+#include "host_tools/mesh/normalise.hpp"
 #include "host_tools/scene/scene_file.hpp"
 #include "host_tools/scene/sky.hpp"
 
@@ -44,6 +47,12 @@ TEST(SkyTables, FacesLookInwardsAndLetInWhatFallsOnThem) {
   EXPECT_NEAR(flux, kPi * (4 * 1) + kPi / 2 * 2 * (4 * 2 + 2 * 1), 0.02) << "the top, and the sides, which see half";
 }
 
+// Where one part sends nearly all light, the others keep chances, which still rise to one.
+TEST(SkyTables, ABrightPartLeavesTheOthersAChance) {
+  const std::vector<std::uint32_t> upto = chances({1, 1e30, 0, 1, 1});
+  EXPECT_EQ(upto, (std::vector<std::uint32_t>{0, 0xFFFF'FFFDU, 0xFFFF'FFFDU, 0xFFFF'FFFEU, 0xFFFF'FFFFU}));
+}
+
 TEST(SkyTables, OpeningsTakeTheFacesPlace) {
   const std::vector<SkyInlet> inlets = sky_inlets(
       scene_under("radiance = 1\n[[sky.opening]]\ncorner = [10, 1, 0]\nedges = [[0, 0, 1], [4, 0, 0]]\n"), space());
@@ -51,6 +60,23 @@ TEST(SkyTables, OpeningsTakeTheFacesPlace) {
   EXPECT_EQ(inlets[0].opening.corner, (protocol::Vec3f{0, 0.25F, 0}));
   EXPECT_EQ(inlets[0].opening.inwards, (protocol::Vec3f{0, 1, 0}));
   EXPECT_NEAR(inlets[0].flux[1], 4 * 0.2 * kPi, 0.01) << "what the ground sends up";
+}
+
+// Records begin in openings: these are part of the object space, wherever surfaces end.
+TEST(SkyTables, OpeningsLieInTheObjectSpace) {
+  Scene scene = scene_under("radiance = 1\n[[sky.opening]]\ncorner = [4, -1, 0]\nedges = [[0, 0, 1], [0, 3, 0]]\n");
+  scene.positions = {{0, 0, 0}, {3, 0, 0}, {0, 1, 1}};
+  scene.triangles.resize(1);
+  scene.triangles[0].position = {0, 1, 2};
+  const SceneSpace of_all = scene_space(scene);
+  for (const SkyInlet& inlet : sky_inlets(scene, of_all)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double begin = inlet.opening.corner[axis];
+      const double end = begin + inlet.opening.along[axis] + inlet.opening.across[axis];
+      EXPECT_GT(std::min(begin, end), 0) << "axis " << axis;
+      EXPECT_LT(std::max(begin, end), of_all.size[axis]) << "axis " << axis;
+    }
+  }
 }
 
 TEST(SkyTables, DrawsSumUpToTheSky) {

@@ -66,6 +66,9 @@ TEST(Inspect, EmittersAgainstAWallOrFacingAway) {
               Contains(HasSubstr("have their front against another surface")));
   EXPECT_THAT(inspected("usemtl wall\nv 0 0 0\nv 10 0 0\nv 10 0 10\nv 0 0 10\nf 4 3 2 1\n" + lamp(5, true)),
               Contains(HasSubstr("look inverted")));
+  EXPECT_THAT(inspected("usemtl wall\nv 0 0 0\nv 10 0 0\nv 10 0 10\nv 0 0 10\nf 4 3 2 1\n" + box(4, 5, false, "lamp")),
+              IsEmpty())
+      << "a bulb in the open";
   EXPECT_THAT(inspected(box(0, 10, true, "wall") + lamp(9.8, true)),
               Contains(HasSubstr("face a surface close before them")));
   EXPECT_THAT(inspected(box(0, 10, true, "wall") + lamp(9, true)), IsEmpty()) << "an uplight";

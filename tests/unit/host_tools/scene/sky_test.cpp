@@ -3,9 +3,11 @@
 // the frame turns from north to east; what [sky] may not say is refused with its line.
 #include "host_tools/scene/sky.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -163,6 +165,19 @@ TEST(Sky, APictureIsReadFromBesideTheScene) {
   EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"a.exr\"\n", {{"a.exr", "no picture"}}), "a.exr"));
   const Picture black{2, 1, {{0, 0, 0}, {-1, 0, 0}}};
   EXPECT_TRUE(names(refused("model = \"image\"\nfile = \"a.exr\"\n", {{"a.exr", text(encode_exr(black))}}), "black"));
+}
+
+// Of half floats, a sun that is too bright for them is infinite.
+TEST(Sky, OddPixelsOfAPictureAreTold) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  const Picture picture{3, 1, {{1, 1, inf}, {-2, 1, 1}, {1, 1, 1}}};
+  const std::vector<std::byte> bytes = encode_pfm(picture);
+  MemoryFiles memory({{"s/scene.toml", "[room]\nsize = [1, 1, 1]\n[sky]\nmodel = \"image\"\nfile = \"a.pfm\"\n"},
+                      {"s/a.pfm", {reinterpret_cast<const char*>(bytes.data()), bytes.size()}}});
+  const Scene scene = load_scene_from(memory, "s/scene.toml", {});
+  EXPECT_THAT(scene.warnings, testing::Contains(testing::HasSubstr("has 1 pixels that are infinite")));
+  EXPECT_THAT(scene.warnings, testing::Contains(testing::HasSubstr("has 1 pixels below 0 or no number")));
+  EXPECT_GT(sky_from_everywhere(scene.sky.value())[2], 65504) << "and it shines";
 }
 
 TEST(Sky, OpeningsAreRectangles) {

@@ -255,6 +255,9 @@ TEST(Texture, TgaIsReadWhateverItsName) {
   EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", plain), "a.obj").textures[0].texels, upwards);
   const std::string highest_first = header(2, 24, 0x20) + kLowestFirst.substr(6) + kLowestFirst.substr(0, 6);
   EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", highest_first), "a.obj").textures[0].texels, upwards);
+  const auto pixel = [](std::size_t i) { return kLowestFirst.substr(3 * i, 3); };
+  const std::string rightmost_first = header(2, 24, 0x10) + pixel(1) + pixel(0) + pixel(3) + pixel(2);
+  EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", rightmost_first), "a.obj").textures[0].texels, upwards);
   std::string packed = header(10, 24, 0);  // run lengths: each pixel a run of one
   for (std::size_t i = 0; i < 12; i += 3) packed += '\x80' + kLowestFirst.substr(i, 3);
   EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", packed), "a.obj").textures[0].texels, upwards);
@@ -274,6 +277,10 @@ TEST(Texture, BmpIsRead) {
   const std::string bmp = "BM" + little(54 + 16, 4) + little(0, 4) + little(54, 4) + little(40, 4) + little(2, 4) +
                           little(2, 4) + little(1, 2) + little(24, 2) + std::string(24, '\0') + rows;
   EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", bmp), "a.obj").textures[0].texels,
+            (Pixels{{0, 0, 255}, {255, 255, 255}, {255, 0, 0}, {0, 255, 0}}));
+  std::string highest_first = bmp.substr(0, 54) + rows.substr(8) + rows.substr(0, 8);
+  highest_first.replace(22, 4, "\xFE\xFF\xFF\xFF");  // -2 rows
+  EXPECT_EQ(load_texts(texts("map_Kd my tiles.png\n", highest_first), "a.obj").textures[0].texels,
             (Pixels{{0, 0, 255}, {255, 255, 255}, {255, 0, 0}, {0, 255, 0}}));
   EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", bmp.substr(0, 20)), "a.obj"),
               StartsWith("lib/a.mtl:2: the texture 'lib/my tiles.png' cannot be read"));
