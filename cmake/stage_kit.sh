@@ -13,7 +13,7 @@ mkdir -p "$staged/include" "$staged/lib" "$staged/libc"
 cp -r "$sysroot"/{c++,glm,include,lib,shim} "$staged/libc/"
 cp "$@" "$staged/lib/"
 # libtorolux.a has these; whichever the linker meets first must be the only one.
-riscv64-unknown-elf-ar d "$staged/libc/lib/libc.a" lib_a-abort.o lib_a-assert.o
+riscv64-unknown-elf-ar d "$staged/libc/lib/libc.a" lib_a-{abort,assert,calloc,malign,malloc,realloc}.o
 rm -f "$staged/libc/lib/libg.a"  # another name of libc.a
 riscv64-unknown-elf-strip --strip-debug "$staged"/libc/lib/*.a  # lines of a folder that is gone
 cp "$root/firmware/kit/include/torolux.h" "$staged/include/"

@@ -23,15 +23,20 @@ void Messenger::take(const protocol::NiuWindow::Arrival& arrival) {
   fail(Words() << "the host has sent a message that nobody has asked for, of kind " << niu_.message().kind);
 }
 
-/// Its slots are the NIU's again before anything else happens.
-void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
+PacketHead Messenger::head_of(const protocol::NiuWindow::Arrival& arrival) const {
   PacketHead head;  // NOLINT(cppcoreguidelines-pro-type-member-init): read below
   std::memcpy(&head, std::assume_aligned<alignof(PacketHead)>(slot(arrival.slots[0])), sizeof head);
+  return head;
+}
+
+/// Its slots are the NIU's again before anything else happens.
+void Messenger::take_packet(const protocol::NiuWindow::Arrival& arrival) {
+  const PacketHead head = head_of(arrival);
   const bool ours = head.source < niu_.pes() && static_cast<std::size_t>(head.channel) < kChannels &&
-                    head.bytes <= kMostMessage && head.offset <= head.bytes && head.lead <= kMostLead;
+                    head.left <= kMostMessage && head.lead <= kMostLead;
   if (!ours) fail(Words() << "a packet that is none of this library's has come from PE " << arrival.source);
   const std::uint32_t room = head.lead + (arrival.count - 1U) * kRecordBytes;
-  const std::uint32_t payload = std::min(room, head.bytes - head.offset);
+  const std::uint32_t payload = std::min(room, head.left);
   Peer& peer = peer_of(head.source);
   const bool early = head.number != peer.taken;
   copy_payload(arrival, head, payload, early ? behind(keep_early(peer, head, payload)) : place_for(peer, head));
@@ -75,9 +80,9 @@ void Messenger::copy_payload(const protocol::NiuWindow::Arrival& arrival, const 
 
 /// Where the packet's bytes go: the first of a message finds a place for the whole.
 std::byte* Messenger::place_for(Peer& peer, const PacketHead& head) {
-  if (head.offset != 0) return peer.into;
+  if (peer.into != nullptr) return peer.into;
   if (posted_takes(head.channel, head.source)) {
-    claim(head.source, head.bytes);
+    claim(head.source, head.left, head.call);
     peer.open.reset();
     peer.into = posted_.room.data();
   } else {
@@ -89,7 +94,7 @@ std::byte* Messenger::place_for(Peer& peer, const PacketHead& head) {
 
 void Messenger::placed(Peer& peer, const PacketHead& head, std::uint32_t payload) {
   peer.into += payload;
-  if (head.offset + payload == head.bytes) end_message(peer, head);
+  if (payload == head.left) end_message(peer, head);
 }
 
 /// A message that began before `receive` waited may be the first to end.
@@ -99,7 +104,7 @@ void Messenger::end_message(Peer& peer, const PacketHead& head) {
   if (!message) {
     posted_.done = true;
   } else if (posted_takes(head.channel, head.source)) {
-    claim(head.source, head.bytes);
+    claim(head.source, message->bytes, head.call);
     if (message->bytes != 0) std::memcpy(posted_.room.data(), behind(*message), message->bytes);
     posted_.done = true;
     waiting_bytes_ -= message->bytes;
@@ -136,17 +141,18 @@ Peer& Messenger::peer_of(std::uint32_t pe) {
 }
 
 Block<Waiting> Messenger::new_waiting(const PacketHead& head) {
-  Block<Waiting> message = make_block<Waiting>(head.bytes);
+  Block<Waiting> message = make_block<Waiting>(head.left);
   if (!message) {
-    fail(Words() << "no memory for a message of " << head.bytes << " bytes from PE " << head.source
+    fail(Words() << "no memory for a message of " << head.left << " bytes from PE " << head.source
                  << ", which must wait; " << waiting_bytes_
                  << " bytes of messages wait to be received: receive them sooner, or give PEs more "
                  << "memory (--pe-memory)");
   }
-  message->bytes = head.bytes;
+  message->bytes = head.left;
   message->source = head.source;
   message->channel = head.channel;
-  waiting_bytes_ += head.bytes;
+  message->call = head.call;
+  waiting_bytes_ += head.left;
   return message;
 }
 

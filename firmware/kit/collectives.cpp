@@ -84,6 +84,10 @@ struct Task {
   Join join;
 };
 
+std::uint32_t bits(auto constant) {
+  return static_cast<std::uint32_t>(constant);
+}
+
 Task checked(Messenger& messenger, void* data, std::size_t count, torolux_type type, torolux_operation operation) {
   const auto kind = static_cast<std::size_t>(type);
   const auto how = static_cast<std::size_t>(operation);
@@ -103,26 +107,29 @@ Task checked(Messenger& messenger, void* data, std::size_t count, torolux_type t
 }  // namespace
 }  // namespace torolux::kit
 
+using torolux::kit::bits;
+using torolux::kit::Call;
 using torolux::kit::messenger;
 using torolux::kit::Messenger;
 using torolux::kit::Together;
 
 void torolux_barrier() {
-  Together(messenger("torolux_barrier", TOROLUX_CALLER)).barrier();
+  Together(messenger("torolux_barrier", TOROLUX_CALLER), Call::barrier()).barrier();
 }
 
 void torolux_broadcast(unsigned root, void* data, size_t bytes) {
-  Together(messenger("torolux_broadcast", TOROLUX_CALLER)).broadcast(root, {static_cast<std::byte*>(data), bytes});
+  Together(messenger("torolux_broadcast", TOROLUX_CALLER), Call::broadcast(root))
+      .broadcast(root, {static_cast<std::byte*>(data), bytes});
 }
 
 void torolux_reduce(unsigned root, void* data, size_t count, enum torolux_type type, enum torolux_operation operation) {
   Messenger& all = messenger("torolux_reduce", TOROLUX_CALLER);
   const auto task = torolux::kit::checked(all, data, count, type, operation);
-  Together(all).reduce(root, task.data, task.join);
+  Together(all, Call::reduce(root, bits(type), bits(operation))).reduce(root, task.data, task.join);
 }
 
 void torolux_all_reduce(void* data, size_t count, enum torolux_type type, enum torolux_operation operation) {
   Messenger& all = messenger("torolux_all_reduce", TOROLUX_CALLER);
   const auto task = torolux::kit::checked(all, data, count, type, operation);
-  Together(all).all_reduce(task.data, task.join);
+  Together(all, Call::all_reduce(bits(type), bits(operation))).all_reduce(task.data, task.join);
 }

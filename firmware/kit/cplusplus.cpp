@@ -19,7 +19,9 @@ namespace {
 constexpr std::size_t kMostWhatBytes = 160;
 
 [[noreturn]] void refuse(std::size_t bytes, const void* caller) {
-  end_run(Words() << "operator new: no memory for " << bytes << " bytes (torolux run --pe-memory)", caller);
+  end_run(Words() << "operator new: no memory for " << bytes << " bytes; the heap has " << heap_bytes()
+                  << " in all (torolux run --pe-memory)",
+          caller);
 }
 
 void* memory_or_end(std::size_t bytes, const void* caller) {

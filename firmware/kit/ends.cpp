@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <span>
+#include <string_view>
 
 #include "firmware/kit/include/torolux.h"
 #include "firmware/kit/kit.hpp"
@@ -16,6 +17,7 @@ extern "C" {
 
 [[noreturn]] void _exit(int status) {
   using namespace torolux;
+  if (status == 0) kit::messenger().end();
   if (const protocol::ExitStatus end{status}; status != 0) {
     kit::tell_host(protocol::MachineMessage::exit_status, std::as_bytes(std::span(&end, 1)));
   }
@@ -30,8 +32,9 @@ extern "C" {
   end_run(Words() << "abort", TOROLUX_CALLER);
 }
 
-/// Of assert.
+/// Of assert; and of the C library, where it has got no memory for a struct of its own.
 [[noreturn]] void __assert_func(const char* file, int line, const char* function, const char* what) {
+  if (std::string_view(what).ends_with("alloc succeeded")) torolux::kit::end_run_of_full_heap(TOROLUX_CALLER);
   Words words;
   words << "assertion \"" << what << "\" failed: " << file << ":" << line;
   if (function != nullptr) words << ", in " << function;

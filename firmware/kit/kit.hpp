@@ -46,5 +46,9 @@ inline const void* call_before(const void* return_address) {
 
 /// Takes `first`, the heap's first byte, up to the end of local memory.
 void begin_heap(std::uint32_t first, std::uint32_t end);
+/// The heap's size.
+std::uint32_t heap_bytes();
+/// Where the C library itself needs memory that is not there.
+[[noreturn]] void end_run_of_full_heap(const void* caller);
 
 }  // namespace torolux::kit

@@ -15,6 +15,8 @@ namespace {
 /// cycles or more) two or three may come, of 16 records each.
 constexpr std::uint32_t kSlotsForAPacket = 64;
 
+constexpr std::string_view kAllTheSame = ": all PEs must call the same, in the same order";
+
 }  // namespace
 
 Messenger::Messenger(pe::Niu& niu, const SlotLayout& slots)
@@ -41,9 +43,43 @@ void Messenger::check_pe(int pe) const {
   fail(Words() << "there is no PE " << pe << "; the machine has PEs 0 to " << niu_.pes() - 1);
 }
 
-void Messenger::check_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const {
-  if (bytes <= room) return;
+void Messenger::fail_other_call(std::uint32_t source, Call theirs) const {
+  fail(Words() << "PE " << source << " calls " << theirs
+               << (theirs.at_place_of(call_) ? " where this one calls "
+                                             : " at another place in the order than this one ")
+               << call_ << kAllTheSame);
+}
+
+void Messenger::fail_no_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const {
   fail(Words() << "the message of PE " << source << " has " << bytes << " bytes; there is room for " << room);
+}
+
+// ---- The end ----
+
+void Messenger::end() {
+  called("exit", together_from_);
+  if (const Waiting* left = queue_of(Channel::together).first.get()) fail_left_over(left->source, left->call);
+  // What has come goes nowhere any more, so slots are not given back: that ends this, whatever others send.
+  for (;;) {
+    const auto& arrival = niu_.receive_if_any();
+    if (arrival.kind == protocol::ArrivalKind::none) return;
+    if (arrival.kind != protocol::ArrivalKind::records) continue;
+    const PacketHead head = head_of(arrival);
+    if (head.channel == Channel::together) fail_left_over(head.source, head.call);
+  }
+}
+
+void Messenger::fail_left_over(std::uint32_t source, Call theirs) const {
+  Words words;
+  words << "PE " << source;
+  if (theirs == call_) {
+    words << " takes part in " << theirs << " with more bytes than this one";
+  } else if (theirs.at_place_of(call_)) {
+    words << " calls " << theirs << " where this one calls " << call_;
+  } else {
+    words << " calls " << theirs << ", and this one ends without it";
+  }
+  fail(words << kAllTheSame);
 }
 
 // ---- Sending ----
@@ -61,7 +97,7 @@ void Messenger::send(Channel channel, int pe, std::span<const std::byte> data) {
 void Messenger::send_to_self(Channel channel, std::span<const std::byte> data) {
   Peer& peer = peer_of(niu_.pe());
   const auto bytes = static_cast<std::uint32_t>(data.size());
-  const PacketHead head{niu_.pe(), channel, 0, 0, bytes, 0};
+  const PacketHead head{niu_.pe(), channel, 0, 0, bytes, call_};
   std::byte* const to = place_for(peer, head);
   if (bytes != 0) std::memcpy(to, data.data(), bytes);
   placed(peer, head, bytes);
@@ -70,13 +106,13 @@ void Messenger::send_to_self(Channel channel, std::span<const std::byte> data) {
 /// What has come meanwhile is best taken when it is asked for, into its place; but it must not fill all slots.
 void Messenger::send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data) {
   Peer& peer = peer_of(pe);
-  PacketHead head{niu_.pe(), channel, 0, peer.sent, static_cast<std::uint32_t>(data.size()), 0};
+  PacketHead head{niu_.pe(), channel, 0, peer.sent, static_cast<std::uint32_t>(data.size()), call_};
   for (;;) {
-    const std::uint32_t payload = send_part(pe, head, data.subspan(head.offset));
+    const std::uint32_t payload = send_part(pe, head, data.last(head.left));
     peer.sent = ++head.number;
-    head.offset += payload;
+    head.left -= payload;
     if (++sent_since_drain_ >= layout_.niu / kSlotsForAPacket) drain();
-    if (head.offset == head.bytes) return;
+    if (head.left == 0) return;
   }
 }
 
@@ -168,7 +204,7 @@ const Waiting* Messenger::next_of(Channel channel, int pe, Waiting** before) {
 std::size_t Messenger::hand_over(Channel channel, Waiting* before, std::span<std::byte> room) {
   Queue& queue = queue_of(channel);
   Block<Waiting>& place = before != nullptr ? before->next : queue.first;
-  check_room(place->bytes, place->source, room.size());
+  check(channel, place->source, place->bytes, place->call, room.size());
   const Block<Waiting> message = std::move(place);
   place = std::move(message->next);
   if (queue.last == message.get()) queue.last = before;
@@ -185,7 +221,7 @@ void Messenger::post(Channel channel, int from, std::span<std::byte> room) {
   Peer& peer = peer_of(static_cast<std::uint32_t>(from));
   if (!peer.open || peer.open->channel != channel) return;
   const Block<Waiting> part = std::move(peer.open);
-  claim(part->source, part->bytes);
+  claim(part->source, part->bytes, part->call);
   const auto have = static_cast<std::size_t>(peer.into - behind(*part));
   std::memcpy(room.data(), behind(*part), have);
   peer.into = room.data() + have;
@@ -207,8 +243,8 @@ bool Messenger::posted_takes(Channel channel, std::uint32_t source) const {
          (posted_.from == kAnyPe || static_cast<std::uint32_t>(posted_.from) == source);
 }
 
-void Messenger::claim(std::uint32_t source, std::uint32_t bytes) {
-  check_room(bytes, source, posted_.room.size());
+void Messenger::claim(std::uint32_t source, std::uint32_t bytes, Call call) {
+  check(posted_.channel, source, bytes, call, posted_.room.size());
   posted_.claimed = true;
   posted_.source = static_cast<std::uint16_t>(source);
   posted_.bytes = bytes;

@@ -34,8 +34,16 @@ class Messenger {
     function_ = function;
     from_ = from;
   }
+  /// The same of what all PEs must call: each message of Channel::together must belong to the same call as this.
+  void called_together(Call call) {
+    call_ = call.after(call_);
+    together_from_ = from_;
+  }
   /// Ends the run: "function: words", and the place.
   [[noreturn]] void fail(const Words& words) const;
+  /// The program ends well. Fails the run if others have called what this PE has not, as far as their messages are
+  /// here.
+  void end();
 
   /// To a PE of the machine, this one too; copied. Waits while the NIU's queue is full; what comes meanwhile is taken
   /// in.
@@ -71,7 +79,13 @@ class Messenger {
   };
 
   void check_pe(int pe) const;
-  void check_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const;
+  void check(Channel channel, std::uint32_t source, std::uint32_t bytes, Call call, std::size_t room) const {
+    if (channel == Channel::together && call != call_) fail_other_call(source, call);
+    if (bytes > room) fail_no_room(bytes, source, room);
+  }
+  [[noreturn, gnu::cold]] void fail_other_call(std::uint32_t source, Call theirs) const;
+  [[noreturn, gnu::cold]] void fail_no_room(std::uint32_t bytes, std::uint32_t source, std::size_t room) const;
+  [[noreturn]] void fail_left_over(std::uint32_t source, Call theirs) const;
   void send_to_self(Channel channel, std::span<const std::byte> data);
   void send_packets(Channel channel, std::uint16_t pe, std::span<const std::byte> data);
   void put_head(const PacketHead& head);
@@ -82,11 +96,12 @@ class Messenger {
   void post(Channel channel, int from, std::span<std::byte> room);
   std::size_t wait_for_posted();
   bool posted_takes(Channel channel, std::uint32_t source) const;
-  void claim(std::uint32_t source, std::uint32_t bytes);
+  void claim(std::uint32_t source, std::uint32_t bytes, Call call);
   const Waiting* next_of(Channel channel, int pe, Waiting** before);
   std::size_t hand_over(Channel channel, Waiting* before, std::span<std::byte> room);
 
   void drain();
+  PacketHead head_of(const protocol::NiuWindow::Arrival& arrival) const;
   void take(const protocol::NiuWindow::Arrival& arrival);
   void take_packet(const protocol::NiuWindow::Arrival& arrival);
   void take_early(Peer& peer);
@@ -114,6 +129,8 @@ class Messenger {
   std::uint32_t waiting_bytes_ = 0;     ///< of messages on the heap
   std::string_view function_ = "main";
   const void* from_ = nullptr;
+  Call call_;  ///< the last of those of all PEs together
+  const void* together_from_ = nullptr;
 };
 
 }  // namespace torolux::kit

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/kit/call.hpp"
 #include "firmware/protocol/machine.hpp"
 
 namespace torolux::kit {
@@ -20,8 +21,8 @@ struct PacketHead {
   Channel channel;
   std::uint8_t lead;     ///< bytes of the message behind this head in its record, 0..kMostLead; then whole records
   std::uint32_t number;  ///< of the packets from this source to this receiver, from 0 on, modulo 2^32
-  std::uint32_t bytes;   ///< of the whole message
-  std::uint32_t offset;  ///< of this packet's first byte in it
+  std::uint32_t left;    ///< bytes of the message from this packet on: in its first, of the whole
+  Call call;             ///< what the message belongs to; means nothing in Channel::program
 };
 static_assert(sizeof(PacketHead) == 16);
 

@@ -19,6 +19,7 @@ struct Waiting {
   std::uint32_t bytes;
   std::uint16_t source;
   Channel channel;
+  Call call;
 };
 
 /// A packet that came before others of its sender; its bytes of the message behind it.

@@ -13,10 +13,11 @@ namespace torolux::kit {
 /// Joins `from` into `into`, value by value; both have the same length, whole values.
 using Join = void (*)(std::span<std::byte> into, std::span<const std::byte> from);
 
-/// Every PE calls the same ones in the same order.
+/// One call. Every PE makes the same ones in the same order.
 class Together {
  public:
-  explicit Together(Messenger& messenger) : messenger_(messenger) {}
+  /// call: what the PE calls of the program's view, for which one of these does the work.
+  Together(Messenger& messenger, Call call) : messenger_(messenger) { messenger.called_together(call); }
 
   void barrier();
   /// data: of the same length everywhere.

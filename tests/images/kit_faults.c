@@ -23,6 +23,23 @@ static void no_memory_for_messages(void) {
   }
 }
 
+/* Each PE makes one call of its own: which of them its root, type and operation belong to is for the others to see. */
+static void disagree(const char* what) {
+  const int first = torolux_pe() == 0;
+  const enum torolux_type type = strcmp(what, "type") == 0 && !first ? TOROLUX_INT64 : TOROLUX_DOUBLE;
+  const enum torolux_operation operation = strcmp(what, "operation") == 0 && !first ? TOROLUX_MAXIMUM : TOROLUX_SUM;
+  if (strcmp(what, "kind") == 0 && first) torolux_broadcast(0, buffer, 8);
+  if (strcmp(what, "kind") == 0 && !first) torolux_reduce(1, buffer, 1, TOROLUX_FLOAT, TOROLUX_SUM);
+  if (strcmp(what, "roots") == 0) torolux_broadcast(torolux_pe(), buffer, 8);
+  if (strcmp(what, "type") == 0 || strcmp(what, "operation") == 0) torolux_all_reduce(buffer, 1, type, operation);
+  if (strcmp(what, "more") == 0) torolux_reduce(0, buffer, first ? 252 : 253, TOROLUX_INT32, TOROLUX_SUM);
+  if (strcmp(what, "again") == 0 && !first) torolux_broadcast(1, buffer, 8);
+  if (strcmp(what, "again") == 0) torolux_broadcast(0, buffer, 8);
+  if (strcmp(what, "without") == 0 && first) torolux_broadcast(0, buffer, 8);
+  /* What the other has sent has come by now: who ends notices it. */
+  for (volatile int i = 0; i < 2000; ++i) continue;
+}
+
 static int deep(int depth) {
   volatile char frame[1024];
   frame[depth % 1024] = (char)depth;
@@ -31,6 +48,10 @@ static int deep(int depth) {
 
 int main(int argc, char** argv) {
   const char* what = argc > 1 ? argv[1] : "";
+  if (argc > 2) disagree(argv[2]);
+  if (strcmp(what, "heap") == 0) {
+    while (strdup("what the C library takes for itself")) continue;
+  }
   if (strcmp(what, "pe") == 0) torolux_send(70, buffer, 1);
   if (strcmp(what, "negative") == 0) torolux_receive(-5, buffer, 1);
   if (strcmp(what, "bytes") == 0) torolux_send(0, buffer, TOROLUX_MOST_BYTES + 1);

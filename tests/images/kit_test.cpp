@@ -175,12 +175,26 @@ TEST(Kit, StaticObjectsContainersAndDestructorsWork) {
   expect_same(run(machine("interpreted", 1, 1), "kit_cplusplus"), translated, "interpreted");
 }
 
+// ---- The heap ----
+
+TEST(Kit, AFullHeapGivesNullPointersAndTheLibraryStillPrints) {
+  const Outcome interpreted = run(machine("interpreted", 1, 1), "kit_heap");
+  EXPECT_EQ(interpreted.failure, "");
+  EXPECT_THAT(interpreted.lines, ElementsAre("0 out 7 refused, good 1, kept, many 1, 1e+300",
+                                             "0 out 362 digits, no more", "0 err 6.02e+23"));
+  expect_same(run(machine("translated", 1, 1), "kit_heap"), interpreted, "translated");
+}
+
 // ---- Wrong uses ----
 
-std::string failure_of(const std::string& what, const char* engine = "interpreted") {
+std::string failure_of_words(const std::vector<std::string>& words, const char* engine = "interpreted") {
   MachineSetup setup = machine(engine, 2, 1);
-  setup.arguments = {what};
+  setup.arguments = words;
   return run(setup, "kit_faults").failure;
+}
+
+std::string failure_of(const std::string& what, const char* engine = "interpreted") {
+  return failure_of_words({what}, engine);
 }
 
 TEST(KitFaults, SayWhatAndWhere) {
@@ -199,6 +213,45 @@ TEST(KitFaults, SayWhatAndWhere) {
   EXPECT_THAT(failure_of("overlap"), where("torolux_exchange: what is sent and where to receive overlap"));
   EXPECT_THAT(failure_of("broadcast"), where("torolux_broadcast: the message of PE 0 has 100 bytes"));
   EXPECT_THAT(failure_of("root"), where("torolux_reduce: there is no PE 9"));
+}
+
+TEST(KitFaults, PesThatDisagreeAreToldWithBothCalls) {
+  const auto told = [](const std::string& what) {
+    return AllOf(HasSubstr(what + ": all PEs must call the same, in the same order; called at pc 0x"),
+                 HasSubstr("tests/images/kit_faults.c:"));
+  };
+  const auto failure_of_pes = [](const std::string& what) { return failure_of_words({"disagree", what}); };
+  EXPECT_THAT(
+      failure_of_pes("type"),
+      told("PE 0: torolux_all_reduce: PE 1 calls torolux_all_reduce(..., TOROLUX_INT64, TOROLUX_SUM) where this "
+           "one calls torolux_all_reduce(..., TOROLUX_DOUBLE, TOROLUX_SUM)"));
+  EXPECT_THAT(
+      failure_of_pes("operation"),
+      told("PE 0: torolux_all_reduce: PE 1 calls torolux_all_reduce(..., TOROLUX_DOUBLE, TOROLUX_MAXIMUM) where "
+           "this one calls torolux_all_reduce(..., TOROLUX_DOUBLE, TOROLUX_SUM)"));
+  EXPECT_THAT(failure_of_pes("kind"),
+              told("PE 1: torolux_reduce: PE 0 calls torolux_broadcast(0, ...) where this one calls torolux_reduce(1, "
+                   "..., TOROLUX_FLOAT, TOROLUX_SUM)"));
+  EXPECT_THAT(failure_of_pes("again"), told("PE 1: torolux_broadcast: PE 0 calls torolux_broadcast(0, ...) at another "
+                                            "place in the order than this one torolux_broadcast(0, ...)"));
+}
+
+/// Nobody waits for what the other sends: it is noticed where the program ends.
+TEST(KitFaults, CallsThatNobodyHasTakenPartInAreToldAtTheEnd) {
+  const auto failure_of_pes = [](const std::string& what) { return failure_of_words({"disagree", what}); };
+  EXPECT_THAT(failure_of_pes("roots"),
+              testing::ContainsRegex("PE (0: exit: PE 1 calls torolux_broadcast\\(1, \\.\\.\\.\\) where this one calls "
+                                     "torolux_broadcast\\(0|1: exit: PE 0 calls torolux_broadcast\\(0)"));
+  EXPECT_THAT(failure_of_pes("without"),
+              HasSubstr("PE 1: exit: PE 0 calls torolux_broadcast(0, ...), and this one ends without it"));
+  EXPECT_THAT(failure_of_pes("more"), HasSubstr("PE 0: exit: PE 1 takes part in torolux_reduce(0, ..., TOROLUX_INT32, "
+                                                "TOROLUX_SUM) with more bytes than this one"));
+}
+
+TEST(KitFaults, AFullHeapIsToldWithItsSize) {
+  EXPECT_THAT(failure_of("heap"),
+              testing::ContainsRegex("PE [01]: the heap is full, [0-9]+ bytes, and the C library needs more of it "
+                                     "\\(torolux run --pe-memory\\)"));
 }
 
 TEST(KitFaults, OfTheMachineAreToldAsEver) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "firmware/kit/call.hpp"
 #include "firmware/kit/messenger.hpp"
 #include "firmware/kit/together.hpp"
 #include "firmware/niu/native/fake_torus.hpp"
@@ -132,6 +133,10 @@ RC_GTEST_PROP(Messenger, ExchangesAroundARing, ()) {
   });
 }
 
+/// torolux_type, torolux_operation.
+constexpr std::uint32_t kUint32 = 1;
+constexpr std::uint32_t kSum = 0;
+
 void add_words(std::span<std::byte> into, std::span<const std::byte> from) {
   for (std::size_t at = 0; at < into.size(); at += sizeof(std::uint32_t)) {
     std::uint32_t a = 0;
@@ -153,7 +158,7 @@ RC_GTEST_PROP(Together, ReducesBroadcastsAndWaits, ()) {
   unsigned inside = 0;
   torus.run([&](FakeNode& node) {
     Messenger messenger(node.niu(), layout());
-    kit::Together together(messenger);
+    const auto together = [&](kit::Call call) { return kit::Together(messenger, call); };
     const unsigned own = node.niu().pe();
     std::vector<std::uint32_t> values(count);
     const auto fill = [&] {
@@ -165,18 +170,19 @@ RC_GTEST_PROP(Together, ReducesBroadcastsAndWaits, ()) {
     };
     const auto bytes = std::as_writable_bytes(std::span(values));
     fill();
-    together.reduce(root, bytes, add_words);
+    together(kit::Call::reduce(root, kUint32, kSum)).reduce(root, bytes, add_words);
     if (own == root) all_sums();
     fill();
-    together.all_reduce(bytes, add_words);
+    together(kit::Call::all_reduce(kUint32, kSum)).all_reduce(bytes, add_words);
     all_sums();
     ++inside;
-    together.barrier();
+    together(kit::Call::barrier()).barrier();
     check(inside == pes, "nobody leaves the barrier before all have come");
-    together.barrier();
+    together(kit::Call::barrier()).barrier();
     fill();
-    together.broadcast(root, bytes);
+    together(kit::Call::broadcast(root)).broadcast(root, bytes);
     for (std::size_t i = 0; i < count; ++i) check(values[i] == (root + 1) * (i + 3), "broadcast");
+    messenger.end();
   });
 }
 
@@ -220,6 +226,73 @@ TEST(Messenger, EndsTheRunForWhatCannotBe) {
             }),
             0U)
       << "just enough room";
+}
+
+/// What PE 0 calls, and what PE 1: how the run ends.
+std::uint32_t failure_of_calls(kit::Call first, kit::Call second) {
+  return failure_of([&](Messenger& messenger, unsigned own) {
+    messenger.called_together(own == 0 ? first : second);
+    if (own == 0) messenger.send(Channel::together, 1, {});
+    if (own == 1) messenger.receive(Channel::together, 0, {});
+    messenger.end();
+  });
+}
+
+TEST(Messenger, EndsTheRunWherePesCallSomethingElse) {
+  constexpr auto kWords = static_cast<std::uint32_t>(protocol::FaultCode::words);
+  using kit::Call;
+  EXPECT_EQ(failure_of_calls(Call::barrier(), Call::barrier()), 0U);
+  EXPECT_EQ(failure_of_calls(Call::reduce(1, 2, 1), Call::reduce(1, 2, 1)), 0U);
+  EXPECT_EQ(failure_of_calls(Call::barrier(), Call::broadcast(0)), kWords);
+  EXPECT_EQ(failure_of_calls(Call::broadcast(0), Call::broadcast(1)), kWords);
+  EXPECT_EQ(failure_of_calls(Call::broadcast(0xFFEF), Call::broadcast(0xFFEE)), kWords);
+  EXPECT_EQ(failure_of_calls(Call::reduce(1, 2, 1), Call::reduce(1, 3, 1)), kWords);
+  EXPECT_EQ(failure_of_calls(Call::reduce(1, 2, 1), Call::reduce(1, 2, 2)), kWords);
+  EXPECT_EQ(failure_of_calls(Call::reduce(0, 2, 1), Call::all_reduce(2, 1)), kWords);
+}
+
+TEST(Messenger, EndsTheRunWhereACallOfOthersIsLeftAtTheEnd) {
+  constexpr auto kWords = static_cast<std::uint32_t>(protocol::FaultCode::words);
+  const auto left = [](Channel channel) {
+    return failure_of([&](Messenger& messenger, unsigned own) {
+      messenger.called_together(kit::Call::barrier());
+      if (own == 0) messenger.send(channel, 1, {});
+      // Of one sender in order: when the second is here, so is the first.
+      if (own == 0) messenger.send(Channel::program, 1, {});
+      if (own == 1 && channel == Channel::together) messenger.receive(Channel::program, 0, {});
+      messenger.end();
+    });
+  };
+  EXPECT_EQ(left(Channel::together), kWords);
+  EXPECT_EQ(left(Channel::program), 0U) << "a program may leave messages";
+}
+
+TEST(Call, SaysWhatTheProgramSaid) {
+  using kit::Call;
+  const auto words = [](Call call) {
+    kit::Words text;
+    return std::string((text << call).text());
+  };
+  EXPECT_EQ(words(Call::barrier()), "torolux_barrier()");
+  EXPECT_EQ(words(Call::broadcast(65519)), "torolux_broadcast(65519, ...)");
+  EXPECT_EQ(words(Call::reduce(7, 5, 1).after(Call::broadcast(9))),
+            "torolux_reduce(7, ..., TOROLUX_DOUBLE, TOROLUX_MINIMUM)");
+  EXPECT_EQ(words(Call::all_reduce(1, 2)), "torolux_all_reduce(..., TOROLUX_UINT32, TOROLUX_MAXIMUM)");
+}
+
+TEST(Call, IsAnotherOneNextTime) {
+  using kit::Call;
+  Call last;
+  Call first;
+  for (unsigned i = 0; i < 512; ++i) {
+    const Call next = Call::barrier().after(last);
+    EXPECT_NE(next, last);
+    EXPECT_FALSE(next.at_place_of(last));
+    EXPECT_TRUE(next.at_place_of(Call::broadcast(0xFFFF).after(last)));
+    if (i == 0) first = next;
+    last = next;
+  }
+  EXPECT_EQ(Call::barrier().after(last), first) << "numbers go around";
 }
 
 TEST(Messenger, AllThatWaitForEverAreNoticedHere) {
