@@ -47,7 +47,7 @@ std::string store_in_words(std::uint32_t address, const Image& image) {
   for (const ImageSymbol& symbol : image.symbols) {
     const bool below = address < symbol.address && address + kPage > symbol.address;
     if ((symbol.name == "image_stack_begin" || symbol.name == "image_code_end") && below) {
-      return "store below the stack, into a page of code: a stack overflow?";
+      return "store into a page of code, right below the stack: a constant, or a stack overflow?";
     }
   }
   for (const ImageSegment& segment : image.segments) {

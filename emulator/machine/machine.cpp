@@ -166,8 +166,7 @@ Machine::Machine(const MachineSetup& setup, ImageSet images) : parts_(std::make_
   std::iota(numbers.begin(), numbers.end(), 0U);
   p.memory = setup.ranks != nullptr ? mirrors_of(setup, p.images) : make_pes(setup, p.images, numbers, on_qemu);
   for (const PeMemory& pe : p.memory.pes) p.channels.push_back(niu_channel_at(pe.channel.bytes().data()));
-  const unsigned asked = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
-  const unsigned threads = std::min(asked, pes + 1);  // one for events, one for each PE: more would only look for work
+  const unsigned threads = setup.threads != 0 ? setup.threads : std::max(1U, std::thread::hardware_concurrency());
   if (setup.ranks != nullptr) {
     p.engine = setup.ranks->make_engine(setup, p.images, p.memory.pes);
   } else {

@@ -25,7 +25,7 @@ class Call {
 
   /// The same, as the one that its PE calls after `last`.
   constexpr Call after(Call last) const { return Call((word_ & ~kNumber) | ((last.word_ + kFirst) & kNumber)); }
-  /// Whether their PEs had called as many before, as far as the bits go: for words only.
+  /// Whether their PEs had called as many before: calls 512 apart look alike.
   constexpr bool at_place_of(Call other) const { return ((word_ ^ other.word_) & kNumber) == 0; }
   friend constexpr bool operator==(Call, Call) = default;
   friend Words& operator<<(Words& words, Call call);

@@ -22,15 +22,15 @@ constexpr std::uint32_t kForLibrary = 8192;
 constinit std::uint32_t heap_used = 0;  // address of the first byte that malloc does not have yet
 constinit std::uint32_t heap_first = 0;
 constinit std::uint32_t heap_end = 0;
-constinit std::uint32_t heap_left = 0;  // of the heap, what whoever asks now may not have
+constinit std::uint32_t kept_back = 0;  // of the heap, what whoever asks now may not have
 constinit _mprec numbers{};             // of printf, which would ask as a program does
 
 /// While it lives, memory is for the program.
 struct ForProgram {
-  ForProgram() { heap_left = kForLibrary; }
+  ForProgram() { kept_back = kForLibrary; }
   ForProgram(const ForProgram&) = delete;
   ForProgram& operator=(const ForProgram&) = delete;
-  ~ForProgram() { heap_left = 0; }
+  ~ForProgram() { kept_back = 0; }
 };
 
 }  // namespace
@@ -60,8 +60,8 @@ void* _sbrk(std::ptrdiff_t more) {
   using namespace torolux::kit;
   const std::int64_t next = std::int64_t{heap_used} + more;
   const bool is_there = next >= heap_first && next <= heap_end;
-  if (!is_there || (more > 0 && next > std::int64_t{heap_end} - heap_left)) {
-    if (heap_left == 0 && more > 0) end_run_of_full_heap(nullptr);
+  if (!is_there || (more > 0 && next > std::int64_t{heap_end} - kept_back)) {
+    if (kept_back == 0 && more > 0) end_run_of_full_heap(nullptr);
     errno = ENOMEM;
     return reinterpret_cast<void*>(-1);  // NOLINT(performance-no-int-to-ptr): as sbrk says that it fails
   }
@@ -70,7 +70,8 @@ void* _sbrk(std::ptrdiff_t more) {
   return reinterpret_cast<void*>(old);  // NOLINT(performance-no-int-to-ptr): addresses are numbers here
 }
 
-// What programs call; the C library itself calls what is behind these. Weak: a program may bring its own.
+// What programs call; the C library itself calls what is behind these. Weak: a program may bring its own, which must
+// not ask sbrk for more than there is.
 
 [[gnu::weak]] void* malloc(std::size_t bytes) {
   const torolux::kit::ForProgram here;

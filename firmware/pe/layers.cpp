@@ -49,6 +49,12 @@ void note_element(Pe& pe, Niu& niu, const RayRecord& record, const Polygon& poly
   pe.results.add(niu, Plane::elements, record.pixel, {std::int64_t{polygon.number} + 1, code, hit.front ? 0 : 1});
 }
 
+/// It brings light to the surface that the camera ray met first.
+bool casts_shadow_on_first(const RayRecord& record) {
+  constexpr std::uint32_t both = protocol::kShadow | protocol::kDirect;
+  return (record.flags & both) == both;
+}
+
 }  // namespace
 
 void note_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, const glm::vec3& irradiance_over_pi) {
@@ -68,7 +74,7 @@ void note_surface(Pe& pe, Niu& niu, const RayRecord& record, const Hit& hit, con
 
 void note_way(Pe& pe, Niu& niu, const RayRecord& record, const Way& way) {
   if (wanted(pe, Plane::cost)) pe.results.add(niu, Plane::cost, record.pixel, {way.visited, 0, 0});
-  if (way.end == WayEnd::handed_on || record.bounce != 0 || (record.flags & protocol::kShadow) == 0) return;
+  if (way.end == WayEnd::handed_on || !casts_shadow_on_first(record)) return;
   const std::uint32_t met = way.end == WayEnd::hit ? pe.scene.polygons[way.hit.polygon].number : protocol::kSkyTarget;
   if (wanted(pe, Plane::irradiance) && met == record.target) {
     add_irradiance(pe, niu, record, to_vector(carried_irradiance(record)));
@@ -93,7 +99,7 @@ void take_sun_irradiance(RayRecord& record) {
 }
 
 void dim_irradiance(const Pe& pe, RayRecord& record, const glm::vec3& passed) {
-  if (!wants_irradiance(pe, record)) return;
+  if (!wanted(pe, Plane::irradiance) || !casts_shadow_on_first(record)) return;
   carried_irradiance(record) = to_array(to_vector(carried_irradiance(record)) * passed);
 }
 

@@ -153,6 +153,12 @@ void take(RayRecord& record, const Onward& way) {
   turn(record, way.origin, way.direction, way.polygon);
 }
 
+/// From here on it is a shadow ray. Panes on its way count as segments, so a flag keeps that it left the first surface.
+void cast_shadow(RayRecord& record) {
+  record.flags |= protocol::kShadow;
+  if (record.bounce == 0) record.flags |= protocol::kDirect;
+}
+
 /// A shadow ray that might go: the light of the sun, or of all other emitters.
 struct Aim {
   EmitterSample from;
@@ -189,8 +195,11 @@ bool aim_at_emitters(const Pe& pe, RayRecord& record, const Hit& hit) {
   const glm::vec3 origin = leaving_point(polygon, to_vector(record.origin) + to_vector(record.direction) * hit.t);
   const glm::vec3 normal = shading_normal(pe.scene, polygon, hit) * to_side;
   const glm::vec3 geometric = unit_normal(polygon) * to_side;
-  const protocol::StratifiedTriple numbers =
-      protocol::stratified_triple(place_in_picture(pe, record), way_key(pe, record, Dimension::emitter));
+  const std::uint32_t place = place_in_picture(pe, record);
+  const std::uint32_t key = way_key(pe, record, Dimension::emitter);
+  protocol::StratifiedTriple numbers = protocol::stratified_triple(place, key);
+  // The third has no more than 2^16 values: others in each part of the picture, or an emitter might lie between them.
+  numbers.z ^= protocol::hash_combine(key, ~(place >> 16U));
   Aim sun{};
   Aim others{};
   sun.goes = sample_sun(pe.scene, numbers, origin, normal, geometric, sun.from);
@@ -213,7 +222,7 @@ bool aim_at_emitters(const Pe& pe, RayRecord& record, const Hit& hit) {
   record.weight = to_array(aim.weight);
   record.target = aim.from.polygon;
   turn(record, origin, aim.from.direction, polygon.number);
-  record.flags |= protocol::kShadow;
+  cast_shadow(record);
   return true;
 }
 
@@ -301,7 +310,7 @@ void resume_branch(RayRecord& record) {
   record.flags = protocol::kFirst;  // whatever came with it: a branch begins where it waits
   record.kind = RecordKind::light;
   if (branch.flags == 0) return;
-  record.flags |= protocol::kShadow;
+  cast_shadow(record);
   record.target = protocol::kSkyTarget;
   take_sun_irradiance(record);
 }

@@ -104,6 +104,7 @@ RenderBenchJob job_of(const Scene& scene, const BenchOptions& options, const std
   job.machine.columns = pes[0];
   job.machine.rows = pes[1];
   job.machine.threads = options.threads;
+  job.machine.interrupted = &interrupted;
   if (options.machine) {
     job.machine.description = load_machine_description(*options.machine);
   }

@@ -50,6 +50,7 @@ void run_image_in_lock_step(const RenderOptions& options) {
   setup.local_memory_bytes = given.pe_memory.value_or(setup.local_memory_bytes);
   setup.engine = kLockstep;
   setup.threads = given.threads;
+  setup.interrupted = &interrupted;
   if (options.machine) setup.description = load_machine_description(*options.machine);
   for (const std::string& value : options.machine_values) set_machine_value(setup.description, value);
   const auto print = [&](const PeText& text) {

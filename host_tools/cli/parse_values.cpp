@@ -268,7 +268,7 @@ std::uint64_t parse_count(const std::string& text, std::uint64_t least, std::uin
   const auto value = whole(std::string_view(text).substr(negative ? 1 : 0));
   if (!value) wrong_form(text, "a whole number");
   constexpr auto largest = std::numeric_limits<std::uint64_t>::max();  // also what `whole` has for more
-  const bool too_long = *value == largest && text.substr(text.find_first_not_of("0")) != std::to_string(largest);
+  const bool too_long = *value == largest && text.substr(text.find_first_not_of('0')) != std::to_string(largest);
   if (negative || too_long || *value < least || *value > most)
     throw InputError(in_quotes(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most) +
                      " are allowed");

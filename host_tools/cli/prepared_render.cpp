@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "emulator/errors.hpp"
+#include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
@@ -44,6 +45,7 @@ PreparedRender prepare_render(const RenderOptions& options) {
   prepared.scene = load_scene_from(recorded, scene_named(options.scene), scene_options(options));
   check_renderable(prepared.scene);
   prepared.resolved = resolve(options, prepared.scene);
+  prepared.resolved.machine.interrupted = &interrupted;
   prepared.findings = findings_before(prepared.scene, prepared.resolved);
   if (options.strict) refuse_what_is_told(prepared.findings);
   std::vector<InputFile> files = recorded.files();

@@ -248,7 +248,6 @@ RunEnd run_prepared(PreparedRender& prepared, const RenderOptions& options) {
   const auto trace = trace_file(options.trace, TracedRun::render, resolved.machine.columns * resolved.machine.rows);
   std::optional<Story> story;
   if (options.follow) resolved.machine.follower = &story.emplace(*options.follow);
-  resolved.machine.interrupted = &interrupted;
   if (trace) resolved.machine.watcher = &trace->watcher();
   profile::CycleProfile profile;
   if (options.profile) resolved.machine.profile = &profile;

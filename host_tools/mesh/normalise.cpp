@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bounding box of all triangles, with a margin on every side, gives origin and scale. A scene without an extent is
-// refused.
+// The bounding box of triangles and openings, with a margin on every side, gives origin and scale. A scene without an
+// extent is refused.
 #include "host_tools/mesh/normalise.hpp"
 
 #include <algorithm>

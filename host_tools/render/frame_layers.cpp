@@ -61,12 +61,10 @@ std::uint32_t element_number(const PixelSums& name, const Mesh& mesh) {
   const std::uint32_t below = protocol::level_of_code(code) - triangle.patch_level;
   const std::uint32_t path = protocol::path_of_code(code) >> (2U * below);
   const MeshPatch& patch = mesh.patches[mesh.parts.at(triangle.first_part + path).patch];
-  const protocol::GridTriangle grid = protocol::grid_triangle_of(code);
-  const auto centre = [&grid](std::size_t w) {
-    constexpr float unit = 1.0F / (3.0F * (1U << protocol::kMostLevels));
-    return unit * static_cast<float>(grid.corner[0][w] + grid.corner[1][w] + grid.corner[2][w]);
-  };
-  const std::uint32_t facet = mesh.facet_at(t, centre(1), centre(2));
+  const auto middle = protocol::middle_of_grid_triangle(protocol::path_of_code(code), protocol::level_of_code(code));
+  constexpr float unit = 1.0F / (3.0F * (1U << protocol::kMostLevels));
+  const std::uint32_t facet =
+      mesh.facet_at(t, unit * static_cast<float>(middle[1]), unit * static_cast<float>(middle[2]));
   return patch.first_element.at(static_cast<std::size_t>(name[2])) + mesh.facets[facet].element;
 }
 

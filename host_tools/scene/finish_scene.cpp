@@ -13,21 +13,31 @@ namespace torolux {
 namespace {
 
 /// For each position the number of the first one at the same place. Programs reckon the two sides of a seam apart, and
-/// write all digits of what should be equal: places are of a 2^40th of the scene's longest edge.
+/// write all digits of what should be equal: what lies in one cell of two grids, of 2^-40 of the scene's longest edge
+/// and half a cell apart, is one.
 std::vector<std::uint32_t> first_equal(const std::vector<Vec3d>& positions, const vec::Box& box, double longest) {
-  std::vector<std::array<std::int64_t, 3>> places;
-  places.reserve(positions.size());
-  for (const Vec3d& p : positions) {
-    const Vec3d scaled = vec::scale(vec::subtract(p, box.low), 0x1p40 / longest);
-    places.push_back({std::llround(scaled[0]), std::llround(scaled[1]), std::llround(scaled[2])});
-  }
-  std::vector<std::uint32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), std::uint32_t{0});
-  std::sort(order.begin(), order.end(),
-            [&places](std::uint32_t a, std::uint32_t b) { return std::tie(places[a], a) < std::tie(places[b], b); });
   std::vector<std::uint32_t> first(positions.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && places[order[i]] == places[order[i - 1]] ? first[order[i - 1]] : order[i];
+  std::iota(first.begin(), first.end(), std::uint32_t{0});
+  const auto root = [&first](std::uint32_t p) {
+    while (first[p] != p) p = first[p] = first[first[p]];
+    return p;
+  };
+  std::vector<std::uint32_t> order = first;
+  std::vector<std::array<std::int64_t, 3>> cells(positions.size());
+  for (const double shift : {0.0, 0.5}) {
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+      const Vec3d scaled = vec::scale(vec::subtract(positions[p], box.low), 0x1p40 / longest);
+      for (std::size_t axis = 0; axis < 3; ++axis) cells[p][axis] = std::llround(scaled[axis] + shift);
+    }
+    std::sort(order.begin(), order.end(),
+              [&cells](std::uint32_t a, std::uint32_t b) { return std::tie(cells[a], a) < std::tie(cells[b], b); });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      if (cells[order[i]] != cells[order[i - 1]]) continue;
+      const auto [low, high] = std::minmax({root(order[i]), root(order[i - 1])});
+      first[high] = low;
+    }
+  }
+  for (std::uint32_t p = 0; p < positions.size(); ++p) first[p] = root(p);
   return first;
 }
 
@@ -37,6 +47,14 @@ Vec3d as_float(const Vec3d& p, const vec::Box& box, double longest) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     rounded[axis] = static_cast<double>(static_cast<float>((p[axis] - box.low[axis]) / longest));
   return rounded;
+}
+
+/// The object space holds them, too (host_tools/mesh/normalise.hpp).
+void include_opening(const SkyQuad& opening, vec::Box& box) {
+  for (const Vec3d& near : {opening.corner, vec::add(opening.corner, opening.along)}) {
+    box.include(near);
+    box.include(vec::add(near, opening.across));
+  }
 }
 
 bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
@@ -110,7 +128,10 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
     for (const std::string& line : notices_.lines()) why += "\n  " + line;
     refuse(place, why);
   }
-  const vec::Box box = bounds();
+  vec::Box box = bounds();
+  if (scene.sky) {
+    for (const SkyQuad& opening : scene.sky->openings) include_opening(opening, box);
+  }
   const double longest = vec::largest(box.extent());
   const std::vector<std::uint32_t> first = first_equal(positions_, box, longest);
   for (SceneTriangle& triangle : triangles_)

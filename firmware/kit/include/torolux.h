@@ -76,7 +76,7 @@ size_t torolux_exchange(int to, const void* data, size_t bytes, int from, void* 
 
 /** Returns when all PEs have called it. Of all in this section: PEs that call another one, or of another root, type,
  * operation or size, end the run with both calls: where one waits for the other, there; else where a PE ends by exit(0)
- * or main's return, if what the other has sent is here by then. */
+ * or main's return, if the whole of what the other has sent is here by then. */
 void torolux_barrier(void);
 
 /** `bytes` (0 to TOROLUX_MOST_BYTES) at `data` of PE `root` come to `data` of all others. The same `bytes` on each. */

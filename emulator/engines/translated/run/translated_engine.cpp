@@ -46,13 +46,19 @@ class News final : public Goal {
   const RunQueue& queue_;
 };
 
+/// One thread for events and one for each PE: more would only look for work.
+EngineSetup with_threads_that_help(EngineSetup setup) {
+  setup.threads = std::min(setup.threads, static_cast<unsigned>(setup.pes.size()) + 1U);
+  return setup;
+}
+
 class TranslatedEngine final : public Engine, private ProcessorWaker {
  public:
   TranslatedEngine(const EngineSetup& setup, const translated::TranslationOptions& options)
-      : setup_(setup),
+      : setup_(with_threads_that_help(setup)),
         interprets_(options.interpret),
-        queue_(setup.pes.size(), setup.threads - 1),
-        turns_(setup.threads == 1 ? setup.turns : nullptr, setup.pes.size()) {
+        queue_(setup.pes.size(), setup_.threads - 1),
+        turns_(setup_.threads == 1 ? setup.turns : nullptr, setup.pes.size()) {
     translated::TranslationOptions of_images = options;
     of_images.interrupted = setup.interrupted;
     for (const Image& image : setup.images.images()) {

@@ -168,6 +168,16 @@ TEST(Layers, IrradianceHoldsWhatShadowRaysBring) {
   add_wall(covered, {0.2F, 0.2F, 0.55F}, {0, 0.6F, 0}, {0.6F, 0, 0}, 1, 0);
   FakeMachine shadow = traced(covered, eye, floor, 512);
   EXPECT_NEAR(static_cast<double>(shadow.layers[Plane::irradiance][0][0]), 256 * 1.5 * 0x1p20, 1e3) << "rounding";
+  TestScene glazed = lit_room(0.5F);
+  glazed.materials.push_back(pane_material(1.5F, 0.5F));
+  add_wall(glazed, {0.2F, 0.2F, 0.55F}, {0, 0.6F, 0}, {0.6F, 0, 0}, 1,
+           static_cast<std::uint16_t>(glazed.materials.size() - 1));
+  glazed.polygons.back().sides = glazed.polygons[glazed.polygons.size() - 2].sides = 0;
+  FakeMachine behind = traced(glazed, eye, floor, 512);
+  const double dimmed = static_cast<double>(behind.layers[Plane::irradiance][0][0]);
+  EXPECT_GT(dimmed, 1.05 * 256 * 1.5 * 0x1p20) << "what a pane lets through";
+  EXPECT_LT(dimmed, 0.9 * irradiance);
+  EXPECT_NEAR(static_cast<double>(behind.pixels[0][0]) / dimmed, 0.5, 1e-5);
 }
 
 /// Mirror, glass, shadow rays; eyes towards many places.

@@ -37,7 +37,7 @@ TEST(Panes, ClosedBodiesAreSolidGlass) {
 // Programs reckon a seam's two sides apart: they differ in the last digits.
 TEST(Panes, ABodyWithASeamIsClosed) {
   const Scene scene = with("Kd 1\nd 0.1\nillum 4\n",
-                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -1.2246e-16 1 2.4e-16\nv 1 1e-15 0\n"
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1e-16 1 2.4e-16\nv 1 1e-15 0\n"
                            "f 1 3 2\nf 1 6 4\nf 1 4 5\nf 2 3 4\n");
   EXPECT_FALSE(scene.materials[0].thin);
   EXPECT_EQ(scene.positions.size(), 4U);
