@@ -121,7 +121,8 @@ void SceneBuilder::add_mesh(const ImportedMesh& mesh, std::span<const MeshEntry>
                             const std::vector<MaterialOverride>& overrides) {
   const std::size_t first = materials_.size();
   for (const MeshEntry& entry : instances) {
-    for (const auto& [from, to] : entry.materials) {
+    for (const auto& renamed : entry.materials) {
+      const std::string& from = renamed.first;
       const auto named = [&from](const ImportedMaterial& material) { return material.material.name == from; };
       if (std::ranges::none_of(mesh.materials, named))
         notices_.note("[[mesh]] 'materials' names a material that the mesh has not", entry.place, in_quotes(from));

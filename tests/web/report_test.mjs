@@ -115,6 +115,7 @@ async function checkProfile(browser) {
   const { page } = report;
   const chosen = () => page.textContent("#profile .flame-path strong");
   const frames = () => page.locator("#profile .frame").count();
+  await page.locator("#profile .frame").first().waitFor();  // drawn once the page has its width
   const all = await frames();
   assert.ok(all > 15, `${all} frames`);
   assert.equal(await chosen(), "all");
