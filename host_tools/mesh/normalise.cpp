@@ -3,10 +3,10 @@
 // extent is refused.
 #include "host_tools/mesh/normalise.hpp"
 
-#include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "emulator/errors.hpp"
+#include "host_tools/scene/sky.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -22,28 +22,13 @@ Vec3d SceneSpace::to_user(const Vec3d& normalised) const {
 }
 
 SceneSpace scene_space(const Scene& scene) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  Vec3d low{infinite, infinite, infinite};
-  Vec3d high{-infinite, -infinite, -infinite};
-  const auto hold = [&low, &high](const Vec3d& at) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], at[axis]);
-      high[axis] = std::max(high[axis], at[axis]);
-    }
-  };
+  vec::Box box;
   for (const SceneTriangle& triangle : scene.triangles) {
-    for (const std::uint32_t index : triangle.position) hold(scene.positions[index]);
+    for (const std::uint32_t index : triangle.position) box.include(scene.positions[index]);
   }
-  if (scene.sky && !scene.triangles.empty()) {
-    for (const SkyQuad& opening : scene.sky->openings) {
-      for (const Vec3d& near : {opening.corner, vec::add(opening.corner, opening.along)}) {
-        hold(near);
-        hold(vec::add(near, opening.across));
-      }
-    }
-  }
-  const Vec3d extent = vec::subtract(high, low);
-  const double longest = std::max({extent[0], extent[1], extent[2]});
+  include_openings(scene, box);
+  const Vec3d extent = box.extent();
+  const double longest = vec::largest(extent);
   if (scene.triangles.empty() || !(longest > 0) || !std::isfinite(longest)) {
     throw InputError("scene '" + scene.name + "' has no surface with an area: at least one triangle is needed");
   }
@@ -51,7 +36,7 @@ SceneSpace scene_space(const Scene& scene) {
   const double margin = longest * kSpaceMargin;
   space.scale = 1.0 / (longest + 2 * margin);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    space.origin[axis] = low[axis] - margin;
+    space.origin[axis] = box.low[axis] - margin;
     space.size[axis] = (extent[axis] + 2 * margin) * space.scale;
   }
   return space;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "host_tools/scene/build_scene.hpp"
+#include "host_tools/scene/sky.hpp"
 
 namespace torolux {
 namespace {
@@ -47,14 +48,6 @@ Vec3d as_float(const Vec3d& p, const vec::Box& box, double longest) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     rounded[axis] = static_cast<double>(static_cast<float>((p[axis] - box.low[axis]) / longest));
   return rounded;
-}
-
-/// The object space holds them, too (host_tools/mesh/normalise.hpp).
-void include_opening(const SkyQuad& opening, vec::Box& box) {
-  for (const Vec3d& near : {opening.corner, vec::add(opening.corner, opening.along)}) {
-    box.include(near);
-    box.include(vec::add(near, opening.across));
-  }
 }
 
 bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
@@ -129,9 +122,7 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
     refuse(place, why);
   }
   vec::Box box = bounds();
-  if (scene.sky) {
-    for (const SkyQuad& opening : scene.sky->openings) include_opening(opening, box);
-  }
+  include_openings(scene, box);
   const double longest = vec::largest(box.extent());
   const std::vector<std::uint32_t> first = first_equal(positions_, box, longest);
   for (SceneTriangle& triangle : triangles_)

@@ -58,6 +58,16 @@ Vec3d sky_direction(const Sky& sky, double elevation, double azimuth) {
   return vec::add(vec::scale(level, std::cos(up)), vec::scale(sky.up, std::sin(up)));
 }
 
+void include_openings(const Scene& scene, vec::Box& box) {
+  if (!scene.sky) return;
+  for (const SkyQuad& opening : scene.sky->openings) {
+    for (const Vec3d& near : {opening.corner, vec::add(opening.corner, opening.along)}) {
+      box.include(near);
+      box.include(vec::add(near, opening.across));
+    }
+  }
+}
+
 std::vector<Vec3d> sky_table(const std::function<Vec3d(const Vec3d&)>& radiance) {
   std::vector<Vec3d> table(kSkyCells, Vec3d{0, 0, 0});
   for (std::size_t cell = 0; cell < table.size(); ++cell) {

@@ -8,6 +8,7 @@
 #include "host_tools/scene/imported_mesh.hpp"
 #include "host_tools/scene/notices.hpp"
 #include "host_tools/scene/scene.hpp"
+#include "host_tools/scene/vec.hpp"
 
 namespace torolux {
 
@@ -16,6 +17,9 @@ inline constexpr double kSunRadiusDegrees = 0.2665;
 
 /// elevation, azimuth: in degrees, above the horizon and from north to east.
 Vec3d sky_direction(const Sky& sky, double elevation, double azimuth);
+
+/// The corners of the openings of a scene's sky, which are part of the object space wherever surfaces end.
+void include_openings(const Scene& scene, vec::Box& box);
 
 /// The first of these suns shines where the sky has none of its own, or there is no sky; the others are told.
 /// direction: in the scene's space, any length.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/triangle_grid.hpp"
@@ -26,35 +27,42 @@ TEST(Levels, LeastLevelThatIsShortEnough) {
   EXPECT_EQ(level_for(1e9, 1e-9), protocol::kMostLevels);
 }
 
-// What the host asks for most is worked out apart from what PEs use: both give the same corners, at each level.
-TEST(Levels, GridPointsAreThoseOfTheGridTriangle) {
+struct GridPlace {
+  std::uint32_t path, level;
+};
+
+/// Of each level, spread over the triangle.
+std::vector<GridPlace> grid_places() {
+  std::vector<GridPlace> places;
   for (std::uint32_t level = 0; level <= protocol::kMostLevels; ++level) {
     const std::uint32_t paths = protocol::triangles_of_level(level);
     const std::uint32_t step = std::max(1U, paths / 997);  // coprime to powers of 4, so that all children take part
-    for (std::uint32_t path = 0; path < paths; path += step) {
-      const std::uint32_t code = protocol::location_code(path, level);
-      const protocol::GridTriangle expected = protocol::grid_triangle_of(code);
-      const auto points = grid_points(code);
-      for (std::size_t c = 0; c < 3; ++c) {
-        ASSERT_EQ(static_cast<std::int32_t>(points[c].i), expected.corner[c][1]) << "code " << code;
-        ASSERT_EQ(static_cast<std::int32_t>(points[c].j), expected.corner[c][2]) << "code " << code;
-      }
+    for (std::uint32_t path = 0; path < paths; path += step) places.push_back({path, level});
+  }
+  return places;
+}
+
+// What the host asks for most is worked out apart from what PEs use: both give the same corners, at each level.
+TEST(Levels, GridPointsAreThoseOfTheGridTriangle) {
+  for (const GridPlace& place : grid_places()) {
+    const std::uint32_t code = protocol::location_code(place.path, place.level);
+    const protocol::GridTriangle expected = protocol::grid_triangle_of(code);
+    const auto points = grid_points(code);
+    for (std::size_t c = 0; c < 3; ++c) {
+      ASSERT_EQ(static_cast<std::int32_t>(points[c].i), expected.corner[c][1]) << "code " << code;
+      ASSERT_EQ(static_cast<std::int32_t>(points[c].j), expected.corner[c][2]) << "code " << code;
     }
   }
 }
 
 // Worked out apart from corners, as PEs place their points by it.
 TEST(Levels, TheMiddleOfAGridTriangleIsTheMeanOfItsCorners) {
-  for (std::uint32_t level = 0; level <= protocol::kMostLevels; ++level) {
-    const std::uint32_t paths = protocol::triangles_of_level(level);
-    const std::uint32_t step = std::max(1U, paths / 997);  // coprime to powers of 4, so that all children take part
-    for (std::uint32_t path = 0; path < paths; path += step) {
-      const protocol::GridTriangle triangle = protocol::grid_triangle(path, level);
-      const auto middle = protocol::middle_of_grid_triangle(path, level);
-      for (std::size_t w = 0; w < 3; ++w) {
-        ASSERT_EQ(middle[w], triangle.corner[0][w] + triangle.corner[1][w] + triangle.corner[2][w])
-            << "path " << path << " of level " << level;
-      }
+  for (const GridPlace& place : grid_places()) {
+    const protocol::GridTriangle triangle = protocol::grid_triangle(place.path, place.level);
+    const auto middle = protocol::middle_of_grid_triangle(place.path, place.level);
+    for (std::size_t w = 0; w < 3; ++w) {
+      ASSERT_EQ(middle[w], triangle.corner[0][w] + triangle.corner[1][w] + triangle.corner[2][w])
+          << "path " << place.path << " of level " << place.level;
     }
   }
 }
