@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Next-event estimation (Kajiya 1986, The Rendering Equation): emitters by their power, a point on each by area; of
-// several such points one by the light that it would bring (Talbot, Cline & Egbert 2005, Importance Resampling for
-// Global Illumination).
+// Next-event estimation (Kajiya 1986, The Rendering Equation): emitters by their power, a point on each by area, or by
+// solid angle where it is near; of several such points one by the light that it would bring (Talbot, Cline & Egbert
+// 2005, Importance Resampling for Global Illumination).
 #include "firmware/pe/emitters.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
 #include "firmware/pe/lamps.hpp"
+#include "firmware/pe/spherical_triangle.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/random.hpp"
 
@@ -18,9 +20,12 @@ namespace {
 
 using protocol::Emitter;
 
-/// Light of one sample, in units of the emitter's radiance. Only points nearer to an emitter than some fiftieth of its
-/// size can reach that: a few samples that would outshine all others, and in the end overflow a pixel.
+/// Light of one sample, in units of the emitter's radiance. Only points very near to a measured lamp can reach that, or
+/// near to what emits a thousandth of all light: a few samples that would outshine all others, and in the end overflow
+/// a pixel.
 constexpr float kMostSeen = 1024.0F;
+/// An emitter is near up to so many times its own extent from its first corner.
+constexpr float kNearness = 1.5F;
 /// Points among which one is chosen by the light that it would bring were nothing before it.
 constexpr std::uint32_t kMostCandidates = 16;
 
@@ -100,37 +105,88 @@ bool is_sun(const Emitter& emitter) {
   return emitter.polygon == protocol::kSkyTarget && emitter.both_sides == protocol::kSkySun;
 }
 
+/// The largest of a way's three parts, as the bits of a float: they are ordered as floats are.
+std::int32_t extent(const glm::vec3& way) {
+  constexpr std::int32_t kNoSign = 0x7FFF'FFFF;
+  return std::max({bits(way.x) & kNoSign, bits(way.y) & kNoSign, bits(way.z) & kNoSign});
+}
+
+/// Whether points spread evenly over the emitter would bring light as unlike as their distances: some are near.
+bool is_near(const Emitter& emitter, const glm::vec3& point) {
+  const glm::vec3 first = to_vector(emitter.corner[0]);
+  const std::int32_t most =
+      std::max(extent(to_vector(emitter.corner[1]) - first), extent(to_vector(emitter.corner[2]) - first));
+  return extent(point - first) < bits(std::bit_cast<float>(most) * kNearness);
+}
+
+/// Of a direction, to the side that is seen; 0: it leads into the surface.
+float leaving_cosine(const glm::vec3& direction, const glm::vec3& normal, const glm::vec3& geometric) {
+  const float leaving = glm::dot(direction, normal);
+  return leaving > 0.0F && glm::dot(direction, geometric) > 0.0F ? leaving : 0.0F;
+}
+
+/// At the emitter; 0: its back.
+float arriving_cosine(const glm::vec3& direction, const Emitter& emitter) {
+  const float arriving = -glm::dot(direction, unit_normal(emitter.corner));
+  return emitter.both_sides == 1U ? std::fabs(arriving) : std::max(0.0F, arriving);
+}
+
+bool is_opening(const Emitter& emitter) {
+  return emitter.polygon == protocol::kSkyTarget && emitter.both_sides == protocol::kSkyThroughOpening;
+}
+
+glm::vec3 radiance_from(const Scene& scene, const Emitter& emitter, const glm::vec3& direction) {
+  if (!is_opening(emitter)) return to_vector(emitter.emission);
+  return to_vector(protocol::radiance_without_sun(scene.layout.sky_frame, scene.sky, to_array(direction)));
+}
+
+/// Near an emitter: no direction brings much more than another. False: no light comes from there.
+bool sample_by_solid_angle(const Scene& scene, const Emitter& emitter, float place, float v, const glm::vec3& point,
+                           const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
+  std::array<glm::vec3, 3> ways;
+  for (std::size_t i = 0; i < 3; ++i) {
+    ways[i] = to_vector(emitter.corner[i]) - point;
+    if (!(glm::dot(ways[i], ways[i]) > 0.0F)) return false;
+  }
+  const SphericalTriangle seen = as_seen(ways);
+  sample.direction = direction_into(seen, place, v);
+  const float leaving = leaving_cosine(sample.direction, normal, geometric);
+  if (!(leaving > 0.0F) || !(arriving_cosine(sample.direction, emitter) > 0.0F)) return false;
+  const float twice_area = glm::length(glm::cross(ways[1] - ways[0], ways[2] - ways[0]));
+  const float part = leaving * emitter.area_over_chance * (4.0F * seen.half_angle) / twice_area;
+  sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * std::min(part, kMostSeen);
+  return true;
+}
+
 /// One point by the emitters' power alone. False: no light comes from there.
 bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
                      const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
   float place = 0.0F;
+  const float v = protocol::uniform_float(numbers.y);
   const Emitter& emitter = choose(scene, numbers.x, place);
-  const bool of_sky = emitter.polygon == protocol::kSkyTarget;
   if (is_sun(emitter)) return false;
-  const bool through = of_sky && emitter.both_sides == protocol::kSkyThroughOpening;
-  if (of_sky && !through)
-    return sample_by_radiance(scene, emitter, place, protocol::uniform_float(numbers.y), normal, geometric, sample);
-  const glm::vec3 way = point_on(emitter, place, protocol::uniform_float(numbers.y)) - point;
+  if (emitter.polygon == protocol::kSkyTarget && !is_opening(emitter))
+    return sample_by_radiance(scene, emitter, place, v, normal, geometric, sample);
+  sample.polygon = emitter.polygon;
+  const bool is_lamp = emitter.lamp != protocol::kNoLamp;
+  if (!is_lamp && is_near(emitter, point))
+    return sample_by_solid_angle(scene, emitter, place, v, point, normal, geometric, sample);
+  const glm::vec3 way = point_on(emitter, place, v) - point;
   const float square = glm::dot(way, way);
   if (!(square > 0.0F)) return false;
   sample.direction = way * (1.0F / std::sqrt(square));
-  sample.polygon = emitter.polygon;
-  const float leaving = glm::dot(sample.direction, normal);
-  if (!(leaving > 0.0F) || !(glm::dot(sample.direction, geometric) > 0.0F)) return false;
-  if (emitter.lamp != protocol::kNoLamp) {
+  const float leaving = leaving_cosine(sample.direction, normal, geometric);
+  if (!(leaving > 0.0F)) return false;
+  if (is_lamp) {
     const float near = leaving * emitter.area_over_chance / square;
     sample.irradiance_over_pi =
         lamp_light(scene, emitter.lamp, -sample.direction) * to_vector(emitter.emission) * std::min(near, kMostSeen);
     return true;
   }
-  float arriving = -glm::dot(sample.direction, unit_normal(emitter.corner));
-  if (emitter.both_sides == 1U) arriving = std::fabs(arriving);
+  const float arriving = arriving_cosine(sample.direction, emitter);
   if (!(arriving > 0.0F)) return false;
   const float seen = leaving * arriving * emitter.area_over_chance / square;
-  const glm::vec3 radiance =
-      through ? to_vector(protocol::radiance_without_sun(scene.layout.sky_frame, scene.sky, to_array(sample.direction)))
-              : to_vector(emitter.emission);
-  sample.irradiance_over_pi = radiance * (seen < kMostSeen ? seen : kMostSeen);
+  sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * std::min(seen, kMostSeen);
   return true;
 }
 
