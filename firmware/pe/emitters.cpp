@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "firmware/pe/lamps.hpp"
 #include "firmware/pe/spherical_triangle.hpp"
@@ -24,18 +25,25 @@ using protocol::Emitter;
 /// near to what emits a thousandth of all light: a few samples that would outshine all others, and in the end overflow
 /// a pixel.
 constexpr float kMostSeen = 1024.0F;
-/// An emitter is near up to so many times its own extent from its first corner.
-constexpr float kNearness = 1.5F;
+/// An emitter is near up to so many times its extent, the root of twice its area, from its first corner and its plane.
+constexpr float kNearCorner = 1.5F;
+constexpr float kNearPlane = 0.25F;
 /// Points among which one is chosen by the light that it would bring were nothing before it.
 constexpr std::uint32_t kMostCandidates = 16;
 
-/// The emitter of one number, and the place of that number among all those that choose it: 0..1, again uniform.
-const Emitter& choose(const Scene& scene, std::uint32_t word, float& place) {
+/// The emitter of one number.
+struct Choice {
+  const Emitter& emitter;
+  float chance;  ///< of the emitter, times 2^32
+  float place;   ///< of the number among all those that choose it: 0..1, again uniform
+};
+
+Choice choose(const Scene& scene, std::uint32_t word) {
   const auto chosen = std::lower_bound(scene.emitters.begin(), scene.emitters.end(), word,
                                        [](const Emitter& emitter, std::uint32_t w) { return emitter.chosen_to < w; });
   const std::uint32_t first = chosen == scene.emitters.begin() ? 0 : std::prev(chosen)->chosen_to + 1U;
-  place = static_cast<float>(word - first) / (static_cast<float>(chosen->chosen_to - first) + 1.0F);
-  return *chosen;
+  const float chance = static_cast<float>(chosen->chosen_to - first) + 1.0F;
+  return {*chosen, chance, static_cast<float>(word - first) / chance};
 }
 
 /// Uniform over the triangle; numbers that keep apart give points that do (Heitz 2019, A Low-Distortion Map Between
@@ -108,27 +116,26 @@ bool is_sun(const Emitter& emitter) {
 /// The largest of a way's three parts, as the bits of a float: they are ordered as floats are.
 std::int32_t extent(const glm::vec3& way) {
   constexpr std::int32_t kNoSign = 0x7FFF'FFFF;
-  return std::max({bits(way.x) & kNoSign, bits(way.y) & kNoSign, bits(way.z) & kNoSign});
+  return std::max(std::max(bits(way.x) & kNoSign, bits(way.y) & kNoSign), bits(way.z) & kNoSign);
 }
 
-/// Whether points spread evenly over the emitter would bring light as unlike as their distances: some are near.
-bool is_near(const Emitter& emitter, const glm::vec3& point) {
+/// Whether points spread evenly over the emitter would bring light as unlike as their distances: some may be near.
+bool is_near(const Choice& choice, const glm::vec3& point) {
+  const Emitter& emitter = choice.emitter;
   const glm::vec3 first = to_vector(emitter.corner[0]);
-  const std::int32_t most =
-      std::max(extent(to_vector(emitter.corner[1]) - first), extent(to_vector(emitter.corner[2]) - first));
-  return extent(point - first) < bits(std::bit_cast<float>(most) * kNearness);
+  const glm::vec3 away = point - first;
+  const float twice_area = emitter.area_over_chance * choice.chance * (2.0F * std::numbers::pi_v<float> * 0x1p-32F);
+  const float far = std::bit_cast<float>(extent(away));
+  if (far * far >= twice_area * (kNearCorner * kNearCorner)) return false;
+  const float volume =
+      glm::dot(away, glm::cross(to_vector(emitter.corner[1]) - first, to_vector(emitter.corner[2]) - first));
+  return volume * volume < (twice_area * twice_area) * (twice_area * (kNearPlane * kNearPlane));
 }
 
 /// Of a direction, to the side that is seen; 0: it leads into the surface.
 float leaving_cosine(const glm::vec3& direction, const glm::vec3& normal, const glm::vec3& geometric) {
   const float leaving = glm::dot(direction, normal);
   return leaving > 0.0F && glm::dot(direction, geometric) > 0.0F ? leaving : 0.0F;
-}
-
-/// At the emitter; 0: its back.
-float arriving_cosine(const glm::vec3& direction, const Emitter& emitter) {
-  const float arriving = -glm::dot(direction, unit_normal(emitter.corner));
-  return emitter.both_sides == 1U ? std::fabs(arriving) : std::max(0.0F, arriving);
 }
 
 bool is_opening(const Emitter& emitter) {
@@ -140,9 +147,11 @@ glm::vec3 radiance_from(const Scene& scene, const Emitter& emitter, const glm::v
   return to_vector(protocol::radiance_without_sun(scene.layout.sky_frame, scene.sky, to_array(direction)));
 }
 
-/// Near an emitter: no direction brings much more than another. False: no light comes from there.
-bool sample_by_solid_angle(const Scene& scene, const Emitter& emitter, float place, float v, const glm::vec3& point,
-                           const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
+/// Near an emitter: no direction brings much more than another. False: no light comes from there. Apart, as it needs
+/// many registers that all others would save.
+[[gnu::noinline]] bool sample_by_solid_angle(const Scene& scene, const Emitter& emitter, float place, float v,
+                                             const glm::vec3& point, const glm::vec3& normal,
+                                             const glm::vec3& geometric, EmitterSample& sample) {
   std::array<glm::vec3, 3> ways;
   for (std::size_t i = 0; i < 3; ++i) {
     ways[i] = to_vector(emitter.corner[i]) - point;
@@ -150,10 +159,11 @@ bool sample_by_solid_angle(const Scene& scene, const Emitter& emitter, float pla
   }
   const SphericalTriangle seen = as_seen(ways);
   sample.direction = direction_into(seen, place, v);
+  const glm::vec3 twice_area = glm::cross(ways[1] - ways[0], ways[2] - ways[0]);
+  if (emitter.both_sides != 1U && !(glm::dot(sample.direction, twice_area) < 0.0F)) return false;
   const float leaving = leaving_cosine(sample.direction, normal, geometric);
-  if (!(leaving > 0.0F) || !(arriving_cosine(sample.direction, emitter) > 0.0F)) return false;
-  const float twice_area = glm::length(glm::cross(ways[1] - ways[0], ways[2] - ways[0]));
-  const float part = leaving * emitter.area_over_chance * (4.0F * seen.half_angle) / twice_area;
+  if (!(leaving > 0.0F)) return false;
+  const float part = leaving * emitter.area_over_chance * (4.0F * seen.half_angle) / glm::length(twice_area);
   sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * std::min(part, kMostSeen);
   return true;
 }
@@ -161,17 +171,17 @@ bool sample_by_solid_angle(const Scene& scene, const Emitter& emitter, float pla
 /// One point by the emitters' power alone. False: no light comes from there.
 bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers, const glm::vec3& point,
                      const glm::vec3& normal, const glm::vec3& geometric, EmitterSample& sample) {
-  float place = 0.0F;
   const float v = protocol::uniform_float(numbers.y);
-  const Emitter& emitter = choose(scene, numbers.x, place);
+  const Choice choice = choose(scene, numbers.x);
+  const Emitter& emitter = choice.emitter;
   if (is_sun(emitter)) return false;
   if (emitter.polygon == protocol::kSkyTarget && !is_opening(emitter))
-    return sample_by_radiance(scene, emitter, place, v, normal, geometric, sample);
+    return sample_by_radiance(scene, emitter, choice.place, v, normal, geometric, sample);
   sample.polygon = emitter.polygon;
   const bool is_lamp = emitter.lamp != protocol::kNoLamp;
-  if (!is_lamp && is_near(emitter, point))
-    return sample_by_solid_angle(scene, emitter, place, v, point, normal, geometric, sample);
-  const glm::vec3 way = point_on(emitter, place, v) - point;
+  if (!is_lamp && is_near(choice, point))
+    return sample_by_solid_angle(scene, emitter, choice.place, v, point, normal, geometric, sample);
+  const glm::vec3 way = point_on(emitter, choice.place, v) - point;
   const float square = glm::dot(way, way);
   if (!(square > 0.0F)) return false;
   sample.direction = way * (1.0F / std::sqrt(square));
@@ -183,7 +193,8 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
         lamp_light(scene, emitter.lamp, -sample.direction) * to_vector(emitter.emission) * std::min(near, kMostSeen);
     return true;
   }
-  const float arriving = arriving_cosine(sample.direction, emitter);
+  float arriving = -glm::dot(sample.direction, unit_normal(emitter.corner));
+  if (emitter.both_sides == 1U) arriving = std::fabs(arriving);
   if (!(arriving > 0.0F)) return false;
   const float seen = leaving * arriving * emitter.area_over_chance / square;
   sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * std::min(seen, kMostSeen);
