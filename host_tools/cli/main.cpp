@@ -157,8 +157,8 @@ void add_commands(CLI::App& app, CommandAction& action) {
 }
 
 int torolux_main(int argc, const char* const* argv) {
+  ranks::join_starter();
   const InterruptionGuard guard;
-  const bool has_starter = ranks::greet_starter();
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -170,7 +170,7 @@ int torolux_main(int argc, const char* const* argv) {
   add_commands(app, action);
   std::cout.clear();
   const int result = flushed(guarded([&] { return run(app, action, argc, argv); }));
-  if (result == kInterrupted && !has_starter) std::cerr << "torolux: interrupted" << std::endl;
+  if (result == kInterrupted && !ranks::has_starter()) std::cerr << "torolux: interrupted" << std::endl;
   ranks::tell_starter(result);
   return result;
 }

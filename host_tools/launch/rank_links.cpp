@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // epoll tells of connections in the order in which something happened to them. That matters: launchers end all ranks
-// where one is lost, so the first that is gone is the one that was.
+// where one is lost, so the first that has died is the one that was (emulator/ranks/starter.cpp).
 #include "host_tools/launch/rank_links.hpp"
 
 #include <sys/epoll.h>
@@ -42,6 +42,11 @@ void watch(int events, int descriptor) {
   event.events = EPOLLIN;
   event.data.fd = descriptor;
   if (::epoll_ctl(events, EPOLL_CTL_ADD, descriptor, &event) != 0) fail(errno);
+}
+
+RankEvent::Kind kind_of(ranks::StarterWord::Kind kind) {
+  if (kind == ranks::StarterWord::Kind::begins) return RankEvent::Kind::begins;
+  return kind == ranks::StarterWord::Kind::ends ? RankEvent::Kind::ends : RankEvent::Kind::died;
 }
 
 }  // namespace
@@ -106,17 +111,18 @@ void RankLinks::read(int connection, std::vector<RankEvent>& events) {
     if (bytes < 0 && errno == EAGAIN) return;
     if (bytes != static_cast<ssize_t>(sizeof(word))) break;
     link.rank = word.rank;
-    const bool ends = word.kind == ranks::StarterWord::Kind::ends;
-    events.push_back({ends ? RankEvent::Kind::ends : RankEvent::Kind::begins, word.rank, link.process, word.exit_code});
+    link.keeper = link.keeper || word.kind == ranks::StarterWord::Kind::keeps;
+    if (word.kind != ranks::StarterWord::Kind::keeps)
+      events.push_back({kind_of(word.kind), word.rank, link.process, word.status});
   }
-  if (link.rank) events.push_back({RankEvent::Kind::gone, *link.rank, link.process, 0});
+  if (link.keeper) events.push_back({RankEvent::Kind::keeper_gone, *link.rank, link.process, 0});
   ::close(connection);
   links_.erase(connection);
 }
 
 std::optional<pid_t> RankLinks::process_of(unsigned rank) const {
   for (const auto& [connection, link] : links_) {
-    if (link.rank == rank && link.process > 0) return link.process;
+    if (link.rank == rank && !link.keeper && link.process > 0) return link.process;
   }
   return std::nullopt;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Connections of ranks on this computer enter; that one begins, says how it ends, or is gone leaves.
+// Connections of ranks on this computer, and of their keepers, enter; that a rank begins, says how it ends, or has died
+// leaves.
 #pragma once
 
 #include <sys/types.h>
@@ -13,12 +14,12 @@
 namespace torolux::launch {
 
 struct RankEvent {
-  enum class Kind { begins, ends, gone };
+  enum class Kind { begins, ends, died, keeper_gone };
 
   Kind kind;
   unsigned rank;
-  pid_t process;  ///< as this process sees it
-  int exit_code;  ///< where it ends
+  pid_t process;  ///< of the rank or its keeper, as this process sees it
+  int status;     ///< ends: its exit code; died: as of waitpid
 };
 
 /// A socket that is no file, so that none is left behind; only processes of the same user are listened to.
@@ -37,15 +38,16 @@ class RankLinks {
   /// wait also ends where this is readable.
   void wake_by(int descriptor) const;
 
-  /// None: it has not begun, is gone, or is on another computer.
+  /// Of a rank. None: it has not begun, is gone, or is on another computer.
   std::optional<pid_t> process_of(unsigned rank) const;
-  /// Of ranks that are there.
+  /// Of ranks and keepers that are there.
   std::vector<pid_t> processes() const;
 
  private:
   struct Link {
     pid_t process = 0;
     std::optional<unsigned> rank;  ///< absent: it has not said yet
+    bool keeper = false;
   };
 
   void accept();

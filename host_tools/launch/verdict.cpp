@@ -4,6 +4,9 @@
 
 #include <sys/wait.h>
 
+#include <csignal>
+#include <cstring>
+
 #include "emulator/errors.hpp"
 #include "emulator/ranks/launched.hpp"
 #include "host_tools/files/shell_line.hpp"
@@ -13,9 +16,11 @@ namespace {
 
 constexpr int kFailure = static_cast<int>(ExitCode::machine_failure);
 
-std::string name_of(const RankEvent& event) {
-  return "rank " + std::to_string(event.rank) + " (" + ranks::host_name() + ", process " +
-         std::to_string(event.process) + ")";
+std::string how_it_died(int status) {
+  if (WIFEXITED(status)) return "it ended with exit code " + std::to_string(WEXITSTATUS(status)) + " without a word";
+  const int number = WTERMSIG(status);
+  return "it died of signal " + std::to_string(number) + " (" + ::strsignal(number) + ")" +
+         (number == SIGKILL ? ": somebody has killed it, or this computer has too little memory" : "");
 }
 
 }  // namespace
@@ -23,20 +28,27 @@ std::string name_of(const RankEvent& event) {
 void Verdict::take(const RankEvent& event) {
   switch (event.kind) {
     case RankEvent::Kind::begins:
-      here_[event.rank] = false;
+      here_[event.rank].process = event.process;
       return;
     case RankEvent::Kind::ends:
-      here_[event.rank] = true;
+      here_[event.rank].has_ended = true;
       // Of the others only a failure counts, and one that rank 0 has not told: it may be the last that hears of it.
-      if (event.rank == 0 ? exit_code_ && !of_rank_0_ : exit_code_ || event.exit_code == 0) return;
-      exit_code_ = event.exit_code;
+      if (event.rank == 0 ? exit_code_ && !of_rank_0_ : exit_code_ || event.status == 0) return;
+      exit_code_ = event.status;
       of_rank_0_ = event.rank == 0;
       return;
-    case RankEvent::Kind::gone:
-      if (settled() || here_[event.rank]) return;
-      exit_code_ = kFailure;
-      lost_ = name_of(event);
+    case RankEvent::Kind::died:
+    case RankEvent::Kind::keeper_gone:
+      if (!settled() && !here_[event.rank].has_ended) lose(event);
   }
+}
+
+void Verdict::lose(const RankEvent& event) {
+  const pid_t of_rank = here_[event.rank].process;
+  exit_code_ = kFailure;
+  lost_ = "rank " + std::to_string(event.rank) + " (" + ranks::host_name() + ", process " +
+          std::to_string(of_rank > 0 ? of_rank : event.process) +
+          ") is lost: " + (event.kind == RankEvent::Kind::died ? how_it_died(event.status) : "its keeper was killed");
 }
 
 void Verdict::interrupt() {
@@ -46,9 +58,8 @@ void Verdict::interrupt() {
 int Verdict::exit_code(int launcher, const std::vector<std::string>& command) const {
   if (lost()) {
     const bool all_here = here_.size() == ranks_;
-    throw MachineFailure(lost_ + " is lost: it was killed, perhaps for want of memory, or it crashed" +
-                         (all_here ? "" : "; or a rank on another computer was lost first, and the launcher says so") +
-                         ". No rank runs any more; a checkpoint goes on");
+    throw MachineFailure(lost_ + (all_here ? "" : ", or the launcher ended it since one on another computer was lost") +
+                         ". No rank runs any more; the last checkpoint goes on");
   }
   if (interrupted_) throw Interrupted("");
   if (exit_code_) return *exit_code_;

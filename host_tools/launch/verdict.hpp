@@ -30,14 +30,20 @@ class Verdict {
   int exit_code(int launcher, const std::vector<std::string>& command) const;
 
  private:
+  struct Rank {
+    pid_t process = 0;
+    bool has_ended = false;  ///< as it said
+  };
+
+  void lose(const RankEvent& event);
   [[noreturn]] void blame_launcher(int status, const std::vector<std::string>& command) const;
 
   unsigned ranks_;
-  std::map<unsigned, bool> here_;  ///< ranks that have begun on this computer; whether each has said its end
+  std::map<unsigned, Rank> here_;  ///< that have begun on this computer
   std::optional<int> exit_code_;
   bool of_rank_0_ = false;  ///< exit_code_ is
   bool interrupted_ = false;
-  std::string lost_;  ///< the first rank that was: its name; empty: none
+  std::string lost_;  ///< the first rank that was, and how; empty: none
 };
 
 }  // namespace torolux::launch
