@@ -58,8 +58,11 @@ void Verdict::interrupt() {
 int Verdict::exit_code(int launcher, const std::vector<std::string>& command) const {
   if (lost()) {
     const bool all_here = here_.size() == ranks_;
-    throw MachineFailure(lost_ + (all_here ? "" : ", or the launcher ended it since one on another computer was lost") +
-                         ". No rank runs any more; the last checkpoint goes on");
+    throw MachineFailure(
+        lost_ +
+        (all_here ? ""
+                  : "; unless the launcher ended it because a rank on another computer was lost, and says so above") +
+        "; all ranks have been ended");
   }
   if (interrupted_) throw Interrupted("");
   if (exit_code_) return *exit_code_;

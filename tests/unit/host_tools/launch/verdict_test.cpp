@@ -103,7 +103,8 @@ TEST(Verdict, WhoHasSaidItsEndIsNotLost) {
 TEST(Verdict, SaysWhereARankElsewhereMayHaveBeenTheFirst) {
   Verdict verdict = begun(2);
   verdict.take({Kind::died, 0, 90, SIGKILL});
-  EXPECT_THAT(failure_of(verdict), HasSubstr("one on another computer was lost"));
+  EXPECT_THAT(failure_of(verdict),
+              HasSubstr("unless the launcher ended it because a rank on another computer was lost"));
 }
 
 TEST(Verdict, AnInterruptionIsOneUnlessSomethingWasBefore) {
