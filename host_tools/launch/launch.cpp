@@ -8,6 +8,7 @@
 #include <set>
 
 #include "host_tools/launch/launcher_process.hpp"
+#include "host_tools/launch/orphans.hpp"
 #include "host_tools/launch/rank_links.hpp"
 #include "host_tools/launch/signal_file.hpp"
 #include "host_tools/launch/verdict.hpp"
@@ -16,15 +17,13 @@ namespace torolux::launch {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using std::chrono_literals::operator""ms;
-using std::chrono_literals::operator""s;
 
 /// The launcher's end is looked for so often.
-constexpr std::chrono::milliseconds kLook = 50ms;
+constexpr std::chrono::milliseconds kLook{50};
 /// So long a launcher may take to end ranks: where one was lost, and where rank 0 has done its work. OpenMPI takes 1 s.
-constexpr std::chrono::seconds kAfterLoss = 4s, kAfterWork = 8s;
+constexpr std::chrono::seconds kAfterLoss{4}, kAfterWork{8};
 /// Told to end, for itself and ranks on other computers.
-constexpr std::chrono::seconds kToldToEnd = 2s;
+constexpr std::chrono::seconds kToldToEnd{2};
 
 class Watch {
  public:
@@ -71,14 +70,15 @@ class Watch {
     while (!launcher_.poll()) listen(kLook);
   }
 
-  /// What a launcher leaves behind that was killed itself.
+  /// What launchers leave behind: ranks, where one was killed itself, and what ranks had started.
   void end_rest() {
-    listen(0ms);  // also what was said last
+    listen({});  // also what was said last
     const Clock::time_point end = Clock::now() + kToldToEnd;
     while (!links_.processes().empty()) {
       listen(kLook);
       if (Clock::now() > end) kill_ranks();
     }
+    Orphans::end();
   }
 
   void kill_ranks() const {
@@ -86,6 +86,7 @@ class Watch {
   }
 
   SignalFile signals_;  // first: blocked before there is anything that they could tear
+  Orphans orphans_;
   RankLinks links_;
   std::vector<std::string> command_;
   LauncherProcess launcher_;

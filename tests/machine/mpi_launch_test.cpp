@@ -11,6 +11,7 @@
 #include <functional>
 #include <thread>
 
+#include "host_tools/files/write_file.hpp"
 #include "tests/machine/mpi_run.hpp"
 #include "tests/machine/process.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -83,7 +84,7 @@ class MpiLaunch : public testing::Test {
 
   /// Nothing but a checkpoint, which is whole.
   void expect_nothing_half_done(const Launched& launched) {
-    EXPECT_TRUE(all_gone(launched.all()));
+    EXPECT_EQ(std::ranges::count_if(launched.all(), runs), 0) << "processes that are left";
     fs::remove(folder_.path() / "a.ckpt.png");  // where rays were traced already
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "the checkpoint, and nothing beside it";
   }
@@ -184,7 +185,7 @@ TEST_F(MpiLaunch, WithoutACheckpointASignalEndsARunThatLeavesNothing) {
     });
     run.signal(signal);
     EXPECT_EQ(run.wait().exit_code, 130) << signal;
-    EXPECT_TRUE(all_gone(processes));
+    EXPECT_EQ(std::ranges::count_if(processes, runs), 0);
     EXPECT_EQ(folder_.files(), 0U);
   }
 }
@@ -226,6 +227,27 @@ TEST_F(MpiLaunch, AStudyOnRanksOfItsOwnHasTheSameResults) {
   EXPECT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_EQ(run.output, one.output);
   EXPECT_EQ(run.errors, one.errors);
+}
+
+// Its run has nobody to give its result to.
+TEST_F(MpiLaunch, AKilledRankOfAStudyIsNamedAndItsRunEnded) {
+  const fs::path plan = folder_.path() / "plan.toml";
+  write_file(plan, std::string("[base]\ncommand = \"render\"\nscene = \"") + TOROLUX_SOURCE_DIR +
+                       "/scenes/cornell_box\"\n[vary]\nseed = [1, 2, 3, 4, 5, 6]\n");
+  study::Child study(torolux_file().string(), {"study", plan, "--ranks", "3"});
+  RankProcesses struck;
+  std::vector<pid_t> its_runs;
+  wait_for([&] {
+    struck = rank_and_keeper(1, folder_.path());
+    its_runs = children_of(struck.rank);
+    return struck.rank != 0 && !its_runs.empty();
+  });
+  ASSERT_EQ(its_runs.size(), 1U);
+  ::kill(struck.rank, SIGKILL);
+  const study::Ended end = study.wait();
+  EXPECT_EQ(end.exit_code, 3) << end.errors;
+  EXPECT_THAT(last_line(end.errors), HasSubstr("torolux: rank 1 ("));
+  EXPECT_FALSE(runs(its_runs[0]));
 }
 
 TEST_F(MpiLaunch, WhatIsWrongIsToldInOneLine) {
