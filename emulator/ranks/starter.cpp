@@ -71,6 +71,7 @@ sigset_t kept_signals() {
 
 /// Passes signals on until the child has ended, and ends.
 [[noreturn]] void keep(pid_t child, const StarterSocket& socket) {
+  ::prctl(PR_SET_NAME, "torolux-keeper");  // for ps
   const sigset_t signals = kept_signals();
   int status = 0;
   while (::waitpid(child, &status, WNOHANG) != child) {

@@ -19,11 +19,8 @@
 namespace torolux::test {
 namespace {
 
-using std::chrono_literals::operator""ms;
-using std::chrono_literals::operator""s;
 using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
 using testing_support::TemporaryFolder;
 
 constexpr unsigned kRanks = 3;
@@ -54,8 +51,9 @@ struct Launched {
 };
 
 void wait_for(const std::function<bool()>& there) {
-  const auto deadline = std::chrono::steady_clock::now() + 120s;
-  while (!there() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(1ms);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (!there() && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 /// It keeps its state in a.ckpt, and has done so once.
@@ -195,7 +193,7 @@ TEST_F(MpiLaunch, ASecondCtrlCEndsAllAtOnce) {
   ASSERT_TRUE(launched.there());
   for (const RankProcesses& one : launched.ranks) ::kill(one.rank, SIGSTOP);  // the first does nothing
   launched.run.signal(SIGINT);
-  std::this_thread::sleep_for(200ms);  // two that wait are one
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // two that wait are one
   launched.run.signal(SIGINT);
   const study::Ended end = launched.run.wait();
   EXPECT_EQ(end.exit_code, 130) << end.errors;
