@@ -14,6 +14,7 @@
 #include "host_tools/files/write_file.hpp"
 #include "tests/machine/mpi_run.hpp"
 #include "tests/machine/process.hpp"
+#include "tests/support/golden_sort.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace torolux::test {
@@ -116,6 +117,17 @@ TEST_F(MpiLaunch, RanksOfItsOwnLeaveTheBytesOfOneProcess) {
     EXPECT_EQ(contents(folder.path() / "a.pfm"), contents(alone.path() / "a.pfm"));
     EXPECT_EQ(statistics(folder.path() / "a.json"), statistics(alone.path() / "a.json"));
   }
+}
+
+TEST_F(MpiLaunch, AnImageOnRanksOfItsOwnHasTheGoldenTraceHash) {
+  const fs::path file = folder_.path() / "a.json";
+  std::vector<std::string> words = {"run", std::string(TOROLUX_FIRMWARE_DIR) + "/sort.elf", "--engine", "interpreted"};
+  words.insert(words.end(), {"--pes", std::to_string(kGoldenColumns) + "x" + std::to_string(kGoldenRows)});
+  words.insert(words.end(), {"--stats", file.string(), "--ranks", "4", "--"});
+  words.insert(words.end(), kGoldenArguments.begin(), kGoldenArguments.end());
+  const Finished run = run_torolux(words);
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(std::stoull(statistics(file).at("trace_hash").get<std::string>(), nullptr, 16), kGoldenTraceHash);
 }
 
 struct Death {
