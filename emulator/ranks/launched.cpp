@@ -10,6 +10,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "emulator/ranks/starter.hpp"
+
 namespace torolux::ranks {
 namespace {
 
@@ -22,7 +24,7 @@ struct Launcher {
 constexpr std::array<Launcher, 3> kLaunchers = {{{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                                  {"PMI_SIZE", "PMI_RANK"},
                                                  {"SLURM_STEP_NUM_TASKS", "PMIX_RANK"}}};
-constexpr std::array<std::string_view, 4> kOfLaunchers = {"OMPI_", "PMI_", "PMIX_", "HYDI_"};
+constexpr std::array<std::string_view, 5> kOfLaunchers = {"OMPI_", "PMI_", "PMIX_", "HYDI_", kStarterVariable};
 
 std::optional<unsigned> number(const char* name) {
   const char* text = std::getenv(name);

@@ -6,6 +6,7 @@
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <deque>
@@ -16,6 +17,7 @@
 #include <thread>
 
 #include "emulator/ranks/launched.hpp"
+#include "emulator/ranks/starter.hpp"
 
 namespace torolux::ranks {
 namespace {
@@ -159,6 +161,7 @@ void MpiRank::abort(const std::string& reason) {
   std::cout << std::flush;
   std::cerr << "torolux: rank " << ranks_.own << " (" << host_name() << "): " << reason << std::endl;
   constexpr int kFailure = static_cast<int>(ExitCode::machine_failure);
+  tell_starter(kFailure);
   MPI_Abort(MPI_COMM_WORLD, kFailure);
   std::_Exit(kFailure);
 }
@@ -171,6 +174,7 @@ void MpiRank::close(std::span<const unsigned> lost, int exit_code) {
     unsigned first = 0;
     while (std::ranges::find(lost, first) != lost.end()) ++first;
     if (first != ranks_.own) std::this_thread::sleep_for(std::chrono::seconds(10));
+    tell_starter(exit_code);
     const std::lock_guard lock(mutex_);
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);
@@ -197,6 +201,19 @@ void MpiRank::close(std::span<const unsigned> lost, int exit_code) {
 }
 
 }  // namespace
+
+std::vector<std::string> mpi_launcher() {
+  const std::string program = TOROLUX_MPIRUN;  // as found when this was built
+  // It may have been built on another computer.
+  std::vector<std::string> words = {
+      ::access(program.c_str(), X_OK) == 0 ? program : program.substr(program.find_last_of('/') + 1)};
+#ifdef OPEN_MPI
+  // A rank more than cores is right, and each has its threads. Quiet: what went wrong, the ranks tell.
+  words.insert(words.end(), {"--quiet", "--oversubscribe", "--bind-to", "none"});
+  if (::geteuid() == 0) words.emplace_back("--allow-run-as-root");
+#endif
+  return words;
+}
 
 std::unique_ptr<Transport> join_mpi() {
   auto transport = std::make_unique<MpiRank>();

@@ -10,4 +10,8 @@ std::unique_ptr<Transport> join_mpi() {
       "mpi-default-dev and build it anew");
 }
 
+std::vector<std::string> mpi_launcher() {
+  throw UsageError("--ranks: this torolux was built without MPI; install mpi-default-dev and build it anew");
+}
+
 }  // namespace torolux::ranks

@@ -16,7 +16,7 @@ void refuse(bool asked, const std::string& what, const std::string& instead) {
 }  // namespace
 
 void check_goes_with_ranks(const MachineSetup& setup) {
-  const std::string alone = "start it without mpirun";
+  const std::string alone = "leave out --ranks, or mpirun";
   const Debugging& debugging = setup.debugging;
   refuse(setup.engine == kQemuEngine || !debugging.qemu_pes.empty(), "the engine qemu",
          "take the engine translated, interpreted or auto, or " + alone);

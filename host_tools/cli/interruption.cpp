@@ -23,6 +23,10 @@ void forget_interruption() {
   flag = 0;
 }
 
+void end_by_signals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
+}
+
 InterruptionGuard::InterruptionGuard() {
   flag = 0;
   for (std::size_t i = 0; i < kSignals.size(); ++i) {

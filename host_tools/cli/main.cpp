@@ -17,12 +17,15 @@
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/ranks/launched.hpp"
+#include "emulator/ranks/starter.hpp"
 #include "firmware/protocol/machine.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/help_format.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/cli/launch_options.hpp"
 #include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/parse_error.hpp"
+#include "host_tools/launch/launch.hpp"
 #include "host_tools/report/version.hpp"
 
 namespace torolux {
@@ -91,6 +94,7 @@ int run(CLI::App& app, const CommandAction& action, int argc, const char* const*
     throw UsageError(parse_error_text(app, words, error));
   }
   refuse_copies(app);
+  if (const auto choice = launch_asked(*app.get_subcommands().front())) return launch::run_ranks(*choice, words);
   return action();
 }
 
@@ -153,6 +157,7 @@ void add_commands(CLI::App& app, CommandAction& action) {
 }
 
 int torolux_main(int argc, const char* const* argv) {
+  ranks::join_starter();
   const InterruptionGuard guard;
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
   app.set_version_flag("--version", version_text());
@@ -165,7 +170,8 @@ int torolux_main(int argc, const char* const* argv) {
   add_commands(app, action);
   std::cout.clear();
   const int result = flushed(guarded([&] { return run(app, action, argc, argv); }));
-  if (result == kInterrupted) std::cerr << "torolux: interrupted" << std::endl;
+  if (result == kInterrupted && !ranks::has_starter()) std::cerr << "torolux: interrupted" << std::endl;
+  ranks::tell_starter(result);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "emulator/errors.hpp"
 #include "emulator/ranks/launched.hpp"
 #include "emulator/ranks/mpi_ranks.hpp"
+#include "emulator/ranks/starter.hpp"
 #include "emulator/remote/serve_pes.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/interruption.hpp"
@@ -23,7 +24,8 @@ void add_rank_options(CLI::App& command, RankOptions& options, const std::string
       command
           .add_option_function<std::string>(
               "--placing", [&options](const std::string& name) { options.placing = kNames.at(name); },
-              "With mpirun: which rank runs which PE: block (neighbours together), cyclic or random; no result depends "
+              "With --ranks or mpirun: which rank runs which PE: block (neighbours together), cyclic or random; no "
+              "result depends "
               "on it [block]")
           ->type_name("NAME")
           ->check(CLI::IsMember({"block", "cyclic", "random"}));
@@ -32,6 +34,8 @@ void add_rank_options(CLI::App& command, RankOptions& options, const std::string
 
 int run_on_ranks(const RankOptions& options, const std::function<int(remote::PeRanks*)>& work) {
   if (ranks::launched_ranks().count == 1) return work(nullptr);
+  // Who has started the ranks passes the user's signals on to rank 0 alone: others mean this rank.
+  if (ranks::launched_ranks().own != 0 && ranks::has_starter()) end_by_signals();
   const std::unique_ptr<ranks::Transport> transport = ranks::join_mpi();
   const std::string program = sha256_of_file("/proc/self/exe");
   if (transport->ranks().own != 0) {
@@ -42,12 +46,13 @@ int run_on_ranks(const RankOptions& options, const std::function<int(remote::PeR
   remote::PeRanks others(*transport, options.placing, program);
   // What goes wrong is told before the others end: where one of them is lost, they take this process along.
   const int code = guarded([&] { return work(&others); });
+  ranks::tell_starter(code);  // the work is done, whatever becomes of ranks from now on
   others.end(code);
   return code;
 }
 
 void refuse_on_ranks(bool given, const std::string& option) {
-  if (given) throw UsageError(option + " does not go with PEs on other ranks: start it without mpirun");
+  if (given) throw UsageError(option + " does not go with PEs on other ranks: leave out --ranks, or mpirun");
 }
 
 }  // namespace torolux

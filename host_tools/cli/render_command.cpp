@@ -14,9 +14,11 @@
 #include "host_tools/cli/findings.hpp"
 #include "host_tools/cli/firmware_image.hpp"
 #include "host_tools/cli/growing_options.hpp"
+#include "host_tools/cli/launch_options.hpp"
 #include "host_tools/cli/measured_speed.hpp"
 #include "host_tools/cli/path_frames.hpp"
 #include "host_tools/cli/prepared_render.hpp"
+#include "host_tools/cli/table_options.hpp"
 #include "host_tools/display/walk.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
@@ -293,6 +295,7 @@ void add_render_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Render a picture of a scene on the machine");
   add_render_options(*command, *options);
+  add_launch_options(*command, heading(OptionGroup::machine));
   command->footer("An option given outweighs the scene's own default, which outweighs the one in [brackets].");
   command->callback([options, &action] {
     action = [options] {

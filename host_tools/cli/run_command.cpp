@@ -9,6 +9,7 @@
 #include "emulator/errors.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/debugging_options.hpp"
+#include "host_tools/cli/launch_options.hpp"
 #include "host_tools/cli/run_options.hpp"
 #include "host_tools/files/distinct_files.hpp"
 #include "host_tools/files/write_file.hpp"
@@ -159,6 +160,7 @@ void add_run_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run any firmware image and print what its PEs say");
   add_run_options(*command, *options);
+  add_launch_options(*command, "");
   command->callback([options, &action] {
     action = [options] {
       return run_on_ranks(options->ranks,

@@ -44,11 +44,12 @@ class Descriptor {
   int descriptor_;
 };
 
-/// A new file in the folder of the target; removed at the end unless it has been renamed. Its name does not contain the
-/// target's, which may be as long as names may be.
+/// A new file in the folder of the target. It has no name until it is whole, so that a process that is killed leaves
+/// nothing; where the file system has no such files, it has one, and is removed at the end unless it has been renamed.
+/// That name does not contain the target's, which may be as long as names may be.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const fs::path& target) : name_(unused_name(target)), descriptor_(create(name_)) {
+  explicit TemporaryFile(const fs::path& target) : descriptor_(create(target, name_)) {
     if (!descriptor_.open()) refuse(target, "cannot be written", errno);
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -58,8 +59,15 @@ class TemporaryFile {
   }
 
   Descriptor& descriptor() { return descriptor_; }
-  bool rename_to(const fs::path& target) {
-    if (std::rename(name_.c_str(), target.c_str()) != 0) return false;
+  /// Closes it, and puts it in the target's place. False, with errno set: that could not be done.
+  bool become(const fs::path& target) {
+    if (name_.empty()) {
+      const fs::path name = unused_name(target);
+      if (::linkat(AT_FDCWD, path_of(descriptor_.get()).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
+        return false;
+      name_ = name;
+    }
+    if (!descriptor_.close() || std::rename(name_.c_str(), target.c_str()) != 0) return false;
     name_.clear();
     return true;
   }
@@ -70,8 +78,18 @@ class TemporaryFile {
     return target.parent_path() /
            (".torolux-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part");
   }
-  static int create(const fs::path& name) {
-    return ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  /// Of an open file, whether it has a name or not.
+  static std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+  /// name: stays empty where it needs none.
+  static int create(const fs::path& target, fs::path& name) {
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    const int unnamed = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (unnamed >= 0 && ::access(path_of(unnamed).c_str(), F_OK) == 0) return unnamed;
+    if (unnamed >= 0) ::close(unnamed);  // no /proc, by which it would get a name
+    const fs::path unused = unused_name(target);
+    const int named = ::open(unused.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (named >= 0) name = unused;
+    return named;
   }
 
   fs::path name_;
@@ -159,8 +177,7 @@ void FileWriter::empty() {
 
 void FileWriter::finish() {
   if (parts_->device) return;
-  if (!parts_->temporary->descriptor().close() || !parts_->temporary->rename_to(parts_->target))
-    refuse(file_, "cannot be written", errno);
+  if (!parts_->temporary->become(parts_->target)) refuse(file_, "cannot be written", errno);
 }
 
 void write_file(const fs::path& file, std::span<const std::byte> contents) {

@@ -15,9 +15,9 @@ namespace torolux::study {
 namespace {
 
 /// These a study decides itself, or they are for looking at one run.
-constexpr std::array<std::string_view, 15> kNotInPlans = {
-    "help",           "profile",   "output", "no-picture", "stats",   "stats-csv", "quiet", "verbose",
-    "save-radiosity", "save-mesh", "gdb",    "gdb-pes",    "threads", "set",       "format"};
+constexpr std::array<std::string_view, 17> kNotInPlans = {
+    "help",      "profile", "output",  "no-picture", "stats", "stats-csv", "quiet", "verbose", "save-radiosity",
+    "save-mesh", "gdb",     "gdb-pes", "threads",    "set",   "format",    "ranks", "launcher"};
 constexpr std::array<std::string_view, 3> kCommands = {"render", "run", "network"};
 constexpr std::string_view kMachine = "machine.";
 

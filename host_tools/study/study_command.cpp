@@ -12,8 +12,10 @@
 #include "emulator/nearest_name.hpp"
 #include "emulator/ranks/launched.hpp"
 #include "emulator/ranks/mpi_ranks.hpp"
+#include "emulator/ranks/starter.hpp"
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/cli/launch_options.hpp"
 #include "host_tools/files/shell_line.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/statements.hpp"
@@ -245,6 +247,7 @@ int run_on_ranks(StudyOptions options) {
   }
   RankHands others(*transport, options.jobs, program_digest());
   const int code = guarded([&] { return run_studies(options, &others); });
+  ranks::tell_starter(code);
   others.end(code);
   return code;
 }
@@ -261,7 +264,7 @@ void add_options(CLI::App& command, StudyOptions& options) {
       ->type_name("FOLDER");
   command
       .add_option("--jobs", options.jobs,
-                  "Runs at once [all cores over the threads of a run; with mpirun 1 of each rank]")
+                  "Runs at once [all cores over the threads of a run; with --ranks or mpirun 1 of each rank]")
       ->type_name("N")
       ->check(CLI::Range(1U, 4096U));
   command.add_flag("--dry-run", options.dry_run, "Run nothing; print what would run, and what is there");
@@ -289,6 +292,7 @@ void add_study_command(CLI::App& app, CommandAction& action) {
   CLI::App* command =
       app.add_subcommand("study", "Do the runs of plans that are not done yet; write a table and curves of each");
   study::add_options(*command, *options);
+  add_launch_options(*command, "");
   command->callback([options, &action] { action = [options] { return study::run(*options); }; });
 }
 

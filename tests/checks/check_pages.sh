@@ -117,6 +117,7 @@ for page in "${pages[@]}"; do [[ -n ${reached[$page]-} ]] || tell "$page" 'no pa
 declare -A help
 check_command() {  # PAGE LINE
   local page=$1 line=${2%%#*} word command rest
+  line=$(sed 's/"[^"]*"/""/g' <<<"$line")  # values, maybe with options of another program
   rest=${line#*torolux }
   [[ $line != *torolux ]] || return 0
   read -r command rest <<<"$rest"

@@ -4,9 +4,11 @@
 
 #include <sys/types.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -42,8 +44,9 @@ inline std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// The process of this rank that works on this folder; 0: there is none.
-inline pid_t process_of(unsigned rank, const fs::path& folder) {
+/// The processes of this rank that work on this folder.
+inline std::vector<pid_t> processes_of(unsigned rank, const fs::path& folder) {
+  std::vector<pid_t> processes;
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string environment = '\0' + text_of(entry.path() / "environ");
     const auto says = [&](const std::string& variable) {
@@ -52,9 +55,36 @@ inline pid_t process_of(unsigned rank, const fs::path& folder) {
     const std::string words = text_of(entry.path() / "cmdline");
     if ((says("OMPI_COMM_WORLD_RANK") || says("PMI_RANK")) && words.find(folder.string()) != std::string::npos &&
         words.starts_with(torolux_file().string()))
-      return static_cast<pid_t>(std::stol(entry.path().filename()));
+      processes.push_back(static_cast<pid_t>(std::stol(entry.path().filename())));
   }
-  return 0;
+  return processes;
+}
+
+/// One of them; 0: there is none.
+inline pid_t process_of(unsigned rank, const fs::path& folder) {
+  const std::vector<pid_t> processes = processes_of(rank, folder);
+  return processes.empty() ? 0 : processes.front();
+}
+
+/// Of the main thread of a process.
+inline std::vector<pid_t> children_of(pid_t process) {
+  const std::string folder = "/proc/" + std::to_string(process) + "/task/" + std::to_string(process);
+  std::istringstream text(text_of(folder + "/children"));
+  return {std::istream_iterator<pid_t>(text), std::istream_iterator<pid_t>()};
+}
+
+/// Of a rank that --ranks has started; 0: not there.
+struct RankProcesses {
+  pid_t keeper = 0, rank = 0;
+};
+inline RankProcesses rank_and_keeper(unsigned rank, const fs::path& folder) {
+  const std::vector<pid_t> processes = processes_of(rank, folder);
+  for (const pid_t keeper : processes) {
+    for (const pid_t child : children_of(keeper)) {
+      if (std::find(processes.begin(), processes.end(), child) != processes.end()) return {keeper, child};
+    }
+  }
+  return {};
 }
 
 }  // namespace torolux::test

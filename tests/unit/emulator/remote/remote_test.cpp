@@ -188,7 +188,7 @@ TEST(RemotePes, WhatDoesNotGoWithRanksIsRefused) {
   ListeningHost host(1);
   MachineSetup setup = small_machine(2, 1);
   setup.debugging.qemu_pes = {1};
-  EXPECT_THAT(failure_on({}, setup, host, wandering()), HasSubstr("without mpirun"));
+  EXPECT_THAT(failure_on({}, setup, host, wandering()), HasSubstr("leave out --ranks, or mpirun"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -52,6 +53,23 @@ TEST(WriteFile, ReplacesAndLeavesNothingElse) {
   write_file(file, "second");
   EXPECT_EQ(read_file(file, kMost), bytes_of("second"));
   EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(WriteFile, WhoIsKilledWhileItWritesLeavesNothing) {
+  const TemporaryFolder folder;
+  const int unnamed = ::open(folder.path().c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+  if (unnamed < 0) GTEST_SKIP() << "this file system has no files without a name";
+  ::close(unnamed);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    FileWriter writer(folder.path() / "a");
+    writer.append(bytes_of("half of it"));
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(folder.files(), 0U);
 }
 
 TEST(WriteFile, NameOfGreatestLength) {

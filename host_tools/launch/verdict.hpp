@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What ranks and their launcher have said enters; how the whole run has ended leaves.
+#pragma once
+
+#include <sys/types.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_tools/launch/rank_links.hpp"
+
+namespace torolux::launch {
+
+/// The first that matters counts, since everything after it may be its consequence.
+class Verdict {
+ public:
+  explicit Verdict(unsigned ranks) : ranks_(ranks) {}
+
+  void take(const RankEvent& event);
+  /// This process was told to end, and no rank can be told to do so in order.
+  void interrupt();
+  /// Nothing can change it, but for a last word of rank 0.
+  bool settled() const { return exit_code_.has_value() || interrupted_; }
+  /// Whether a rank was lost.
+  bool lost() const { return !lost_.empty(); }
+  /// launcher: its wait status; command: its words, for a message. Throws Interrupted; MachineFailure: a rank was lost,
+  /// and is named, or the launcher has not come so far.
+  int exit_code(int launcher, const std::vector<std::string>& command) const;
+
+ private:
+  struct Rank {
+    pid_t process = 0;
+    bool has_ended = false;  ///< as it said
+  };
+
+  void lose(const RankEvent& event);
+  [[noreturn]] void blame_launcher(int status, const std::vector<std::string>& command) const;
+
+  unsigned ranks_;
+  std::map<unsigned, Rank> here_;  ///< that have begun on this computer
+  std::optional<int> exit_code_;
+  bool of_rank_0_ = false;  ///< exit_code_ is
+  bool interrupted_ = false;
+  std::string lost_;  ///< the first rank that was, and how; empty: none
+};
+
+}  // namespace torolux::launch
