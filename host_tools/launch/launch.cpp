@@ -20,10 +20,11 @@ using Clock = std::chrono::steady_clock;
 
 /// The launcher's end is looked for so often.
 constexpr std::chrono::milliseconds kLook{50};
-/// So long a launcher may take to end ranks: where one was lost, and where rank 0 has done its work. OpenMPI takes 1 s.
-constexpr std::chrono::seconds kAfterLoss{4}, kAfterWork{8};
-/// Told to end, for itself and ranks on other computers.
-constexpr std::chrono::seconds kToldToEnd{2};
+/// So long a launcher may take to end ranks: where the run has failed (OpenMPI takes 1 s; without a connection to
+/// another computer it waits for ever), and where rank 0 has done its work.
+constexpr std::chrono::milliseconds kAfterFailure{1500}, kAfterWork{8000};
+/// Told to end, for itself and ranks on other computers. A rank counts as lost after 8 s: all is over after 10.
+constexpr std::chrono::milliseconds kToldToEnd{500};
 
 class Watch {
  public:
@@ -39,7 +40,7 @@ class Watch {
       listen(kLook);
       while (const std::optional<int> signal = signals_.take()) pass_on(*signal);
       if (!settled_ && verdict_.settled()) settled_ = Clock::now();
-      if (settled_ && Clock::now() - *settled_ > (verdict_.lost() ? kAfterLoss : kAfterWork)) end_all();
+      if (settled_ && Clock::now() - *settled_ > (verdict_.failed() ? kAfterFailure : kAfterWork)) end_all();
     }
     end_rest();
     return verdict_.exit_code(*launcher_.poll(), command_);

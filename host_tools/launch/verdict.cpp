@@ -56,7 +56,7 @@ void Verdict::interrupt() {
 }
 
 int Verdict::exit_code(int launcher, const std::vector<std::string>& command) const {
-  if (lost()) {
+  if (!lost_.empty()) {
     const bool all_here = here_.size() == ranks_;
     throw MachineFailure(
         lost_ +

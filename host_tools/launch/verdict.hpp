@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/errors.hpp"
 #include "host_tools/launch/rank_links.hpp"
 
 namespace torolux::launch {
@@ -23,8 +24,8 @@ class Verdict {
   void interrupt();
   /// Nothing can change it, but for a last word of rank 0.
   bool settled() const { return exit_code_.has_value() || interrupted_; }
-  /// Whether a rank was lost.
-  bool lost() const { return !lost_.empty(); }
+  /// Whether a rank was lost, or has told of a failure: nothing is left to be written.
+  bool failed() const { return exit_code_ == static_cast<int>(ExitCode::machine_failure); }
   /// launcher: its wait status; command: its words, for a message. Throws Interrupted; MachineFailure: a rank was lost,
   /// and is named, or the launcher has not come so far.
   int exit_code(int launcher, const std::vector<std::string>& command) const;

@@ -62,6 +62,7 @@ TEST(Verdict, OthersCountOnlyWhereTheyFailFirst) {
   first.take({Kind::ends, 2, 102, 3});
   first.take({Kind::ends, 0, 100, 130});  // the launcher has told it to end
   EXPECT_EQ(code_of(first), 3);
+  EXPECT_TRUE(first.failed()) << "nothing is left to be written, and no launcher need be waited for";
   Verdict late = begun();
   late.take({Kind::ends, 0, 100, 0});
   late.take({Kind::ends, 1, 101, 3});
@@ -74,7 +75,7 @@ TEST(Verdict, TheFirstRankThatDiesIsNamed) {
   verdict.take({Kind::died, 0, 90, SIGKILL});
   verdict.take({Kind::keeper_gone, 0, 90, 0});
   verdict.take({Kind::ends, 2, 102, 130});
-  EXPECT_TRUE(verdict.lost());
+  EXPECT_TRUE(verdict.failed());
   EXPECT_THAT(failure_of(verdict),
               AllOf(HasSubstr("rank 1 ("), HasSubstr(", process 101) is lost: it died of signal 11"),
                     Not(HasSubstr("rank 0")), Not(HasSubstr("another computer"))));
@@ -94,7 +95,7 @@ TEST(Verdict, WhoHasSaidItsEndIsNotLost) {
   verdict.take({Kind::ends, 2, 102, 0});
   verdict.take({Kind::died, 2, 92, exited(0)});
   verdict.take({Kind::keeper_gone, 2, 92, 0});
-  EXPECT_FALSE(verdict.lost());
+  EXPECT_FALSE(verdict.failed());
   verdict.take({Kind::ends, 0, 100, 0});
   verdict.take({Kind::died, 1, 91, SIGKILL});  // the work is done
   EXPECT_EQ(code_of(verdict), 0);
