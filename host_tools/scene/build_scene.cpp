@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/number_among.hpp"
 #include "host_tools/scene/resolve_material.hpp"
@@ -50,6 +51,7 @@ std::uint32_t SceneBuilder::add_material(SceneMaterial material, const TextureUs
 void SceneBuilder::add_triangle(const SceneTriangle& triangle, const Place& place) {
   if (triangles_.size() >= kMostTriangles)
     refuse(place, "more than " + std::to_string(kMostTriangles) + " triangles; simplify the mesh or leave parts out");
+  look_for_interruption(triangles_.size());
   triangles_.push_back(triangle);
   if (files_.empty() || files_.back() != place.file) files_.push_back(place.file);
   origins_.push_back({static_cast<std::uint32_t>(files_.size() - 1), static_cast<std::uint32_t>(place.line)});

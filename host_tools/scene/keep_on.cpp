@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// A flag that signals set becomes an exception.
+#include "host_tools/scene/keep_on.hpp"
+
+#include "emulator/errors.hpp"
+#include "host_tools/cli/command.hpp"
+
+namespace torolux {
+
+void look_for_interruption() {
+  if (interrupted()) throw Interrupted("the scene was not loaded to its end");
+}
+
+}  // namespace torolux

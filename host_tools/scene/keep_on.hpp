@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Whether the user has ended the program while a scene loads, which may take a minute.
+#pragma once
+
+#include <cstddef>
+
+namespace torolux {
+
+/// Between parts of the work. Throws Interrupted.
+void look_for_interruption();
+
+/// In a loop of many small steps: looks now and then. step: its number.
+inline void look_for_interruption(std::size_t step) {
+  constexpr std::size_t often = 4096;
+  if (step % often == 0) look_for_interruption();
+}
+
+}  // namespace torolux
