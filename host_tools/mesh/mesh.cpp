@@ -293,7 +293,16 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
   }
 }
 
-/// The scene but for its images, its flat regions cut anew.
+void take_textures(const Scene& scene, std::uint32_t most_texels, Mesh& mesh) {
+  for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, most_texels));
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (triangle.texture == protocol::kNoTexture) continue;
+    for (std::uint32_t i = triangle.texture_points; i < triangle.texture_points + 3; ++i)
+      mesh.texture_points[i] = mesh.textures[triangle.texture].placed(mesh.texture_points[i]);
+  }
+}
+
+/// The scene but for its images' texels, its flat regions cut anew.
 Scene retriangulated(const Scene& scene) {
   Scene cut;
   cut.name = scene.name;
@@ -302,6 +311,8 @@ Scene retriangulated(const Scene& scene) {
   cut.texture_points = scene.texture_points;
   cut.triangles = scene.triangles;
   cut.materials = scene.materials;
+  for (const SceneTexture& texture : scene.textures)
+    cut.textures.push_back({texture.file, texture.width, texture.height, {}, texture.clamped});
   cut.sky = scene.sky;
   cut.webs = scene.webs;
   cut.lamps = scene.lamps;
@@ -319,7 +330,7 @@ Mesh make_mesh(const Scene& scene, const MeshChoice& choice, std::uint64_t machi
   choose_sides(cut, choice, mesh);
   make_patches(choose_cutting(cut, choice, machine_bytes, mesh), choice.splits, mesh);
   for (MeshFacet& facet : mesh.facets) facet.sends_from = sending_part(mesh, facet);
-  for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, choice.texels));
+  take_textures(scene, choice.texels, mesh);
   set_reflectances(scene, mesh);
   return mesh;
 }

@@ -275,11 +275,10 @@ void SceneBuilder::add_parts_at_edges(const SceneTriangle& whole, bool turn, con
   const auto points = [this](std::uint32_t first) {
     return std::array{texture_points_[first], texture_points_[first + 1], texture_points_[first + 2]};
   };
-  const auto inset = textures_.half_texel(materials_[whole.material].texture);
   for (const CutOutPart& one : parts_at_edges(points(whole.texture_points))) {
     const SceneTriangle part = part_of(whole, one);
     auto clamped = points(part.texture_points);
-    clamp_to_edges(clamped, inset);
+    clamp_to_edges(clamped);
     std::ranges::copy(clamped, texture_points_.begin() + part.texture_points);
     add_turned(part, turn, place);
   }
