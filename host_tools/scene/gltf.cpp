@@ -191,10 +191,9 @@ class Importer {
       for (const std::uint32_t p : triangle.position) box.include(mesh_.positions[p]);
     const double longest = mesh_.triangles.empty() ? 1 : vec::largest(box.extent());
     constexpr double share = 0.005;
-    for (const GltfLight& light : lights_) {
-      check_room(mesh_.positions.size(), root_.place());
-      add_gltf_light(root_, light, share * longest, units_, mesh_, notices_);
-    }
+    constexpr std::size_t corners = 12;
+    if (!lights_.empty()) check_room(mesh_.positions.size() + corners * (lights_.size() - 1), root_.place());
+    add_gltf_lights(root_, lights_, share * longest, units_, mesh_, notices_);
   }
 
   void tell_units() {
