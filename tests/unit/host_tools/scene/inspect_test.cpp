@@ -8,6 +8,7 @@
 namespace torolux {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -79,7 +80,8 @@ TEST(Inspect, SurfacesThatAreLeftInOnePlane) {
   const std::string floor = "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nusemtl wall\nf -1 -2 -3 -4\n";
   const std::string beside = "v 4 0 0\nv 6 0 0\nv 6 0 4\nv 4 0 4\nusemtl other\nf -1 -2 -3 -4\n";
   EXPECT_THAT(inspected(floor + box(0, 2, false, "glass")),
-              Contains(HasSubstr("'wall' and 'glass' overlap in one plane")));
+              Contains(AllOf(HasSubstr("'wall' and 'glass' overlap in one plane"), HasSubstr("move 'glass' away"))));
+  EXPECT_THAT(inspected(floor + box(0, 2, false, "other")), IsEmpty()) << "nobody sees where it stands";
   EXPECT_THAT(inspected(floor + beside), IsEmpty()) << "a common edge is no overlap";
 }
 
