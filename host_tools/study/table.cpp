@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/errors.hpp"
 #include "host_tools/report/text.hpp"
 #include "host_tools/study/figures.hpp"
 
@@ -75,8 +74,8 @@ void check_baseline(const Plan& plan, const std::vector<Point>& points) {
   if (plan.report.baseline.empty()) return;
   const std::vector<std::size_t> baselines = baselines_of(plan, points, varied_names(plan));
   if (std::ranges::any_of(baselines, [&](std::size_t baseline) { return baseline < points.size(); })) return;
-  throw InputError(plan.file.string() + ": [report]: 'baseline' names no run of the plan: of what varies, it takes " +
-                   "values that stand in the lists");
+  refuse({plan.file.string(), plan.report.lines.at("baseline")},
+         "[report]: 'baseline' names no run of the plan: of what varies, it takes values that stand in the lists");
 }
 
 std::size_t Table::column(const std::string& name) const {
