@@ -47,6 +47,18 @@ TEST(Inspect, SoundSceneIsLeftInPeace) {
               IsEmpty());
 }
 
+TEST(Inspect, AnOpeningOfTheSkyThatFacesOutwards) {
+  const auto of = [](const std::string& facing) {
+    return inspect(load_texts({{"s.toml",
+                                "[room]\nsize = [4, 3, 5]\nopen = ['front']\n[sky]\nradiance = 1\n[[sky.opening]]\n"
+                                "centre = [2, 1.5, 5]\nsize = [4, 3]\nfacing = " +
+                                    facing + "\n"}},
+                              "s.toml"));
+  };
+  EXPECT_THAT(of("[0, 0, -1]"), IsEmpty());
+  EXPECT_THAT(of("[0, 0, 1]"), Contains(HasSubstr("[[sky.opening]] 1 around 2,1.5,5 faces outwards")));
+}
+
 TEST(Inspect, InvertedSolidAndRoom) {
   EXPECT_THAT(inspected(box(0, 10, true, "wall") + box(2, 3, true, "wall")),
               Contains(HasSubstr("closed solid 'wall' around 2.5,2.5,2.5 has its fronts inwards")));
