@@ -12,6 +12,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 using Pixels = std::vector<std::array<std::uint8_t, 3>>;
@@ -266,6 +267,13 @@ TEST(Texture, TgaIsReadWhateverItsName) {
   const Scene seen = load_texts(texts("map_Kd my tiles.png\n", glassy), "a.obj");
   EXPECT_EQ(seen.textures[0].texels, upwards);
   EXPECT_THAT(seen.warnings, Contains(HasSubstr("alpha of a texture")));
+  // The header tells that none of the 32 bits are alpha.
+  std::string filled = glassy;
+  filled[17] = 0;
+  const Scene opaque = load_texts(texts("map_Kd my tiles.png\n", filled), "a.obj");
+  EXPECT_EQ(opaque.textures[0].texels, upwards);
+  EXPECT_THAT(opaque.warnings, Contains(HasSubstr("a TGA whose header tells of no alpha")));
+  EXPECT_THAT(opaque.warnings, Not(Contains(HasSubstr("alpha of a texture"))));
   for (const std::string& image : {plain, packed, glassy})
     EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", image.substr(0, image.size() - 1)), "a.obj"),
                 StartsWith("lib/a.mtl:2: the texture 'lib/my tiles.png' cannot be read: it is cut short"));
