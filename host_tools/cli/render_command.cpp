@@ -28,6 +28,7 @@
 #include "host_tools/report/html_report.hpp"
 #include "host_tools/report/progress_line.hpp"
 #include "host_tools/run/debugged_run.hpp"
+#include "host_tools/solution/ply_file.hpp"
 #include "host_tools/trace/story.hpp"
 
 namespace torolux {
@@ -81,7 +82,7 @@ void check_results_writable(const Resolved& resolved, const RenderOptions& optio
   if (options.report) check_file_writable(*options.report);
   if (options.profile) check_file_writable(*options.profile);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
-  if (options.save_mesh) check_file_writable(*options.save_mesh);
+  if (options.save_mesh) check_ply_writable(*options.save_mesh);
   if (options.checkpoint.file) check_file_writable(*options.checkpoint.file);
 }
 

@@ -77,6 +77,15 @@ TEST(Results, ResultsInOneFileAreRefused) {
   EXPECT_EQ(folder.files(), 3U) << "the scene and the link";
 }
 
+TEST(Results, AMeshIsAPlyAndNoOtherExtensionIsTaken) {
+  const TemporaryFolder folder;
+  const std::string scene = write_small_scene(folder.path()).string();
+  const Outcome outcome = torolux({"render", scene, "--no-picture", "--save-mesh", folder.path() / "a.obj"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.obj: the mesh is written as .ply"), HasSubstr("a.ply")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.obj"));
+}
+
 TEST(SceneWords, StrictRefusesWhatIsTold) {
   const TemporaryFolder folder;
   const std::string scene = write_small_scene(folder.path()).string();
