@@ -44,7 +44,7 @@ std::vector<unsigned> pes_to_hold(const Debugging& debugging, unsigned pes) {
   std::ranges::sort(held);
   held.erase(std::unique(held.begin(), held.end()), held.end());
   if (held.back() >= pes) {
-    throw UsageError("--gdb-pes: there is no PE " + std::to_string(held.back()) + ": this machine's PEs are 0 to " +
+    throw InputError("--gdb-pes: there is no PE " + std::to_string(held.back()) + "; the machine has 0 to " +
                      std::to_string(pes - 1));
   }
   return held;

@@ -102,7 +102,7 @@ int flushed(int result) {
   if (std::cout) return result;
   const std::string why = failed_before || errno == 0 ? "" : std::string(": ") + std::strerror(errno);
   std::cerr << "torolux: standard output could not be written" << why << std::endl;
-  return result == code(ExitCode::done) ? code(ExitCode::machine_failure) : result;
+  return result == code(ExitCode::done) ? code(ExitCode::bad_input) : result;
 }
 
 }  // namespace
