@@ -47,6 +47,12 @@ TEST(Words, MistypedWordsSayWhatWasMeant) {
               HasSubstr("scenes/cornell_box'?"));
 }
 
+TEST(Words, AnOptionOfOneValueThatIsGivenTwiceIsToldWithBoth) {
+  const Outcome outcome = torolux({"run", "a.elf", "--pes", "1x1", "--pes=2x2"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("--pes is given twice, with 1x1 and 2x2; it takes one value: leave one out"));
+}
+
 TEST(Words, HelpIsACommand) {
   EXPECT_EQ(torolux({"help"}).out, torolux({"--help"}).out);
   EXPECT_EQ(torolux({"help", "render"}).out, torolux({"render", "--help"}).out);
