@@ -79,7 +79,7 @@ void add_debugging_options(CLI::App& command, Debugging& debugging, const std::s
 
 std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned columns, unsigned rows,
                                                  const std::function<std::filesystem::path(unsigned pe)>& image_of_pe,
-                                                 bool goes_back) {
+                                                 bool goes_back, std::function<std::string()> gives_up) {
   if (!debugging.own) {
     if (!debugging.own_pes.empty()) throw UsageError("--gdb-pes names PEs for --gdb PORT, which is not there");
     return nullptr;
@@ -91,6 +91,7 @@ std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned 
   options.pes = pes_to_hold(debugging, columns * rows);
   options.goes_back = goes_back;
   options.goes_on = [] { return !interrupted(); };
+  options.gives_up = std::move(gives_up);
   const unsigned first = options.pes.front();
   auto session = std::make_unique<debugger::Session>(std::move(options));
   debugging.debugger = session.get();

@@ -115,6 +115,12 @@ TEST(MixedEngines, WhatTheMachineDoesNotHaveIsRefused) {
   expect({"--gdb", "0", "--engine", "qemu"}, 1, "the engine qemu lends no PEs to the emulator's own debugger");
 }
 
+TEST(Timeout, HoldsWhileADebuggerIsAwaited) {
+  const Finished run = run_torolux({"run", image("token"), "--pes", "2x1", "--gdb", "0", "--timeout", "1"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("the run has taken 1 s, and is given up (--timeout) while its PEs are held"));
+}
+
 // ---- Debuggers ----
 
 /// The image `token`, with debuggers for some of its PEs.
