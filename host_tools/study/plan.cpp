@@ -198,6 +198,9 @@ class PlanReader {
     for (const toml::node& name : *list) {
       if (!name.is_string()) refuse(place_of(name, file_), std::string("[report] '") + key + "' is a list of names");
       names.push_back(name.value<std::string>().value_or(""));
+      if (names.back().empty()) refuse(place_of(name, file_), std::string("[report] '") + key + "' has an empty name");
+      if (std::ranges::count(names, names.back()) > 1)
+        refuse(place_of(name, file_), std::string("[report] '") + key + "' names '" + names.back() + "' twice");
       plan_.report.lines.emplace(names.back(), place_of(name, file_).line);
     }
     return names;

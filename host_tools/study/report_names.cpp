@@ -36,7 +36,8 @@ MachineFigures figures_of_nothing() {
 
 /// Of one PE, one stage, one round.
 Json model_of(const std::string& command) {
-  if (command == "run") return Json::parse(run_stats_json({}, {}, figures_of_nothing(), 0));
+  if (command == "run")
+    return Json::parse(run_stats_json({}, {InputFile{"image", "an image", ""}, {}, {}}, figures_of_nothing(), 0));
   RenderFigures figures;
   figures.machine = figures_of_nothing();
   figures.rounds.resize(1);
@@ -65,7 +66,9 @@ bool may_have(const Json& model, std::string_view name) {
 
 std::vector<std::string> keys_of(const Json& model) {
   std::vector<std::string> keys;
-  for (const auto& [pointer, value] : model.flatten().items()) {
+  const Json flat = model.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (pointer.empty()) continue;  // of an object without keys
     std::string name = pointer.substr(1);
     std::ranges::replace(name, '/', '.');
     keys.push_back(name);

@@ -39,7 +39,7 @@ std::string report_refusal(const std::string& base, const std::string& report) {
 
 TEST(Plan, NamesOfFiguresThatNoRunHasAreRefusedBeforeTheFirst) {
   EXPECT_EQ(report_refusal(kBase, "x = 'pes'\ny = ['cycles',\n 'hops.meen']\n"),
-            "plan.toml:8: [report]: no run has a figure 'hops.meen'; did you mean 'hops.mean'?");
+            "plan.toml:9: [report]: no run has a figure 'hops.meen'; did you mean 'hops.mean'?");
   EXPECT_THAT(report_refusal(kBase, "y = 'cycles.paint'\n"), StartsWith("plan.toml:7: [report]: no run has a figure"));
   EXPECT_THAT(report_refusal(kBase, "\nx = 'pe_cout'\n"), StartsWith("plan.toml:8: [report]: no run has a figure"));
   EXPECT_THAT(report_refusal(kBase, "by = 'sise'\n"), StartsWith("plan.toml:7: [report]: no run has a figure"));
@@ -48,7 +48,7 @@ TEST(Plan, NamesOfFiguresThatNoRunHasAreRefusedBeforeTheFirst) {
   for (const char* name : {"speed_up.radiosity", "pes.3.busy_cycles", "stages.2.limits.shares.bus", "energy.emitted.1",
                            "kinds.light.packets", "phases.my own", "settings.camera.eye.0", "draft.splits", "pes",
                            "histograms.bytes_by_hops.3", "rounds.17.tail", "links.2.west.flits", "memory.needed",
-                           "path.3.virtual_cycles", "host_processor.work.shots.items", "wall_seconds"})
+                           "path.3.virtual_cycles", "host_processor.work.copy.items", "wall_seconds"})
     EXPECT_NO_THROW(check_report(kBase, "y = ['" + std::string(name) + "']\n")) << name;
   const std::string run = "[base]\ncommand = 'run'\nimage = 'a.elf'\n";
   EXPECT_NO_THROW(check_report(run, "y = ['bus.busy_cycles', 'phases.sort']\n"));
@@ -130,6 +130,10 @@ TEST(Plan, WrongOnesAreRefusedWithFileAndLine) {
   EXPECT_THAT(refusal(kBase + "[very]\n"), HasSubstr("did you mean 'vary'? Allowed are: base, "));
   EXPECT_THAT(refusal(kBase + "[xx]\n"), HasSubstr("no key 'xx'; allowed are: base, "));
   EXPECT_THAT(refusal(kBase + "[report]\nz = 'pes'\n"), StartsWith("plan.toml:5: [report] has no key"));
+  EXPECT_THAT(refusal(kBase + "[report]\ny = ['cycles',\n '']\n"),
+              StartsWith("plan.toml:6: [report] 'y' has an empty name"));
+  EXPECT_THAT(refusal(kBase + "[report]\ny = ['a', 'b',\n 'a']\n"),
+              StartsWith("plan.toml:6: [report] 'y' names 'a' twice"));
   EXPECT_THAT(refusal(kBase + "[report]\ny = 3\n"), StartsWith("plan.toml:5:"));
   EXPECT_THAT(refusal(kBase + "[report]\ny = ['a', 3]\n"), StartsWith("plan.toml:5:"));
 }
