@@ -79,7 +79,7 @@ void check_results_writable(const Resolved& resolved, const RenderOptions& optio
   }
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
-  if (options.report) check_file_writable(*options.report);
+  if (options.report) check_report_writable(*options.report);
   if (options.profile) check_file_writable(*options.profile);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
   if (options.save_mesh) check_ply_writable(*options.save_mesh);

@@ -50,7 +50,7 @@ void check_results(const RunOptions& options, const RunImages& images) {
   check_files(options.program);
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
-  if (options.report) check_file_writable(*options.report);
+  if (options.report) check_report_writable(*options.report);
 }
 
 void write_results(const RunOptions& options, const RunImages& images, const MachineFigures& figures,

@@ -124,6 +124,10 @@ std::string GltfData::bytes_of(const GltfObject& buffer, std::size_t number) {
     return document_.binary;
   }
   if (auto bytes = bytes_of_data_uri(*uri, buffer.place())) return std::move(*bytes);
+  if (uri->empty()) refuse(buffer.place(), "its 'uri' is empty");
+  if (uri->find("://") != std::string::npos)
+    refuse(buffer.place(),
+           "lies at " + in_quotes(*uri) + ": nothing is fetched from a network; put it beside the .gltf");
   const std::string name = name_of_uri(*uri);
   const auto found = find_file(name, std::array{folder_}, files_, buffer.place());
   if (!found)

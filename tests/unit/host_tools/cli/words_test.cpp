@@ -86,6 +86,9 @@ TEST(Results, ResultsInOneFileAreRefused) {
 TEST(Results, AMeshIsAPlyAndNoOtherExtensionIsTaken) {
   const TemporaryFolder folder;
   const std::string scene = write_small_scene(folder.path()).string();
+  const Outcome report = torolux({"render", scene, "--no-picture", "--report", folder.path() / "a.pdf"});
+  EXPECT_EQ(report.code, 1);
+  EXPECT_THAT(report.err, HasSubstr("a.pdf: a report is a page of HTML"));
   const Outcome outcome = torolux({"render", scene, "--no-picture", "--save-mesh", folder.path() / "a.obj"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.obj: the mesh is written as .ply"), HasSubstr("a.ply")));

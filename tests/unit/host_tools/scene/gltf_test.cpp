@@ -75,6 +75,10 @@ TEST(Gltf, BuffersAndViewsThatAreNotAsTheFormatWantsThemAreToldOrRefused) {
   EXPECT_THAT(load_texts(all, "a.gltf").warnings,
               Contains(HasSubstr("a.gltf: buffer 0: a buffer has no 'byteLength'")));
 
+  file.json["buffers"][0]["uri"] = "https://example.org/a.bin";
+  all["a.gltf"] = file.json.dump();
+  EXPECT_THAT(refusal(all, "a.gltf"), StartsWith("a.gltf: buffer 0: lies at 'https://example.org/a.bin': nothing is"));
+
   const auto with_stride = [](int stride) {
     GltfWriter strided;
     const std::size_t positions = strided.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
