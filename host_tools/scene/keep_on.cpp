@@ -8,7 +8,7 @@
 namespace torolux {
 
 void look_for_interruption() {
-  if (interrupted()) throw Interrupted("the scene was not loaded to its end");
+  if (interrupted()) throw Interrupted("interrupted while the scene was loaded");
 }
 
 }  // namespace torolux

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether the user has ended the program while a scene loads, which may take a minute.
+// Whether the user has ended the program while a scene loads and its mesh is made, which may take a minute.
 #pragma once
 
 #include <cstddef>
