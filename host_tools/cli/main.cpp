@@ -24,6 +24,7 @@
 #include "host_tools/cli/own_scenes.hpp"
 #include "host_tools/cli/parse_error.hpp"
 #include "host_tools/report/version.hpp"
+#include "host_tools/scene/keep_on.hpp"
 
 namespace torolux {
 namespace {
@@ -154,6 +155,7 @@ void add_commands(CLI::App& app, CommandAction& action) {
 
 int torolux_main(int argc, const char* const* argv) {
   const InterruptionGuard guard;
+  set_interruption(&interrupted);
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

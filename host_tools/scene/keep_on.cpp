@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A flag that signals set becomes an exception.
+// What the command line says of signals becomes an exception.
 #include "host_tools/scene/keep_on.hpp"
 
 #include "emulator/errors.hpp"
-#include "host_tools/cli/command.hpp"
 
 namespace torolux {
+namespace {
+
+bool (*interruption)() = nullptr;
+
+}  // namespace
+
+void set_interruption(bool (*asked)()) {
+  interruption = asked;
+}
 
 void look_for_interruption() {
-  if (interrupted()) throw Interrupted("interrupted while the scene was loaded");
+  if (interruption != nullptr && interruption()) throw Interrupted("interrupted while the scene was loaded");
 }
 
 }  // namespace torolux

@@ -6,6 +6,9 @@
 
 namespace torolux {
 
+/// Whom to ask; null: nobody, as at first. Once, before there are threads.
+void set_interruption(bool (*asked)());
+
 /// Between parts of the work. Throws Interrupted.
 void look_for_interruption();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves what an OBJ may say and that all else is refused with file and line.
 #include "emulator/errors.hpp"
-#include "host_tools/cli/interruption.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
 namespace torolux {
@@ -167,11 +167,11 @@ TEST(Obj, UnknownKindsOfFileAreRefusedWithWhatIsAllowed) {
 TEST(Obj, ALargeMeshIsNotReadToItsEndAfterCtrlC) {
   std::string text;
   for (int i = 0; i < 10'000; ++i) text += "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
-  const InterruptionGuard guard;
-  std::raise(SIGINT);
+  set_interruption([] { return true; });
   EXPECT_THROW(load_texts({{"a.obj", text}}, "a.obj"), Interrupted);
-  forget_interruption();
+  set_interruption([] { return false; });
   EXPECT_NO_THROW(load_texts({{"a.obj", text}}, "a.obj"));
+  set_interruption(nullptr);
 }
 
 }  // namespace
