@@ -238,6 +238,7 @@ class PatchMaker {
 
   /// One element, or one for each part in which walls leave it. Returns its node.
   std::uint32_t add_element(std::uint32_t t, std::uint32_t code) {
+    look_for_interruption();
     MeshPatch& patch = mesh_.patches.back();
     const auto [pieces, parts] =
         mesh_.walls.cross(t, code) ? wall_parts(mesh_, t, code) : WallParts{{{code, 0}}, {{1, true}}};
