@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <iostream>
+#include <limits>
 
 #include "host_tools/cli/command.hpp"
 #include "host_tools/cli/interruption.hpp"
@@ -329,6 +331,16 @@ TEST(Main, TonemapMakesAPngOfRadiance) {
     EXPECT_EQ(bytes("set.png"), bytes("wanted.png"));
     EXPECT_NE(bytes("set.png"), bytes("plain.png"));
   }
+}
+
+TEST(Main, TonemapTellsOfPixelsThatAreNoNumbers) {
+  const TemporaryFolder folder;
+  const std::string picture = folder.path() / "a.pfm";
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  write_picture({3, 1, {{1, 1, 1}, {inf, 1, 1}, {1, 1, std::nanf("")}}}, picture);
+  const Outcome outcome = torolux({"tonemap", picture, folder.path() / "a.png"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("a.pfm: 2 of 3 pixels hold what is infinite or no number"));
 }
 
 TEST(Main, TonemapRefusesWhatItCannotReadOrWrite) {
