@@ -98,6 +98,7 @@ int run_network(const NetworkOptions& options) {
 
 std::vector<std::string> network_columns() {
   std::vector<std::string> names;
+  names.reserve(kColumns.size());
   for (const Column& column : kColumns) names.emplace_back(column.name);
   return names;
 }
