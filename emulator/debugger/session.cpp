@@ -111,6 +111,7 @@ void Session::tell(const Stop& stop) {
 void Session::hold_all() {
   while (held_) {
     if (options_.goes_on && !options_.goes_on()) throw Interrupted("the run was interrupted");
+    if (const std::string why = gives_up(); !why.empty()) throw MachineFailure(why);
     serve(kWhile);
   }
 }
@@ -178,7 +179,7 @@ void Session::finish(int exit_code, const std::string& text) {
   if (HeldPe* const held = execution_.find(chosen_)) tell_end(*held);
   held_ = true;
   while (!connection_.has_ended()) {
-    if (options_.goes_on && !options_.goes_on()) return;
+    if ((options_.goes_on && !options_.goes_on()) || !gives_up().empty()) return;
     const bool all_told = std::ranges::all_of(execution_.pes(), [](const HeldPe& held) { return held.left; });
     if (all_told) return;
     serve(kWhile);

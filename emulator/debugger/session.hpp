@@ -32,6 +32,8 @@ struct SessionOptions {
   std::function<std::filesystem::path(unsigned pe)> image_of_pe;  ///< the file that a PE runs
   bool goes_back = false;              ///< whoever runs the machine does so again when GoesBack is thrown
   std::function<bool()> goes_on = {};  ///< asked while PEs are held; false: the run is to end
+  /// Likewise; what it says ends the run as a failure. "": nothing does.
+  std::function<std::string()> gives_up = {};
 };
 
 class Session final : public PeDebugger {
@@ -59,6 +61,7 @@ class Session final : public PeDebugger {
   void may_save(Save save) override { save_ = std::move(save); }
 
  private:
+  std::string gives_up() const { return options_.gives_up ? options_.gives_up() : ""; }
   using Reply = std::optional<std::string>;  // nothing: it comes later
 
   // Life (session.cpp)

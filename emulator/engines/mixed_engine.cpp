@@ -56,7 +56,7 @@ class MixedEngine final : public Engine {
 
 void check_pe(unsigned pe, std::size_t pes) {
   if (pe >= pes) {
-    throw UsageError("there is no PE " + std::to_string(pe) + " to run on QEMU: this machine's PEs are 0 to " +
+    throw InputError("there is no PE " + std::to_string(pe) + " to run on QEMU; the machine has 0 to " +
                      std::to_string(pes - 1));
   }
 }

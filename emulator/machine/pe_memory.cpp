@@ -2,6 +2,7 @@
 // Memory as the engine needs it: by this process alone, or shared with others.
 #include "emulator/machine/pe_memory.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "emulator/cache_line.hpp"
@@ -51,8 +52,30 @@ PeMemory make_memory(unsigned pe, std::size_t place, const MachineSetup& setup, 
   return memory;
 }
 
+/// That it also runs: the kit (firmware/kit) takes an eighth of a memory for what arrives, and its heap holds what it
+/// knows of each PE, and what the C library needs.
+std::string memory_advice(std::uint64_t image_bytes, std::uint64_t pes) {
+  constexpr std::uint64_t heap = 32U * 1024U;
+  constexpr std::uint64_t of_each_pe = 32;
+  constexpr std::uint64_t step = 64U * 1024U;
+  const std::uint64_t all = (image_bytes + heap + of_each_pe * pes) * 8 / 7;
+  const std::uint64_t rounded = std::max<std::uint64_t>((all + step - 1) / step * step, protocol::kSmallestLocalMemory);
+  if (rounded > protocol::kLargestLocalMemory) return "no PE may have what it takes (64M): make its data smaller";
+  return "give it --pe-memory " + std::to_string(rounded / 1024) + "K or more";
+}
+
+/// Throws InputError where the image does not fit.
+void check_memory(const Image& image, const MachineSetup& setup) {
+  const std::uint64_t needed = std::uint64_t{image.stores_begin} - protocol::kLocalMemoryBase;
+  if (needed <= setup.local_memory_bytes) return;
+  throw InputError(image.file.string() + ": needs " + std::to_string(needed) +
+                   " bytes of local memory for itself, a PE has " + std::to_string(setup.local_memory_bytes) + ": " +
+                   memory_advice(needed, std::uint64_t{setup.columns} * setup.rows));
+}
+
 void fill_in(PeMemory& memory, unsigned pe, const MachineSetup& setup, const Image& image) {
   const auto local = memory.local.bytes().first(setup.local_memory_bytes);
+  check_memory(image, setup);
   image.load_into(local);
   const std::uint32_t offset = image.niu_window - protocol::kLocalMemoryBase;
   if (image.niu_window < protocol::kLocalMemoryBase ||

@@ -44,7 +44,7 @@ std::vector<unsigned> pes_to_hold(const Debugging& debugging, unsigned pes) {
   std::ranges::sort(held);
   held.erase(std::unique(held.begin(), held.end()), held.end());
   if (held.back() >= pes) {
-    throw UsageError("--gdb-pes: there is no PE " + std::to_string(held.back()) + ": this machine's PEs are 0 to " +
+    throw InputError("--gdb-pes: there is no PE " + std::to_string(held.back()) + "; the machine has 0 to " +
                      std::to_string(pes - 1));
   }
   return held;
@@ -79,7 +79,7 @@ void add_debugging_options(CLI::App& command, Debugging& debugging, const std::s
 
 std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned columns, unsigned rows,
                                                  const std::function<std::filesystem::path(unsigned pe)>& image_of_pe,
-                                                 bool goes_back) {
+                                                 bool goes_back, std::function<std::string()> gives_up) {
   if (!debugging.own) {
     if (!debugging.own_pes.empty()) throw UsageError("--gdb-pes names PEs for --gdb PORT, which is not there");
     return nullptr;
@@ -91,6 +91,7 @@ std::unique_ptr<debugger::Session> open_debugger(Debugging& debugging, unsigned 
   options.pes = pes_to_hold(debugging, columns * rows);
   options.goes_back = goes_back;
   options.goes_on = [] { return !interrupted(); };
+  options.gives_up = std::move(gives_up);
   const unsigned first = options.pes.front();
   auto session = std::make_unique<debugger::Session>(std::move(options));
   debugging.debugger = session.get();

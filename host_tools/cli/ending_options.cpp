@@ -50,8 +50,18 @@ std::vector<NamedFile> files_of(const std::vector<DumpRequest>& dumps) {
 
 Timeout::Timeout(std::optional<unsigned> seconds) : seconds_(seconds) {}
 
+bool Timeout::is_over() const {
+  return seconds_ && std::chrono::steady_clock::now() - begin_ >= std::chrono::seconds(*seconds_);
+}
+
+std::string Timeout::while_held() const {
+  if (!is_over()) return "";
+  return "the run has taken " + std::to_string(*seconds_) +
+         " s, and is given up (--timeout) while its PEs are held for a debugger (--gdb)";
+}
+
 void Timeout::check(const Machine& machine, Cycles now) const {
-  if (!seconds_ || std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(*seconds_)) return;
+  if (!is_over()) return;
   throw MachineFailure("at cycle " + std::to_string(now) + " the run has taken " + std::to_string(*seconds_) +
                        " s, and is given up (--timeout)" + machine.where_pes_stand());
 }

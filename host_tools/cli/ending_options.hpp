@@ -37,8 +37,12 @@ class Timeout {
   explicit Timeout(std::optional<unsigned> seconds);
   /// To be called from the machine's `progress`. Throws MachineFailure, which tells where each PE stands.
   void check(const Machine& machine, Cycles now) const;
+  /// To be called while a debugger holds the PEs: why the run is given up; "": it is not.
+  std::string while_held() const;
 
  private:
+  bool is_over() const;
+
   std::optional<unsigned> seconds_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

@@ -27,6 +27,7 @@
 #include "host_tools/cli/parse_error.hpp"
 #include "host_tools/launch/launch.hpp"
 #include "host_tools/report/version.hpp"
+#include "host_tools/scene/keep_on.hpp"
 
 namespace torolux {
 namespace {
@@ -106,7 +107,7 @@ int flushed(int result) {
   if (std::cout) return result;
   const std::string why = failed_before || errno == 0 ? "" : std::string(": ") + std::strerror(errno);
   std::cerr << "torolux: standard output could not be written" << why << std::endl;
-  return result == code(ExitCode::done) ? code(ExitCode::machine_failure) : result;
+  return result == code(ExitCode::done) ? code(ExitCode::bad_input) : result;
 }
 
 }  // namespace
@@ -159,6 +160,7 @@ void add_commands(CLI::App& app, CommandAction& action) {
 int torolux_main(int argc, const char* const* argv) {
   ranks::join_starter();
   const InterruptionGuard guard;
+  set_interruption(&interrupted);
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

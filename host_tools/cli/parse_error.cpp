@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 
 #include "emulator/nearest_name.hpp"
 
@@ -65,6 +66,28 @@ std::string unknown_option(const Named& named, const Words& words) {
   return "";
 }
 
+/// "" where no option that takes one value has several.
+std::string given_again(const Named& named, const Words& words) {
+  std::map<std::string, Words> values;
+  for (std::size_t i = named.words; i < words.size() && words[i] != "--"; ++i) {
+    const std::size_t equals = words[i].find('=');
+    const std::string name = words[i].substr(0, equals);
+    if (!name.starts_with("--")) continue;
+    const CLI::Option* option = named.command->get_option_no_throw(name);
+    if (option == nullptr || option->get_items_expected_max() != 1 ||
+        option->get_multi_option_policy() != CLI::MultiOptionPolicy::Throw)
+      continue;
+    Words& given = values[name];
+    if (equals != std::string::npos)
+      given.push_back(words[i].substr(equals + 1));
+    else if (i + 1 < words.size())
+      given.push_back(words[++i]);
+    if (given.size() > 1)
+      return name + " is given twice, with " + given[0] + " and " + given[1] + "; it takes one value: leave one out";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string unknown_command(const CLI::App& app, const Words& words) {
@@ -81,6 +104,8 @@ std::string parse_error_text(const CLI::App& app, const Words& words, const CLI:
   if (std::string text = unknown_command(app, words); !text.empty()) return text;
   const Named named = named_command(app, words);
   if (std::string text = unknown_option(named, words); !text.empty()) return text;
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    if (std::string text = given_again(named, words); !text.empty()) return text;
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
   const Words left = named.command->remaining();
   for (std::size_t i = named.words; i < words.size(); ++i)

@@ -30,6 +30,7 @@
 #include "host_tools/report/html_report.hpp"
 #include "host_tools/report/progress_line.hpp"
 #include "host_tools/run/debugged_run.hpp"
+#include "host_tools/solution/ply_file.hpp"
 #include "host_tools/trace/story.hpp"
 
 namespace torolux {
@@ -80,10 +81,10 @@ void check_results_writable(const Resolved& resolved, const RenderOptions& optio
   }
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
-  if (options.report) check_file_writable(*options.report);
+  if (options.report) check_report_writable(*options.report);
   if (options.profile) check_file_writable(*options.profile);
   if (options.save_radiosity) check_file_writable(*options.save_radiosity);
-  if (options.save_mesh) check_file_writable(*options.save_mesh);
+  if (options.save_mesh) check_ply_writable(*options.save_mesh);
   if (options.checkpoint.file) check_file_writable(*options.checkpoint.file);
 }
 

@@ -86,7 +86,8 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
             [&options](const std::string& text) { options.follow = parse_follow(text); })
       ->group(group);
   path("--save-radiosity", "Keep the result of the radiosity stage in this file", options.save_radiosity);
-  path("--save-mesh", "The solved elements with the radiosity at their corners, as .ply", options.save_mesh);
+  path("--save-mesh", "The solved elements with the radiosity at their corners, as .ply", options.save_mesh)
+      ->type_name("FILE.ply");
   path("--radiosity", "Take the result of the radiosity stage from this file: only the view changes",
        options.radiosity);
   add_growing_options(command, options.growing, group);

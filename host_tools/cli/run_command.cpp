@@ -51,7 +51,7 @@ void check_results(const RunOptions& options, const RunImages& images) {
   check_files(options.program);
   if (options.stats) check_file_writable(*options.stats);
   if (options.stats_csv) check_stats_folder(*options.stats_csv);
-  if (options.report) check_file_writable(*options.report);
+  if (options.report) check_report_writable(*options.report);
 }
 
 void write_results(const RunOptions& options, const RunImages& images, const MachineFigures& figures,
@@ -87,15 +87,15 @@ std::unique_ptr<Display> open_run_display(const RunOptions& options, const RunIm
 /// The run, watched by whom the options name; nothing where Ctrl-C has ended it. Files of programs are written then.
 std::optional<RunOutcome> run_watched(const RunOptions& options, MachineSetup& setup, const ImageSet& images,
                                       std::vector<Input> read, const std::vector<MemoryDump>& dumps, Display* display) {
+  const Timeout timeout(options.ending.timeout);
   const auto debugger = open_debugger(
       setup.debugging, setup.columns, setup.rows, [&images](unsigned pe) { return images.of(pe).file; },
-      !options.trace.file && display == nullptr);
+      !options.trace.file && display == nullptr, [&timeout] { return timeout.while_held(); });
   const auto print = [display, &options, &debugger](const PeText& text) {
     if (debugger && !debugger->is_new()) return;
     print_text(text, options.program.raw);
     if (display != nullptr) display->say(text);
   };
-  const Timeout timeout(options.ending.timeout);
   const auto progress = [display, &timeout](const Machine& machine, Cycles now) {
     timeout.check(machine, now);
     return !interrupted() && (display == nullptr || display->show(machine, now));

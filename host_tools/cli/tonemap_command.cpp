@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // `torolux tonemap IN OUT.png`: a picture of radiance enters, one for a display leaves, as `render` would have made it.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -17,11 +20,23 @@ struct TonemapOptions {
   GivenSettings given;
 };
 
+/// Tone mapping shows them, but not what they are.
+void tell_no_numbers(const Picture& picture, const std::string& file) {
+  const auto wrong = [](const auto& pixel) {
+    return !std::ranges::all_of(pixel, [](float value) { return std::isfinite(value); });
+  };
+  if (const auto count = std::ranges::count_if(picture.pixels, wrong); count > 0)
+    std::cerr << "torolux: note: " << file << ": " << count << " of " << picture.pixels.size()
+              << " pixels hold what is infinite or no number; that is black\n";
+}
+
 int run_tonemap(const TonemapOptions& options) {
   const std::filesystem::path output = options.output;
   check_writable(output);
   if (holds_radiance(output)) throw UsageError(options.output + ": a tone-mapped picture is a .png");
-  write_picture(read_picture(options.picture), output, options.given.values().tone);
+  const Picture picture = read_picture(options.picture);
+  tell_no_numbers(picture, options.picture);
+  write_picture(picture, output, options.given.values().tone);
   return 0;
 }
 

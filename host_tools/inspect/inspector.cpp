@@ -149,7 +149,7 @@ void Inspector::find_in_picture(unsigned pe, PeAnswer& answer) const {
 PeAnswer Inspector::pe(unsigned number, std::vector<PassedPacket> last_packets) const {
   const unsigned pes = of_.machine.columns * of_.machine.rows;
   if (number >= pes)
-    throw InputError("there is no PE " + std::to_string(number) + ": the machine has 0 to " + std::to_string(pes - 1));
+    throw InputError("there is no PE " + std::to_string(number) + "; the machine has 0 to " + std::to_string(pes - 1));
   PeAnswer answer;
   answer.pe = number;
   answer.column = number % of_.machine.columns;

@@ -12,7 +12,7 @@ void PacketLog::begin(const Scene& scene, const RenderSetup& setup, const Qualit
                       const MachineChoice& machine) {
   const unsigned pes = machine.columns * machine.rows;
   if (pe_ >= pes)
-    throw InputError("there is no PE " + std::to_string(pe_) + ": the machine has 0 to " + std::to_string(pes - 1));
+    throw InputError("there is no PE " + std::to_string(pe_) + "; the machine has 0 to " + std::to_string(pes - 1));
   if (also_ != nullptr) also_->begin(scene, setup, quality, machine);
 }
 

@@ -38,6 +38,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_over_edges(const Scen
   return pairs;
 }
 
+bool repeats(const Scene& scene, const SceneTriangle& t) {
+  const std::uint32_t texture = scene.materials[t.material].texture;
+  return texture >= scene.textures.size() || !scene.textures[texture].clamped;
+}
+
 /// But for whole periods, by which texture points are moved so that they are small.
 bool continues_texture(const Scene& scene, const SceneTriangle& t, const SceneTriangle& seed) {
   if ((t.texture_points == kNoImage) != (seed.texture_points == kNoImage)) return false;
@@ -50,7 +55,7 @@ bool continues_texture(const Scene& scene, const SceneTriangle& t, const SceneTr
                                      std::array<Point, 3>{of_seed[0], of_seed[1], of_seed[2]});
     const Point& own = scene.texture_points[t.texture_points + i];
     const Point by{there[0] - own[0], there[1] - own[1]};
-    if (!moved) moved = Point{std::round(by[0]), std::round(by[1])};
+    if (!moved) moved = repeats(scene, t) ? Point{std::round(by[0]), std::round(by[1])} : Point{0, 0};
     if (std::abs(by[0] - (*moved)[0]) > kSameTexel || std::abs(by[1] - (*moved)[1]) > kSameTexel) return false;
   }
   return true;
@@ -65,7 +70,7 @@ void add_texture_points(Scene& scene, std::uint32_t from, const std::array<std::
   part.texture_points = static_cast<std::uint32_t>(scene.texture_points.size());
   std::array<Point, 3> points{};
   for (std::size_t i = 0; i < 3; ++i) points[i] = interpolated(weights[i], whole);
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < 2 && repeats(scene, part); ++axis) {
     const double periods = std::floor(std::min({points[0][axis], points[1][axis], points[2][axis]}) + 1e-9);
     for (Point& p : points) p[axis] -= periods;
   }

@@ -15,6 +15,7 @@
 #include "host_tools/mesh/reflectance.hpp"
 #include "host_tools/mesh/retriangulate.hpp"
 #include "host_tools/mesh/wall_pieces.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -142,8 +143,11 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64
       small[t] = edge <= lengths.cluster / 2;
     }
   }
+  look_for_interruption();
   mesh.smooth = find_smooth_surfaces(mesh, small, Pierced::ends);
+  look_for_interruption();
   mesh.clearance = Clearance(mesh);
+  look_for_interruption();
   cutting.clusters = find_clusters(mesh, scene, small, lengths.patch, lengths.cluster);
   for (const PatchCluster& cluster : cutting.clusters) {
     for (const ElementCluster& element : cluster) {
@@ -152,7 +156,9 @@ Cutting choose_cutting(const Scene& scene, const MeshChoice& choice, std::uint64
   }
   std::vector<bool> cut_up;
   for (const int level : cutting.patch_level) cut_up.push_back(level >= 0);
+  look_for_interruption();
   mesh.walls = Walls(mesh, cut_up);
+  look_for_interruption();
   mesh.occlusion = Occlusion(mesh, scene);
   return cutting;
 }
@@ -232,6 +238,7 @@ class PatchMaker {
 
   /// One element, or one for each part in which walls leave it. Returns its node.
   std::uint32_t add_element(std::uint32_t t, std::uint32_t code) {
+    look_for_interruption();
     MeshPatch& patch = mesh_.patches.back();
     const auto [pieces, parts] =
         mesh_.walls.cross(t, code) ? wall_parts(mesh_, t, code) : WallParts{{{code, 0}}, {{1, true}}};
@@ -286,6 +293,7 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
   PatchMaker maker(mesh, leaves);
   std::size_t next_cluster = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    look_for_interruption(t);
     if (cutting.patch_level[t] >= 0) maker.cut(t, static_cast<std::uint32_t>(cutting.patch_level[t]));
     if (next_cluster < cutting.clusters.size() && cutting.clusters[next_cluster][0][0] == t) {
       maker.join(cutting.clusters[next_cluster++]);
@@ -293,7 +301,16 @@ void make_patches(const Cutting& cutting, const std::vector<Split>& splits, Mesh
   }
 }
 
-/// The scene but for its images, its flat regions cut anew.
+void take_textures(const Scene& scene, std::uint32_t most_texels, Mesh& mesh) {
+  for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, most_texels));
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (triangle.texture == protocol::kNoTexture) continue;
+    for (std::uint32_t i = triangle.texture_points; i < triangle.texture_points + 3; ++i)
+      mesh.texture_points[i] = mesh.textures[triangle.texture].placed(mesh.texture_points[i]);
+  }
+}
+
+/// The scene but for its images' texels, its flat regions cut anew.
 Scene retriangulated(const Scene& scene) {
   Scene cut;
   cut.name = scene.name;
@@ -302,6 +319,8 @@ Scene retriangulated(const Scene& scene) {
   cut.texture_points = scene.texture_points;
   cut.triangles = scene.triangles;
   cut.materials = scene.materials;
+  for (const SceneTexture& texture : scene.textures)
+    cut.textures.push_back({texture.file, texture.width, texture.height, {}, texture.clamped});
   cut.sky = scene.sky;
   cut.webs = scene.webs;
   cut.lamps = scene.lamps;
@@ -312,14 +331,16 @@ Scene retriangulated(const Scene& scene) {
 }  // namespace
 
 Mesh make_mesh(const Scene& scene, const MeshChoice& choice, std::uint64_t machine_bytes) {
+  look_for_interruption();
   const Scene cut = retriangulated(scene);
   Mesh mesh;
   mesh.space = scene_space(cut);
   take_triangles(cut, mesh);
+  look_for_interruption();
   choose_sides(cut, choice, mesh);
   make_patches(choose_cutting(cut, choice, machine_bytes, mesh), choice.splits, mesh);
   for (MeshFacet& facet : mesh.facets) facet.sends_from = sending_part(mesh, facet);
-  for (const SceneTexture& texture : scene.textures) mesh.textures.push_back(machine_texture(texture, choice.texels));
+  take_textures(scene, choice.texels, mesh);
   set_reflectances(scene, mesh);
   return mesh;
 }

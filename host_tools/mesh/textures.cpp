@@ -59,6 +59,17 @@ LinearImage linear(const SceneTexture& texture) {
   return image;
 }
 
+/// A texel more on each side, as those next to it.
+LinearImage with_border(const LinearImage& image) {
+  LinearImage result{image.width + 2, image.height + 2, {}};
+  for (std::uint32_t y = 0; y < result.height; ++y) {
+    const std::uint32_t row = std::clamp(y, 1U, image.height) - 1;
+    for (std::uint32_t x = 0; x < result.width; ++x)
+      result.colours.push_back(image.colours[std::size_t{row} * image.width + std::clamp(x, 1U, image.width) - 1]);
+  }
+  return result;
+}
+
 protocol::Texel packed(const Vec3d& colour) {
   protocol::Texel texel = 0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -73,8 +84,9 @@ protocol::Texel packed(const Vec3d& colour) {
 MachineTexture machine_texture(const SceneTexture& image, std::uint32_t most_texels) {
   const double texels = static_cast<double>(image.width) * image.height;
   const double longest = std::max(image.width, image.height);
-  const double scale =
-      std::min({1.0, std::sqrt(most_texels / texels), static_cast<double>(protocol::kMostTextureEdge) / longest});
+  const std::uint32_t border = image.clamped ? 1 : 0;
+  const std::uint32_t most_edge = protocol::kMostTextureEdge - 2 * border;
+  const double scale = std::min({1.0, std::sqrt(most_texels / texels), most_edge / longest});
   // A texture that is much longer than wide keeps one row at least, and no more columns than there may be texels.
   const auto edge = [&](std::uint32_t size) {
     return std::clamp(static_cast<std::uint32_t>(size * scale + 1e-9), 1U, std::min(size, most_texels));
@@ -83,10 +95,20 @@ MachineTexture machine_texture(const SceneTexture& image, std::uint32_t most_tex
   if (edge(image.width) < image.width || edge(image.height) < image.height) {
     result = shrunk(result, edge(image.width), edge(image.height));
   }
-  MachineTexture machine{result.width, result.height, {}};
+  if (image.clamped) result = with_border(result);
+  MachineTexture machine{result.width, result.height, {}, border};
   machine.texels.reserve(result.colours.size());
   for (const Vec3d& colour : result.colours) machine.texels.push_back(packed(colour));
   return machine;
+}
+
+protocol::TexturePoint MachineTexture::placed(protocol::TexturePoint point) const {
+  if (border == 0) return point;
+  const auto within = [this](float x, std::uint32_t size) {
+    const float inner = std::clamp(x, 0.0F, 1.0F) * static_cast<float>(size - 2 * border);
+    return (inner + static_cast<float>(border)) / static_cast<float>(size);
+  };
+  return {within(point.u, width), within(point.v, height)};
 }
 
 TextureMeans::TextureMeans(const MachineTexture& texture) {

@@ -14,10 +14,16 @@ namespace torolux {
 struct MachineTexture {
   std::uint32_t width = 0, height = 0;
   std::vector<protocol::Texel> texels;  ///< row by row from the lowest
+  /// Texels all around that repeat the outermost ones: of an image that does not repeat, as it would be looked up
+  /// bilinearly into its opposite edge otherwise.
+  std::uint32_t border = 0;
+
+  /// Where a point of the image lies in this texture.
+  protocol::TexturePoint placed(protocol::TexturePoint point) const;
 };
 
-/// At most `most_texels` (>= 1) and edges of at most protocol::kMostTextureEdge, in the image's shape; each texel the
-/// mean, in linear light, of the area that it stands for.
+/// Without its border at most `most_texels` (>= 1) and edges of at most protocol::kMostTextureEdge with it, in the
+/// image's shape; each texel the mean, in linear light, of the area that it stands for.
 MachineTexture machine_texture(const SceneTexture& image, std::uint32_t most_texels);
 
 /// Colours 0..1, linear; row by row from the lowest.

@@ -15,6 +15,7 @@
 #include "host_tools/cli/named_value.hpp"
 #include "host_tools/cli/parse_values.hpp"
 #include "host_tools/cli/render_options.hpp"
+#include "host_tools/network/network_columns.hpp"
 #include "host_tools/report/text.hpp"
 
 namespace torolux {
@@ -94,6 +95,13 @@ int run_network(const NetworkOptions& options) {
 }
 
 }  // namespace
+
+std::vector<std::string> network_columns() {
+  std::vector<std::string> names;
+  names.reserve(kColumns.size());
+  for (const Column& column : kColumns) names.emplace_back(column.name);
+  return names;
+}
 
 void add_network_command(CLI::App& app, CommandAction& action) {
   const auto options = std::make_shared<NetworkOptions>();

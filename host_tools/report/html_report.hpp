@@ -27,4 +27,7 @@ struct ReportInput {
 /// "$columns": {key: [...]}}, and so are those within; `<` as \u003c, so that nothing in it ends the script.
 std::string report_html(const ReportInput& input);
 
+/// Before the run. Throws InputError: the file cannot be written; UsageError: it has the extension of another format.
+void check_report_writable(const std::filesystem::path& file);
+
 }  // namespace torolux

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/number_among.hpp"
 #include "host_tools/scene/resolve_material.hpp"
@@ -50,6 +51,7 @@ std::uint32_t SceneBuilder::add_material(SceneMaterial material, const TextureUs
 void SceneBuilder::add_triangle(const SceneTriangle& triangle, const Place& place) {
   if (triangles_.size() >= kMostTriangles)
     refuse(place, "more than " + std::to_string(kMostTriangles) + " triangles; simplify the mesh or leave parts out");
+  look_for_interruption(triangles_.size());
   triangles_.push_back(triangle);
   if (files_.empty() || files_.back() != place.file) files_.push_back(place.file);
   origins_.push_back({static_cast<std::uint32_t>(files_.size() - 1), static_cast<std::uint32_t>(place.line)});
@@ -273,11 +275,10 @@ void SceneBuilder::add_parts_at_edges(const SceneTriangle& whole, bool turn, con
   const auto points = [this](std::uint32_t first) {
     return std::array{texture_points_[first], texture_points_[first + 1], texture_points_[first + 2]};
   };
-  const auto inset = textures_.half_texel(materials_[whole.material].texture);
   for (const CutOutPart& one : parts_at_edges(points(whole.texture_points))) {
     const SceneTriangle part = part_of(whole, one);
     auto clamped = points(part.texture_points);
-    clamp_to_edges(clamped, inset);
+    clamp_to_edges(clamped);
     std::ranges::copy(clamped, texture_points_.begin() + part.texture_points);
     add_turned(part, turn, place);
   }

@@ -17,8 +17,13 @@ struct Flat {
   double at;
   std::array<Point, 3> corners;
   std::uint32_t material;
+  bool upwards;      // its front, along the axis
   double low, high;  // along the first of the two other axes
 };
+
+bool turns_left(const std::array<Point, 3>& p) {
+  return (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]) > 0;
+}
 
 /// Does a line along an edge of `a` part the two? Touching counts as apart.
 bool parted_by_edge(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
@@ -39,11 +44,12 @@ std::vector<Flat> flat_triangles(const Scene& scene) {
       const double at = scene.positions[triangle.position[0]][axis];
       if (at != scene.positions[triangle.position[1]][axis] || at != scene.positions[triangle.position[2]][axis])
         continue;
-      Flat flat{axis, at, {}, triangle.material, 0, 0};
+      Flat flat{axis, at, {}, triangle.material, false, 0, 0};
       for (std::size_t i = 0; i < 3; ++i) {
         const auto& p = scene.positions[triangle.position[i]];
         flat.corners[i] = {p[(axis + 1) % 3], p[(axis + 2) % 3]};
       }
+      flat.upwards = turns_left(flat.corners);
       flat.low = std::min({flat.corners[0][0], flat.corners[1][0], flat.corners[2][0]});
       flat.high = std::max({flat.corners[0][0], flat.corners[1][0], flat.corners[2][0]});
       flats.push_back(flat);
@@ -53,6 +59,27 @@ std::vector<Flat> flat_triangles(const Scene& scene) {
     return std::tie(a.axis, a.at, a.low, a.high, a.material) < std::tie(b.axis, b.at, b.low, b.high, b.material);
   });
   return flats;
+}
+
+}  // namespace
+
+namespace {
+
+bool is_glass(const Scene& scene, std::uint32_t material) {
+  return scene.materials[material].kind == SurfaceKind::glass;
+}
+
+/// What stands on another with a face of its own: nobody sees either there, unless light gets through one of them.
+bool hide_each_other(const Scene& scene, const Flat& a, const Flat& b) {
+  return a.upwards != b.upwards && !is_glass(scene, a.material) && !is_glass(scene, b.material);
+}
+
+std::string advice(const Scene& scene, std::uint32_t a, std::uint32_t b) {
+  if (!is_glass(scene, a) && !is_glass(scene, b))
+    return "which of them a ray meets is decided by its rounding, so they are speckled there; move one of them";
+  const std::string& glass = scene.materials[is_glass(scene, a) ? a : b].name;
+  return "which of them a ray meets is decided by its rounding, so they may be speckled there; move '" + glass +
+         "' away from the other, or into it, by a ten-thousandth of the scene's size";
 }
 
 }  // namespace
@@ -67,7 +94,7 @@ void inspect_coplanar(const Scene& scene, std::vector<std::string>& found) {
          ++k) {
       if (tests_left == 0) break;
       --tests_left;
-      if (flats[i].material == flats[k].material) continue;
+      if (flats[i].material == flats[k].material || hide_each_other(scene, flats[i], flats[k])) continue;
       if (parted_by_edge(flats[i].corners, flats[k].corners) || parted_by_edge(flats[k].corners, flats[i].corners))
         continue;
       ++pairs[std::minmax(flats[i].material, flats[k].material)];
@@ -81,8 +108,8 @@ void inspect_coplanar(const Scene& scene, std::vector<std::string>& found) {
       break;
     }
     found.push_back("'" + scene.materials[pair.first].name + "' and '" + scene.materials[pair.second].name +
-                    "' overlap in one plane (" + std::to_string(count) +
-                    " pairs of triangles); seen is the one that comes first in the scene");
+                    "' overlap in one plane (" + std::to_string(count) + " pairs of triangles); " +
+                    advice(scene, pair.first, pair.second));
   }
 }
 

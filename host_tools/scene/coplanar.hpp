@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces of different materials that overlap in one plane: which of them is seen is decided by their order alone.
+// Surfaces of different materials that overlap in one plane: which of them a ray meets is decided by rounding.
 #pragma once
 
 #include <string>

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "host_tools/scene/build_scene.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/sky.hpp"
 
 namespace torolux {
@@ -127,12 +128,14 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
   const std::vector<std::uint32_t> first = first_equal(positions_, box, longest);
   for (SceneTriangle& triangle : triangles_)
     for (std::uint32_t& p : triangle.position) p = first[p];
+  look_for_interruption();
   const std::vector<bool> again = repeated(triangles_);
 
   Renumber<Vec3d> positions(positions_);
   Renumber<Vec3d> normals(normals_);
   Renumber<SceneMaterial> materials(materials_);
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    look_for_interruption(i);
     SceneTriangle triangle = triangles_[i];
     const Place origin{files_[origins_[i].file], origins_[i].line};
     const Vec3d& a = positions_[triangle.position[0]];

@@ -13,6 +13,7 @@
 #include "host_tools/scene/gltf_materials.hpp"
 #include "host_tools/scene/gltf_nodes.hpp"
 #include "host_tools/scene/gltf_surfaces.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/statements.hpp"
 
 namespace torolux {
@@ -34,6 +35,7 @@ class Importer {
   ImportedMesh run() {
     if (root_.count("animations") > 0) notices_.note("animations are not played", root_.place());
     for (const PlacedNode& placed : placed_nodes(document_, notices_)) {
+      look_for_interruption();
       const GltfObject node = root_.element("nodes", placed.number, "node");
       if (const auto mesh = node.index("mesh", root_.count("meshes"), "meshes")) add_meshes(node, *mesh, placed.place);
       if (const auto camera = node.index("camera", root_.count("cameras"), "cameras"))
@@ -189,10 +191,9 @@ class Importer {
       for (const std::uint32_t p : triangle.position) box.include(mesh_.positions[p]);
     const double longest = mesh_.triangles.empty() ? 1 : vec::largest(box.extent());
     constexpr double share = 0.005;
-    for (const GltfLight& light : lights_) {
-      check_room(mesh_.positions.size(), root_.place());
-      add_gltf_light(root_, light, share * longest, units_, mesh_, notices_);
-    }
+    constexpr std::size_t corners = 12;
+    if (!lights_.empty()) check_room(mesh_.positions.size() + corners * (lights_.size() - 1), root_.place());
+    add_gltf_lights(root_, lights_, share * longest, units_, mesh_, notices_);
   }
 
   void tell_units() {

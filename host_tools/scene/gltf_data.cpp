@@ -97,17 +97,37 @@ GltfData::GltfData(const GltfDocument& document, SceneFiles& files, Notices& not
       buffers_(root_.count("buffers")),
       images_(root_.count("images")) {}
 
+/// Where its length is not what it says, all bytes that are there are used.
+void GltfData::check_length(const GltfObject& buffer, std::size_t bytes) {
+  const auto length = buffer.integer("byteLength", kMostBytes);
+  if (!length)
+    notices_.note("a buffer has no 'byteLength', which glTF wants: all its bytes are used", buffer.place());
+  else if (*length > bytes)
+    notices_.note("a buffer has fewer bytes than its 'byteLength'; what reaches beyond them is refused", buffer.place(),
+                  std::to_string(bytes) + " of " + std::to_string(*length));
+}
+
 const std::string& GltfData::buffer(std::size_t number) {
   std::optional<std::string>& held = buffers_[number];
   if (held) return *held;
   const GltfObject buffer = root_.element("buffers", number, "buffer");
+  held = bytes_of(buffer, number);
+  check_length(buffer, held->size());
+  return *held;
+}
+
+std::string GltfData::bytes_of(const GltfObject& buffer, std::size_t number) {
   const auto uri = buffer.text("uri");
   if (!uri) {
     if (number != 0 || document_.binary.empty())
       refuse(buffer.place(), "has no bytes: neither a 'uri', nor is it the first of a .glb with a BIN chunk");
-    return held.emplace(document_.binary);
+    return document_.binary;
   }
-  if (auto bytes = bytes_of_data_uri(*uri, buffer.place())) return held.emplace(std::move(*bytes));
+  if (auto bytes = bytes_of_data_uri(*uri, buffer.place())) return std::move(*bytes);
+  if (uri->empty()) refuse(buffer.place(), "its 'uri' is empty");
+  if (uri->find("://") != std::string::npos)
+    refuse(buffer.place(),
+           "lies at " + in_quotes(*uri) + ": nothing is fetched from a network; put it beside the .gltf");
   const std::string name = name_of_uri(*uri);
   const auto found = find_file(name, std::array{folder_}, files_, buffer.place());
   if (!found)
@@ -116,7 +136,7 @@ const std::string& GltfData::buffer(std::size_t number) {
   if (!found->as_written)
     notices_.note("a buffer is found under another name", buffer.place(),
                   in_quotes(name) + " is " + in_quotes(found->path.string()));
-  return held.emplace(files_.read(found->path, buffer.place(), kMostMeshBytes));
+  return files_.read(found->path, buffer.place(), kMostMeshBytes);
 }
 
 /// stride: 0 where it has none.
@@ -126,6 +146,11 @@ std::string_view GltfData::view(std::size_t number, std::size_t& stride) {
   const auto length = view.integer("byteLength", kMostBytes);
   if (!of || !length) refuse(view.place(), "has no 'buffer' or no 'byteLength'");
   stride = view.integer("byteStride", kMostBytes).value_or(0);
+  constexpr std::size_t least = 4;
+  constexpr std::size_t most = 252;
+  if (view.has("byteStride") && (stride < least || stride > most || stride % least != 0))
+    notices_.note("a 'byteStride' that glTF does not allow (multiples of 4 from 4 to 252) is taken as it is",
+                  view.place(), std::to_string(stride));
   const std::string_view bytes = from_offset(buffer(*of), view);
   if (*length > bytes.size())
     refuse(view.place(), "reaches beyond its buffer, which has " + std::to_string(buffer(*of).size()) + " bytes");
@@ -136,6 +161,11 @@ void GltfData::read_values(const GltfObject& holder, std::string_view bytes, std
                            GltfNumbers& numbers) const {
   const std::size_t element = size_of(type) * numbers.components;
   if (stride == 0) stride = element;
+  if (stride < element)
+    refuse(holder.place(), "its elements have " + std::to_string(element) +
+                               " bytes each, and the 'byteStride' of its bufferView is " + std::to_string(stride) +
+                               ": they would lie within each other; make it " + std::to_string((element + 3) / 4 * 4) +
+                               " or more");
   bytes = from_offset(bytes, holder);
   if (numbers.count > 0 && (bytes.size() < element || (bytes.size() - element) / stride < numbers.count - 1))
     refuse(holder.place(), "its " + std::to_string(numbers.count) + " elements reach beyond its bufferView");

@@ -49,6 +49,8 @@ class GltfData {
 
  private:
   const std::string& buffer(std::size_t number);
+  std::string bytes_of(const GltfObject& buffer, std::size_t number);
+  void check_length(const GltfObject& buffer, std::size_t bytes);
   std::string_view view(std::size_t number, std::size_t& stride);
   void read_dense(const GltfObject& accessor, GltfNumbers& numbers);
   void read_sparse(const GltfObject& accessor, GltfNumbers& numbers);

@@ -2,9 +2,11 @@
 // Makes an icosahedron of a point light, an octagon of a spot, and notes a sun.
 #include "host_tools/scene/gltf_lights.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,12 +72,32 @@ void add_body(const Body& body, const std::string& name, const Vec3d& emission, 
         {{first + t[0], first + t[1], first + t[2]}, {kNoNormal, kNoNormal, kNoNormal}, number, part});
 }
 
-}  // namespace
+/// What shines at one place, one way.
+struct Lamp {
+  std::string name;
+  Place place;
+  Vec3d centre;
+  std::optional<Vec3d> axis;  ///< of a spot; unit
+  Vec3d power;                ///< [W/sr]
+  double size;                ///< half the body's width
+};
 
-void add_gltf_light(const GltfObject& root, const GltfLight& light, double size, GltfUnits units, ImportedMesh& mesh,
-                    Notices& notices) {
-  const auto lights = root.extension("KHR_lights_punctual");
-  const GltfObject object = lights->element("lights", light.number, "light");
+/// A fraction of a light's size: nearer ones are at one place.
+constexpr double kOnePlace = 1e-3;
+
+bool at_one_place(const Lamp& a, const Lamp& b) {
+  return vec::length(vec::subtract(a.centre, b.centre)) <= kOnePlace * a.size;
+}
+
+bool shine_alike(const Lamp& a, const Lamp& b) {
+  constexpr double same_axis = 0.999999;
+  return at_one_place(a, b) && a.axis.has_value() == b.axis.has_value() &&
+         (!a.axis || vec::dot(*a.axis, *b.axis) > same_axis);
+}
+
+/// Absent: it does not shine, or is a sun, which is in `mesh` then.
+std::optional<Lamp> lamp_of(const GltfObject& object, const GltfLight& light, double size, GltfUnits units,
+                            ImportedMesh& mesh, Notices& notices) {
   const Place place = object.place();
   const std::string type = object.text("type").value_or("");
   const double intensity = object.number("intensity", 0, kMostCoordinate).value_or(1) * radiance_per_luminance(units);
@@ -85,25 +107,68 @@ void add_gltf_light(const GltfObject& root, const GltfLight& light, double size,
   if (object.has("range")) notices.note("the range of a light is not used: light goes on for ever", place);
   if (type != "point" && type != "spot" && type != "directional")
     refuse(place, "'type' is " + in_quotes(type) + "; expected point, spot or directional");
-  if (!(vec::largest(power) > 0)) return;
+  if (!(vec::largest(power) > 0)) return std::nullopt;
+  const Vec3d backwards = light.place.axes[2];
+  if (type != "point" && !(vec::length(backwards) > 0)) refuse(place, "its node's scale is zero: it shines nowhere");
   if (type == "directional") {
-    const Vec3d towards = light.place.axes[2];
-    if (!(vec::length(towards) > 0)) refuse(place, "its node's scale is zero: it shines nowhere");
-    mesh.suns.push_back({towards, power, place});
-    return;
+    mesh.suns.push_back({backwards, power, place});
+    return std::nullopt;
   }
-  if (type == "point") {
-    const Body body = icosahedron(light.place.origin, size);
+  Lamp lamp{name, place, light.place.origin, std::nullopt, power, size};
+  if (type == "spot") {
+    notices.note(
+        "a spot is a disc that has its intensity on the axis and falls off as the cosine: its cone is not rendered",
+        place);
+    lamp.axis = vec::scale(vec::unit(backwards), -1);
+  }
+  return lamp;
+}
+
+/// Pairs of lights are looked at, of not more than these.
+constexpr std::size_t kMostPaired = 2000;
+
+/// Bodies that reach into each other would take each other's light.
+void keep_apart(std::vector<Lamp>& lamps) {
+  if (lamps.size() > kMostPaired) return;
+  for (Lamp& lamp : lamps) {
+    for (const Lamp& other : lamps) {
+      const double distance = vec::length(vec::subtract(lamp.centre, other.centre));
+      if (&lamp != &other && !at_one_place(lamp, other)) lamp.size = std::min(lamp.size, 0.49 * distance);
+    }
+  }
+  // A spot stands before what shines another way at its place.
+  std::vector<Vec3d> centres;
+  for (const Lamp& lamp : lamps) {
+    const auto others = std::ranges::count_if(lamps, [&](const Lamp& other) { return at_one_place(lamp, other); }) - 1;
+    centres.push_back(lamp.axis && others > 0 ? vec::add(lamp.centre, vec::scale(*lamp.axis, 1.01 * lamp.size))
+                                              : lamp.centre);
+  }
+  for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i].centre = centres[i];
+}
+
+}  // namespace
+
+void add_gltf_lights(const GltfObject& root, std::span<const GltfLight> lights, double size, GltfUnits units,
+                     ImportedMesh& mesh, Notices& notices) {
+  std::vector<Lamp> lamps;
+  for (const GltfLight& light : lights) {
+    const GltfObject object = root.extension("KHR_lights_punctual")->element("lights", light.number, "light");
+    auto lamp = lamp_of(object, light, size, units, mesh, notices);
+    if (!lamp) continue;
+    const auto same = lamps.size() > kMostPaired
+                          ? lamps.end()
+                          : std::ranges::find_if(lamps, [&](const Lamp& other) { return shine_alike(other, *lamp); });
+    if (same == lamps.end())
+      lamps.push_back(std::move(*lamp));
+    else
+      same->power = vec::add(same->power, lamp->power);
+  }
+  keep_apart(lamps);
+  for (const Lamp& lamp : lamps) {
+    const Body body = lamp.axis ? octagon(lamp.centre, *lamp.axis, lamp.size) : icosahedron(lamp.centre, lamp.size);
     // The mean projected area of a convex body is a quarter of its surface (A. Cauchy 1841).
-    return add_body(body, name, vec::scale(power, 4 / body.area()), place, mesh);
+    add_body(body, lamp.name, vec::scale(lamp.power, (lamp.axis ? 1 : 4) / body.area()), lamp.place, mesh);
   }
-  const Vec3d axis = vec::scale(light.place.axes[2], -1);
-  if (!(vec::length(axis) > 0)) refuse(place, "its node's scale is zero: it shines nowhere");
-  notices.note(
-      "a spot is a disc that has its intensity on the axis and falls off as the cosine: its cone is not rendered",
-      place);
-  const Body body = octagon(light.place.origin, vec::unit(axis), size);
-  add_body(body, name, vec::scale(power, 1 / body.area()), place, mesh);
 }
 
 }  // namespace torolux

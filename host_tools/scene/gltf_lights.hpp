@@ -2,6 +2,8 @@
 // Lights of a glTF file (KHR_lights_punctual) and where they are in; small emitting bodies out.
 #pragma once
 
+#include <span>
+
 #include "host_tools/scene/affine.hpp"
 #include "host_tools/scene/gltf_object.hpp"
 #include "host_tools/scene/gltf_units.hpp"
@@ -14,10 +16,10 @@ struct GltfLight {
   Affine place;
 };
 
-/// size: half the width of the bodies, scene units. Adds triangles, their materials and parts to `mesh`. A point has
-/// the intensity that is told in all directions, on average; a spot on its axis. Throws InputError: an unknown type, a
-/// value out of range.
-void add_gltf_light(const GltfObject& root, const GltfLight& light, double size, GltfUnits units, ImportedMesh& mesh,
-                    Notices& notices);
+/// size: half the width of the bodies, scene units; less where lights are nearer to each other. Adds triangles, their
+/// materials and parts to `mesh`. A point has the intensity that is told in all directions, on average; a spot on its
+/// axis; those at one place add up. Throws InputError: an unknown type, a value out of range.
+void add_gltf_lights(const GltfObject& root, std::span<const GltfLight> lights, double size, GltfUnits units,
+                     ImportedMesh& mesh, Notices& notices);
 
 }  // namespace torolux

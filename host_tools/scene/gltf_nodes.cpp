@@ -32,17 +32,36 @@ Vec3d triple(const std::optional<std::vector<double>>& read, double otherwise) {
   return read ? Vec3d{(*read)[0], (*read)[1], (*read)[2]} : Vec3d{otherwise, otherwise, otherwise};
 }
 
-Affine local_place(const GltfObject& node) {
-  if (const auto m = node.numbers("matrix", 16)) {
-    const auto column = [&m](std::size_t i) { return Vec3d{(*m)[4 * i], (*m)[4 * i + 1], (*m)[4 * i + 2]}; };
-    if ((*m)[3] != 0 || (*m)[7] != 0 || (*m)[11] != 0 || (*m)[15] != 1)
-      refuse(node.place(), "'matrix' does not end with the row 0 0 0 1: it is no placing of things");
-    return {{column(0), column(1), column(2)}, column(3)};
-  }
+Affine placed_by_parts(const GltfObject& node) {
   Quaternion rotation{0, 0, 0, 1};
   if (const auto read = node.numbers("rotation", 4)) std::ranges::copy(*read, rotation.begin());
   if (rotation == Quaternion{0, 0, 0, 0}) refuse(node.place(), "'rotation' is zero: no direction");
   return placed(triple(node.numbers("translation", 3), 0), rotation, triple(node.numbers("scale", 3), 1));
+}
+
+/// But for rounding.
+bool place_alike(const Affine& a, const Affine& b) {
+  const auto alike = [](const Vec3d& x, const Vec3d& y) {
+    constexpr double rounding = 1e-5;
+    return vec::length(vec::subtract(x, y)) <= rounding * std::max(vec::length(x), vec::length(y));
+  };
+  return alike(a.origin, b.origin) && std::ranges::equal(a.axes, b.axes, alike);
+}
+
+Affine local_place(const GltfObject& node, Notices& notices) {
+  const auto m = node.numbers("matrix", 16);
+  if (!m) return placed_by_parts(node);
+  const auto column = [&m](std::size_t i) { return Vec3d{(*m)[4 * i], (*m)[4 * i + 1], (*m)[4 * i + 2]}; };
+  if ((*m)[3] != 0 || (*m)[7] != 0 || (*m)[11] != 0 || (*m)[15] != 1)
+    refuse(node.place(), "'matrix' does not end with the row 0 0 0 1: it is no placing of things");
+  const Affine place{{column(0), column(1), column(2)}, column(3)};
+  if (!node.has("translation") && !node.has("rotation") && !node.has("scale")) return place;
+  if (!place_alike(place, placed_by_parts(node)))
+    refuse(node.place(),
+           "has a 'matrix', and 'translation', 'rotation' or 'scale' that place it differently; glTF allows one of "
+           "both: take out what does not count");
+  notices.note("a node has a 'matrix' and 'translation', 'rotation' or 'scale', which say the same", node.place());
+  return place;
 }
 
 /// Where the scene begins.
@@ -84,7 +103,7 @@ std::vector<PlacedNode> placed_nodes(const GltfDocument& document, Notices& noti
     const GltfObject node = root.element("nodes", number, "node");
     if (seen[number]) refuse(node.place(), "is below itself, or has two parents; the nodes of glTF form a tree");
     seen[number] = true;
-    result.push_back({number, parent.after(local_place(node))});
+    result.push_back({number, parent.after(local_place(node, notices))});
     wait(node.indices("children", nodes, "nodes"), result.back().place);
   }
   return result;

@@ -36,6 +36,11 @@ bool tga_begins_right(std::string_view bytes) {
   return (number(bytes, 17, 1) & from_the_right) != 0;
 }
 
+bool tga_has_alpha(std::string_view bytes) {
+  constexpr std::uint64_t alpha_bits = 0x0F;
+  return (number(bytes, 17, 1) & alpha_bits) != 0;
+}
+
 bool bmp_is_whole(std::string_view bytes, std::uint64_t width, std::uint64_t height) {
   constexpr std::uint64_t old_header = 12;
   const std::uint64_t bits = width * number(bytes, number(bytes, 14, 4) == old_header ? 24 : 28, 2);

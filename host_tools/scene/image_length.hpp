@@ -14,6 +14,9 @@ bool tga_is_whole(std::string_view bytes, std::uint64_t width, std::uint64_t hei
 /// Its rows begin with the rightmost pixel, which stb_image takes for the leftmost.
 bool tga_begins_right(std::string_view bytes);
 
+/// Its header tells how many bits of a pixel are alpha; programs fill the rest of 32 with anything.
+bool tga_has_alpha(std::string_view bytes);
+
 /// A bitmap without compression: rows of whole words; the last one's filling may be left out.
 bool bmp_is_whole(std::string_view bytes, std::uint64_t width, std::uint64_t height);
 

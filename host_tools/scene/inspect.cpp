@@ -103,6 +103,38 @@ void inspect_emitters(const Scene& scene, double size, std::vector<std::string>&
   }
 }
 
+/// Rays from an opening's middle to this side of it that meet a surface, of five.
+std::size_t met_before(const Scene& scene, const SkyQuad& opening, const Vec3d& facing, double size) {
+  const Vec3d middle = vec::add(opening.corner, vec::scale(vec::add(opening.along, opening.across), 0.5));
+  const Vec3d origin = vec::add(middle, vec::scale(facing, 1e-4 * size));
+  const Vec3d u = vec::unit(opening.along);
+  const Vec3d v = vec::cross(facing, u);
+  std::size_t met = 0;
+  for (const Vec3d& aside : {Vec3d{0, 0, 0}, u, vec::scale(u, -1), v, vec::scale(v, -1)}) {
+    const auto hit = cast_ray(scene, origin, vec::add(facing, aside));
+    if (hit && scene.materials[scene.triangles[hit->triangle].material].kind != SurfaceKind::glass) ++met;
+  }
+  return met;
+}
+
+/// Light comes in along an opening's front: nothing before it and the scene behind it is the wrong way round.
+void inspect_openings(const Scene& scene, double size, std::vector<std::string>& found) {
+  if (!scene.sky) return;
+  std::size_t number = 0;
+  for (const SkyQuad& opening : scene.sky->openings) {
+    ++number;
+    const Vec3d facing = vec::unit(vec::cross(opening.along, opening.across));
+    if (met_before(scene, opening, facing, size) > 0) continue;
+    if (met_before(scene, opening, vec::scale(facing, -1), size) < 3) continue;
+    vec::Box box;
+    for (const double s : {0.0, 1.0})
+      for (const double t : {0.0, 1.0})
+        box.include(vec::add(opening.corner, vec::add(vec::scale(opening.along, s), vec::scale(opening.across, t))));
+    found.push_back("[[sky.opening]] " + std::to_string(number) + around(box) +
+                    " faces outwards, so that its light goes away from the scene; swap its 'edges', or turn 'facing'");
+  }
+}
+
 std::string name_of(const Scene& scene, const Component& component) {
   return "'" + scene.materials[scene.triangles[component.triangles[0]].material].name + "'" + around(component.box);
 }
@@ -172,6 +204,7 @@ std::vector<std::string> inspect(const Scene& scene) {
   const double size = vec::largest(box.extent());
   inspect_winding(scene, size, found);
   inspect_emitters(scene, size, found);
+  inspect_openings(scene, size, found);
   inspect_coplanar(scene, found);
   return found;
 }

@@ -11,6 +11,7 @@
 #include "host_tools/scene/choose_camera.hpp"
 #include "host_tools/scene/decide_panes.hpp"
 #include "host_tools/scene/gltf.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/mesh_transform.hpp"
 #include "host_tools/scene/mgf.hpp"
 #include "host_tools/scene/obj.hpp"
@@ -164,7 +165,9 @@ Scene load_scene_from(SceneFiles& files, const std::filesystem::path& named, con
     add_studio(builder, scene.camera);
   }
   builder.finish(scene, whole);
+  look_for_interruption();
   decide_panes(scene, notices, whole);
+  look_for_interruption();
   part_overlaps(scene, notices, whole);
   std::vector<std::string> used;
   for (const SceneMaterial& material : scene.materials) used.push_back(material.name);

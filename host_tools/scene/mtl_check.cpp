@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "emulator/nearest_name.hpp"
 #include "host_tools/scene/statements.hpp"
@@ -53,6 +54,7 @@ class MtlChecker {
     if (library_.materials.empty())
       return notices_.note("statements before the first newmtl are passed over", place_, in_quotes(word));
     if (keyword.empty()) return tell_unread(word);
+    tell_again(keyword);
     if (keyword == "d" || keyword == "Tr") return check_transparency(statement, keyword);
     if (keyword == "map_Kd" || keyword == "map_d") {
       check_texture(statement, keyword == "map_d");
@@ -77,7 +79,16 @@ class MtlChecker {
     }
   }
 
+  /// The last statement of a kind counts.
+  void tell_again(std::string_view keyword) {
+    const auto [first, fresh] = given_.emplace(keyword, place_.line);
+    if (!fresh)
+      notices_.note("of a statement that stands twice in a material the last one counts", place_,
+                    std::string(keyword) + ", first in line " + std::to_string(first->second));
+  }
+
   void begin_material(const Statement& statement) {
+    given_.clear();
     const std::string name(statement.rest());
     if (name.empty()) notices_.note("a material without a name is that of usemtl without a name", place_);
     library_.text += "newmtl " + std::to_string(library_.materials.size()) + "\n";
@@ -166,6 +177,7 @@ class MtlChecker {
   std::filesystem::path folder_;
   Notices& notices_;
   Place place_;
+  std::map<std::string_view, std::size_t> given_;  // statements of the current material, their first lines
   CheckedLibrary library_;
 };
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "host_tools/scene/find_file.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/mtl.hpp"
 #include "host_tools/scene/obj_check.hpp"
 #include "host_tools/scene/plain_text.hpp"
@@ -32,6 +33,7 @@ class MeshBuilder {
   void use(const std::string& number) { material_ = material_of_use_.at(std::stoul(number)); }
 
   void face(std::span<const tinyobj::index_t> indices) {
+    look_for_interruption(faces_);
     const Place place{mesh_.file, checked_.face_lines.at(faces_++)};
     corners_.clear();
     points_.clear();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host_tools/scene/flat_surfaces.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/scene/overlap_cutter.hpp"
 
 namespace torolux {
@@ -60,8 +61,10 @@ class Parting {
     std::ranges::sort(involved);
     involved.erase(std::unique(involved.begin(), involved.end()), involved.end());
     for (const std::uint32_t s : involved) cutter_.add_vertices(s);
-    for (const auto& [upper, lower] : pairs_.pairs)
+    for (const auto& [upper, lower] : pairs_.pairs) {
+      look_for_interruption();
       if (!moves_apart(upper, lower)) cut(upper, lower);
+    }
     std::vector<std::uint32_t> origin(scene_.triangles.size());
     std::iota(origin.begin(), origin.end(), std::uint32_t{0});
     if (any_cut_) origin = cutter_.finish(involved);

@@ -21,9 +21,39 @@ double squared_distance(const Point& a, const Point& b) {
   return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
 }
 
-/// Corners in the plane, counter-clockwise; empty where the polygon has no area.
-std::vector<Point> flattened(std::span<const Vec3d> corners) {
-  const auto axes = plane_axes(corners);
+std::optional<std::array<std::size_t, 2>> axes_across(const Vec3d& normal) {
+  std::size_t away = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis)
+    if (std::abs(normal[axis]) > std::abs(normal[away])) away = axis;
+  if (!(std::abs(normal[away]) > 0)) return std::nullopt;
+  std::array axes{(away + 1) % 3, (away + 2) % 3};
+  if (normal[away] < 0) std::swap(axes[0], axes[1]);
+  return axes;
+}
+
+/// Twice the areas of the triangles of a fan from the first corner: their sum (Newell's normal), and the longest.
+struct FanAreas {
+  Vec3d sum{0, 0, 0}, longest{0, 0, 0};
+};
+FanAreas fan_areas(std::span<const Vec3d> corners) {
+  FanAreas areas;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d a = vec::subtract(corners[i], corners[0]);
+    const Vec3d b = vec::subtract(corners[(i + 1) % corners.size()], corners[0]);
+    const Vec3d area = vec::cross(a, b);
+    areas.sum = vec::add(areas.sum, area);
+    if (vec::dot(area, area) > vec::dot(areas.longest, areas.longest)) areas.longest = area;
+  }
+  return areas;
+}
+
+/// Corners in the plane, counter-clockwise; empty where the polygon has no area. balanced: what it encloses one way
+/// round is as much as the other way, so it has an area and none in sum.
+std::vector<Point> flattened(std::span<const Vec3d> corners, bool& balanced) {
+  const FanAreas areas = fan_areas(corners);
+  constexpr double rounding = 1e-9;
+  balanced = vec::length(areas.sum) <= rounding * vec::length(areas.longest);
+  const auto axes = axes_across(balanced ? areas.longest : areas.sum);
   if (!axes) return {};
   const auto [u, v] = *axes;
   std::vector<Point> points;
@@ -121,27 +151,18 @@ class EarClipper {
 }  // namespace
 
 std::optional<std::array<std::size_t, 2>> plane_axes(std::span<const Vec3d> corners) {
-  Vec3d normal{0, 0, 0};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec3d a = vec::subtract(corners[i], corners[0]);
-    const Vec3d b = vec::subtract(corners[(i + 1) % corners.size()], corners[0]);
-    normal = vec::add(normal, vec::cross(a, b));
-  }
-  std::size_t away = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis)
-    if (std::abs(normal[axis]) > std::abs(normal[away])) away = axis;
-  if (!(std::abs(normal[away]) > 0)) return std::nullopt;
-  std::array axes{(away + 1) % 3, (away + 2) % 3};
-  if (normal[away] < 0) std::swap(axes[0], axes[1]);
-  return axes;
+  return axes_across(fan_areas(corners).sum);
 }
 
 PolygonTriangles cut_polygon(std::span<const Vec3d> corners) {
   if (corners.size() < 3) return {};
   if (corners.size() == 3) return {{{0, 1, 2}}, false};
-  std::vector<Point> points = flattened(corners);
+  bool balanced = false;
+  std::vector<Point> points = flattened(corners, balanced);
   if (points.empty()) return {};
-  return EarClipper(std::move(points)).run();
+  PolygonTriangles cut = EarClipper(std::move(points)).run();
+  cut.crosses_itself = cut.crosses_itself || (balanced && !cut.triangles.empty());
+  return cut;
 }
 
 }  // namespace torolux

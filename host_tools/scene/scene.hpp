@@ -23,6 +23,7 @@ struct SceneTexture {
   std::string file;
   std::uint32_t width = 0, height = 0;
   std::vector<std::array<std::uint8_t, 3>> texels;  ///< sRGB (IEC 61966-2-1); row by row, the lowest first
+  bool clamped = false;                             ///< does not repeat: beyond its edges its outermost texels go on
 };
 inline constexpr std::uint32_t kNoImage = 0xFFFF'FFFFU;
 

@@ -187,13 +187,24 @@ void read_shapes(TomlTable& table, const std::string& file, SceneFile& scene) {
   for (const toml::table* lamp : table.tables("lamp")) scene.lamps.push_back(read_lamp({*lamp, file, "[[lamp]]"}));
 }
 
+/// Pictures are called by it.
+std::optional<std::string> read_name(TomlTable& table) {
+  std::optional<std::string> name = table.text("name");
+  const auto is_wrong = [](char c) { return c == '/' || (c >= 0 && c < ' '); };
+  if (name && (name->find_first_not_of(' ') == std::string::npos || std::ranges::any_of(*name, is_wrong)))
+    refuse(table.place("name"), "the scene's 'name' is " + in_quotes(*name) +
+                                    "; its picture is called by it, so it must have letters, and no / and no line "
+                                    "ends. Without 'name' it is the folder's");
+  return name;
+}
+
 }  // namespace
 
 SceneFile read_scene_file(std::string_view text, const std::string& file) {
   const toml::table root = parse_toml(text, file);
   TomlTable table(root, file, "the scene");
   SceneFile scene;
-  scene.name = table.text("name");
+  scene.name = read_name(table);
   for (const toml::table* mesh : table.tables("mesh")) scene.meshes.push_back(read_mesh({*mesh, file, "[[mesh]]"}));
   if (const toml::table* materials = table.table("material")) {
     for (const auto& [key, node] : *materials) {

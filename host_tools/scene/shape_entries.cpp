@@ -88,6 +88,27 @@ void check_light(const TomlTable& table, const LampEntry& lamp) {
     refuse(lamp.place, "[[lamp]] needs either 'lumen' or 'radiance', or 'ies'");
 }
 
+Vec3d faces(const LampEntry& lamp) {
+  if (lamp.hung) {
+    Vec3d across{0, 0, 0};
+    across[static_cast<std::size_t>(lamp.hung->wall) / 2] = 1;
+    return across;
+  }
+  if (!lamp.shape) return lamp.facing;
+  if (const auto* ring = std::get_if<Ring>(&*lamp.shape)) return ring->normal;
+  const auto& corner = std::get<Quad>(*lamp.shape).corners;
+  return vec::cross(vec::subtract(corner[1], corner[0]), vec::subtract(corner[3], corner[0]));
+}
+
+/// It turns the lamp about where it faces.
+void check_along(const TomlTable& table, const LampEntry& lamp, const Vec3d& along) {
+  constexpr double parallel = 1e-6;
+  const Vec3d across = vec::cross(vec::unit(along), vec::unit(faces(lamp)));
+  if (!(vec::length(across) > parallel))
+    refuse(table.place("along"),
+           "[[lamp]] 'along' lies along where the lamp faces: that does not turn it; give a direction across it");
+}
+
 }  // namespace
 
 RectangleKeys::RectangleKeys(TomlTable& table)
@@ -254,6 +275,7 @@ LampEntry read_lamp(TomlTable table) {
   } else {
     lamp.shape = Quad{keys.corners(table)};
   }
+  if (lamp.along) check_along(table, lamp, *lamp.along);
   return lamp;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "emulator/printable.hpp"
+#include "host_tools/scene/keep_on.hpp"
 
 namespace torolux {
 namespace {
@@ -72,7 +73,7 @@ std::string_view StatementReader::next_line() {
   std::size_t skip = end;
   if (skip < text_.size()) skip += text_.substr(end, 2) == "\r\n" ? 2U : 1U;
   text_.remove_prefix(skip);
-  ++line_;
+  look_for_interruption(++line_);
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   if (line.find('\0') != std::string_view::npos) refuse({file_, line_}, "a zero byte: this is not a text file");
   return line;

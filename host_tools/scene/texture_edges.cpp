@@ -66,19 +66,9 @@ std::vector<CutOutPart> parts_at_edges(const std::array<TexturePoint2, 3>& point
   return parts;
 }
 
-void clamp_to_edges(std::array<TexturePoint2, 3>& points, const TexturePoint2& inset) {
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double middle = (points[0][axis] + points[1][axis] + points[2][axis]) / 3;
-    for (TexturePoint2& point : points) {
-      double& x = point[axis];
-      if (middle < 0)
-        x = inset[axis];
-      else if (middle > 1)
-        x = 1 - inset[axis];
-      else
-        x = std::clamp(x, 0.0, 1.0);
-    }
-  }
+void clamp_to_edges(std::array<TexturePoint2, 3>& points) {
+  for (TexturePoint2& point : points)
+    for (double& x : point) x = std::clamp(x, 0.0, 1.0);
 }
 
 }  // namespace torolux

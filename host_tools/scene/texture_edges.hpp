@@ -15,8 +15,7 @@ using TexturePoint2 = std::array<double, 2>;
 /// Parts of which each lies within 0 to 1 or beyond it, in u and in v; they keep the triangle's winding.
 std::vector<CutOutPart> parts_at_edges(const std::array<TexturePoint2, 3>& points);
 
-/// Texture points of one of these parts: those beyond an edge show its last texels. inset: of an edge's texels, so far
-/// from it that the texels of the edge across do not shine through.
-void clamp_to_edges(std::array<TexturePoint2, 3>& points, const TexturePoint2& inset);
+/// Texture points of one of these parts: those beyond an edge show what is at it.
+void clamp_to_edges(std::array<TexturePoint2, 3>& points);
 
 }  // namespace torolux

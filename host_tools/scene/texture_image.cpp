@@ -94,7 +94,15 @@ struct Decoder {
     std::vector<std::array<std::uint8_t, 4>> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     std::memcpy(pixels.data(), read.get(), pixels.size() * 4);
     if (!bmp && tga_begins_right(bytes)) turn_rows(pixels, static_cast<std::size_t>(width));
+    if (!bmp && !tga_has_alpha(bytes)) drop_alpha(pixels);
     return colours(pixels, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+  }
+
+  void drop_alpha(std::vector<std::array<std::uint8_t, 4>>& pixels) const {
+    const auto opaque = [](const auto& pixel) { return pixel[3] == 255; };
+    if (std::ranges::all_of(pixels, opaque)) return;
+    notices.note("the fourth channel of a TGA whose header tells of no alpha is not used", place, file);
+    for (auto& pixel : pixels) pixel[3] = 255;
   }
 
   DecodedImage jpeg(std::string_view bytes) const {

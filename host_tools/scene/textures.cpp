@@ -91,8 +91,8 @@ std::string TextureLibrary::read(const TextureUse& use, const std::string& file)
 std::uint32_t TextureLibrary::load(const TextureUse& use) {
   const auto file = find(use);
   if (!file) return kNoImage;
-  const auto [entry, fresh] =
-      number_.emplace(std::tuple(*file, use.base, use.gain, use.cutoff), static_cast<std::uint32_t>(textures_.size()));
+  const auto [entry, fresh] = number_.emplace(std::tuple(*file, use.base, use.gain, use.cutoff, use.clamp),
+                                              static_cast<std::uint32_t>(textures_.size()));
   if (!fresh) return entry->second;
   DecodedImage image = decode_texture(read(use, *file), *file, use.place, notices_);
   for (auto& texel : image.colours.texels)
@@ -107,6 +107,7 @@ std::uint32_t TextureLibrary::load(const TextureUse& use) {
     masks_.back() = cut_out_mask(image.alpha, image.colours.width, image.colours.height);
     fill_hidden(image);
   }
+  image.colours.clamped = use.clamp;
   textures_.push_back(std::move(image.colours));
   return entry->second;
 }
@@ -120,12 +121,6 @@ std::optional<CutOutMask> TextureLibrary::load_mask(const TextureUse& use) {
   for (std::uint8_t& value : image.alpha) value = with_base_and_gain(value, use);
   move_cutoff(use.cutoff, image.alpha);
   return cut_out_mask(image.alpha, image.colours.width, image.colours.height);
-}
-
-std::array<double, 2> TextureLibrary::half_texel(std::uint32_t texture) const {
-  constexpr double usual_edge = 128;  // 16,384 texels
-  return {0.5 / std::min<double>(textures_[texture].width, usual_edge),
-          0.5 / std::min<double>(textures_[texture].height, usual_edge)};
 }
 
 Vec3d TextureLibrary::brightest(std::uint32_t texture) const {

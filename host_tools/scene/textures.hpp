@@ -38,8 +38,6 @@ class TextureLibrary {
   /// The mask that an image of opacity (map_d) is: its alpha, or where it has none, its brightness. Absent: nowhere,
   /// and white stands for it. Throws InputError as load does.
   std::optional<CutOutMask> load_mask(const TextureUse& use);
-  /// Half a texel of it in u and v, of the machine's where those are larger as usual.
-  std::array<double, 2> half_texel(std::uint32_t texture) const;
   /// The greatest of each channel, linear.
   Vec3d brightest(std::uint32_t texture) const;
   std::vector<SceneTexture> take() { return std::move(textures_); }
@@ -53,7 +51,8 @@ class TextureLibrary {
   Notices& notices_;
   std::string read(const TextureUse& use, const std::string& file) const;
 
-  std::map<std::tuple<std::string, double, double, double>, std::uint32_t> number_;  // by file, base, gain, cutoff
+  /// By file, base, gain, cutoff, clamp.
+  std::map<std::tuple<std::string, double, double, double, bool>, std::uint32_t> number_;
   std::vector<SceneTexture> textures_;
   std::vector<std::optional<CutOutMask>> masks_;  // of textures_
 };

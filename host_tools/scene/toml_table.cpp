@@ -167,14 +167,21 @@ const toml::table* TomlTable::table(std::string_view key) {
   return node->as_table();
 }
 
+std::string TomlTable::header_of(std::string_view key) const {
+  const std::size_t begin = title_.find_first_not_of('[');
+  const bool nested = begin != 0;  // the title is a header itself: [[mesh]]
+  const std::string outer = nested ? title_.substr(begin, title_.find(']') - begin) + "." : "";
+  return "[[" + outer + std::string(key) + "]]";
+}
+
 std::vector<const toml::table*> TomlTable::tables(std::string_view key) {
   const toml::node* node = find(key);
   std::vector<const toml::table*> result;
   if (node == nullptr) return result;
   const toml::array* array = node->as_array();
-  if (array == nullptr) refuse_kind(key, "written as [[" + std::string(key) + "]]");
+  if (array == nullptr) refuse_kind(key, "written as " + header_of(key));
   for (const toml::node& element : *array) {
-    if (!element.is_table()) refuse_kind(key, "written as [[" + std::string(key) + "]]");
+    if (!element.is_table()) refuse_kind(key, "written as " + header_of(key));
     result.push_back(element.as_table());
   }
   return result;

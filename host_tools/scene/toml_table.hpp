@@ -60,6 +60,8 @@ class TomlTable {
   const toml::node* find(std::string_view key);
   /// "; did you mean it by 'KEY'?" where the table has a key that is nearly this one; else "".
   std::string mistyped(std::string_view key) const;
+  /// As an array of tables within this one is written.
+  std::string header_of(std::string_view key) const;
   [[noreturn]] void refuse_kind(std::string_view key, const std::string& expected) const;
   double checked(const toml::node& node, std::string_view key, double least, double most) const;
   Vec3d vector(const toml::node& node, std::string_view key, double least, double most) const;

@@ -12,6 +12,7 @@
 
 #include "firmware/protocol/triangle_grid.hpp"
 #include "host_tools/layout/copies.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/setup/camera_sample.hpp"
 #include "host_tools/setup/sample_heat.hpp"
 
@@ -44,6 +45,7 @@ class Chooser {
     if (choice_.torus.pes() > 1 && needs_heat) {
       const Placement whole =
           make_placement(mesh, lists_, {{1, 1}, std::nullopt, "modulo", machine.scheme, machine.empty}, {});
+      look_for_interruption();
       radiosity_heat_ = sample_radiosity_heat(scene, mesh, whole, quality.bounces);
       if (for_each_stage()) {
         const CameraRays rays(camera, mesh.space, quality.width, quality.height, PixelSamples(quality, parameters.seed),
@@ -86,6 +88,7 @@ class Chooser {
   const Heat& heat(Stage stage) const { return stage == Stage::radiosity ? radiosity_heat_ : ray_heat_; }
 
   Placement place(Stage stage, std::vector<bool> common, std::vector<bool> surfaces, double most_memory) const {
+    look_for_interruption();
     const Heat& of_stage = heat(stage);
     return make_placement(
         mesh_, lists_, choice_,

@@ -4,11 +4,13 @@
 #include "host_tools/solution/ply_file.hpp"
 
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 #include <string>
 
+#include "emulator/errors.hpp"
 #include "firmware/protocol/element_light.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/vec.hpp"
@@ -86,6 +88,15 @@ class PlyWriter {
 std::vector<std::byte> pack_ply(const Scene& scene, const Mesh& mesh, const LightUnits& units,
                                 const VertexIrradiance& irradiance) {
   return PlyWriter(scene, mesh, units, irradiance).write();
+}
+
+void check_ply_writable(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!extension.empty() && extension != ".ply")
+    throw UsageError("--save-mesh: " + file.string() + ": the mesh is written as .ply, in no other format; call it " +
+                     std::filesystem::path(file).replace_extension(".ply").string());
+  check_file_writable(file);
 }
 
 void save_ply(const std::filesystem::path& file, const Scene& scene, const Mesh& mesh, const LightUnits& units,

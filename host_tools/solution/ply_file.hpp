@@ -19,6 +19,9 @@ namespace torolux {
 std::vector<std::byte> pack_ply(const Scene& scene, const Mesh& mesh, const LightUnits& units,
                                 const VertexIrradiance& irradiance);
 
+/// Before the work. Throws InputError: it cannot be written; UsageError: it has the extension of another format.
+void check_ply_writable(const std::filesystem::path& file);
+
 /// Throws InputError where the file cannot be written; leaves none behind then.
 void save_ply(const std::filesystem::path& file, const Scene& scene, const Mesh& mesh, const LightUnits& units,
               const VertexIrradiance& irradiance);

@@ -199,6 +199,7 @@ std::uint64_t hash_of_materials(const Scene& scene) {
     materials.add((std::uint64_t{texture.width} << 32U) | texture.height);
     for (const auto& [r, g, b] : texture.texels)
       materials.add((std::uint64_t{r} << 16U) | (std::uint64_t{g} << 8U) | b);
+    if (texture.clamped) materials.add(std::uint64_t{1});
   }
   if (scene.sky) add_sky(*scene.sky, materials);
   add_lamps(scene, materials);

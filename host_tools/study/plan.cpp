@@ -172,19 +172,24 @@ class PlanReader {
     report.log_x = table.flag("log_x").value_or(false);
     report.log_y = table.flag("log_y").value_or(false);
     report.y = names_at(table, "y");
+    for (const auto& [key, name] : {std::pair("x", report.x), std::pair("by", report.by)})
+      if (!name.empty()) report.lines.emplace(name, table.place(key).line);
     if (const toml::table* baseline = table.table("baseline")) {
+      report.lines.emplace("baseline", table.place("baseline").line);
       for (const Leaf& leaf : leaves(*baseline, {})) report.baseline[leaf.name] = option(leaf).value;
     }
     table.finish();
   }
 
   /// One text or a list of them.
-  std::vector<std::string> names_at(TomlTable& table, const char* key) const {
+  std::vector<std::string> names_at(TomlTable& table, const char* key) {
     const toml::table* report = root_.get("report")->as_table();
     const toml::node* node = report->get(key);
     if (node == nullptr || node->is_string()) {
       const auto text = table.text(key);
-      return text ? std::vector<std::string>{*text} : std::vector<std::string>{};
+      if (!text) return {};
+      plan_.report.lines.emplace(*text, place_of(*node, file_).line);
+      return {*text};
     }
     table.known(key);
     std::vector<std::string> names;
@@ -193,6 +198,10 @@ class PlanReader {
     for (const toml::node& name : *list) {
       if (!name.is_string()) refuse(place_of(name, file_), std::string("[report] '") + key + "' is a list of names");
       names.push_back(name.value<std::string>().value_or(""));
+      if (names.back().empty()) refuse(place_of(name, file_), std::string("[report] '") + key + "' has an empty name");
+      if (std::ranges::count(names, names.back()) > 1)
+        refuse(place_of(name, file_), std::string("[report] '") + key + "' names '" + names.back() + "' twice");
+      plan_.report.lines.emplace(names.back(), place_of(name, file_).line);
     }
     return names;
   }

@@ -36,6 +36,7 @@ struct Report {
   std::string title;
   bool log_x = false, log_y = false;
   std::map<std::string, std::string> baseline;  ///< option -> value; empty: the first run
+  std::map<std::string, std::size_t> lines;     ///< of the names in x, y and by, and of "baseline"
 };
 
 struct Plan {

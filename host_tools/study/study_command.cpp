@@ -25,6 +25,7 @@
 #include "host_tools/study/options.hpp"
 #include "host_tools/study/plots.hpp"
 #include "host_tools/study/rank_hands.hpp"
+#include "host_tools/study/report_names.hpp"
 #include "host_tools/study/runner.hpp"
 #include "host_tools/study/serve.hpp"
 #include "host_tools/study/shard.hpp"
@@ -74,6 +75,7 @@ Study read_study(const std::string& file, const StudyOptions& options) {
   ResultFolder folder(folder_of(file, options), plan.command);
   Study study{std::move(plan), std::move(folder), {}, {}, {}, {}};
   study.points = points_of(study.plan);
+  check_report_names(study.plan);
   check_baseline(study.plan, study.points);
   const std::string program = program_digest();
   const std::vector<std::string> varied = varied_names(study.plan);

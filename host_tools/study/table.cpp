@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/errors.hpp"
 #include "host_tools/report/text.hpp"
+#include "host_tools/scene/statements.hpp"
 #include "host_tools/study/figures.hpp"
 
 namespace torolux::study {
@@ -73,10 +73,18 @@ std::string for_people(const Json& value) {
 
 void check_baseline(const Plan& plan, const std::vector<Point>& points) {
   if (plan.report.baseline.empty()) return;
+  const auto line = plan.report.lines.find("baseline");
+  const Place place{plan.file.string(), line == plan.report.lines.end() ? 0 : line->second};
+  for (const auto& [name, value] : plan.report.baseline) {
+    const std::string& key = name;
+    const std::string& wanted = value;
+    if (std::ranges::none_of(points, [&](const Point& point) { return point.value(key) == wanted; }))
+      refuse(place, "[report]: 'baseline' names no run of the plan: none has " + key + " = " + in_quotes(wanted));
+  }
   const std::vector<std::size_t> baselines = baselines_of(plan, points, varied_names(plan));
   if (std::ranges::any_of(baselines, [&](std::size_t baseline) { return baseline < points.size(); })) return;
-  throw InputError(plan.file.string() + ": [report]: 'baseline' names no run of the plan: of what varies, it takes " +
-                   "values that stand in the lists");
+  refuse(place,
+         "[report]: 'baseline' names no run of the plan: of what varies, it takes values that stand in the lists");
 }
 
 std::size_t Table::column(const std::string& name) const {

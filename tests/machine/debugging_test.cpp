@@ -101,8 +101,8 @@ TEST(MixedEngines, WhatTheMachineDoesNotHaveIsRefused) {
     EXPECT_EQ(run.exit_code, exit_code) << text;
     EXPECT_THAT(run.errors, HasSubstr(text));
   };
-  expect({"--qemu-pes", "16"}, 1, "there is no PE 16 to run on QEMU: this machine's PEs are 0 to 15");
-  expect({"--gdb", "16:0"}, 1, "there is no PE 16 to run on QEMU: this machine's PEs are 0 to 15");
+  expect({"--qemu-pes", "16"}, 2, "there is no PE 16 to run on QEMU; the machine has 0 to 15");
+  expect({"--gdb", "16:0"}, 2, "there is no PE 16 to run on QEMU; the machine has 0 to 15");
   expect({"--gdb", "3:0", "--gdb", "3:0"}, 1, "PE 3 is to have two debuggers");
   expect({"--gdb", "3:65536"}, 2, "--gdb: \"3:65536\" is out of range: 0 to 65535 are allowed");
   expect({"--gdb", "x"}, 1, "--gdb: \"x\" is not a TCP port like 1234, or a path");
@@ -110,9 +110,15 @@ TEST(MixedEngines, WhatTheMachineDoesNotHaveIsRefused) {
   expect({"--gdb", "0", "--gdb", "0"}, 1, "--gdb: given twice: one debugger holds all PEs");
   expect({"--gdb", "70000"}, 2, "--gdb: \"70000\" is out of range: 0 to 65535 are allowed");
   expect({"--gdb-pes", "3"}, 1, "--gdb-pes names PEs for --gdb PORT, which is not there");
-  expect({"--gdb", "0", "--gdb-pes", "16"}, 1, "--gdb-pes: there is no PE 16: this machine's PEs are 0 to 15");
+  expect({"--gdb", "0", "--gdb-pes", "16"}, 2, "--gdb-pes: there is no PE 16; the machine has 0 to 15");
   expect({"--gdb", "0", "--gdb-pes", "3", "--qemu-pes", "3"}, 1, "PE 3 cannot both run on QEMU and be held");
   expect({"--gdb", "0", "--engine", "qemu"}, 1, "the engine qemu lends no PEs to the emulator's own debugger");
+}
+
+TEST(Timeout, HoldsWhileADebuggerIsAwaited) {
+  const Finished run = run_torolux({"run", image("token"), "--pes", "2x1", "--gdb", "0", "--timeout", "1"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("the run has taken 1 s, and is given up (--timeout) while its PEs are held"));
 }
 
 // ---- Debuggers ----

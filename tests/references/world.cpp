@@ -204,17 +204,19 @@ Colour World::diffuse_at(const Hit& hit) const {
   std::array<double, 2> at{};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double place = points[0][axis] * (1 - hit.b1 - hit.b2) + points[1][axis] * hit.b1 + points[2][axis] * hit.b2;
-    at[axis] = (place - std::floor(place)) * size[axis] - 0.5;
+    at[axis] = (texture.clamped ? std::clamp(place, 0.0, 1.0) : place - std::floor(place)) * size[axis] - 0.5;
   }
+  const auto index = [&](double x, double end) {
+    const double over = texture.clamped ? 1 : end;
+    return static_cast<std::size_t>(x < 0 ? x + over : x >= end ? x - over : x);
+  };
   Colour sum = Colour::Zero();
   for (const double up : {0.0, 1.0}) {
     for (const double across : {0.0, 1.0}) {
       const double x = std::floor(at[0]) + across;
       const double y = std::floor(at[1]) + up;
       const double share = (1 - std::fabs(at[0] - x)) * (1 - std::fabs(at[1] - y));
-      const auto column = static_cast<std::size_t>(x < 0 ? x + size[0] : x >= size[0] ? x - size[0] : x);
-      const auto row = static_cast<std::size_t>(y < 0 ? y + size[1] : y >= size[1] ? y - size[1] : y);
-      const auto& texel = texture.texels[row * texture.width + column];
+      const auto& texel = texture.texels[index(y, size[1]) * texture.width + index(x, size[0])];
       for (int c = 0; c < 3; ++c) sum[c] += share * linear(texel[static_cast<std::size_t>(c)]);
     }
   }

@@ -46,10 +46,23 @@ bool is_text(std::string_view text) {
   return true;
 }
 
-/// What is wrong with it; empty: nothing.
-std::string put_record(std::span<const std::byte> record, PhaseNames& names) {
+std::uint32_t phase_of(std::span<const std::byte> record) {
   std::uint32_t phase = 0;
   std::memcpy(&phase, record.data(), sizeof phase);
+  return phase;
+}
+
+/// Programs in C write another number: theirs begin behind those of Torolux (TOROLUX_FIRST_PHASE).
+std::string in_c(std::uint32_t phase) {
+  constexpr auto first = static_cast<std::uint32_t>(protocol::Phase::count);
+  if (phase < first) return "";
+  return "; in C it is TOROLUX_PHASE_NAME(" + std::to_string(phase - first) + ", ...), of 0 to " +
+         std::to_string(protocol::kPhases - first - 1);
+}
+
+/// What is wrong with it; empty: nothing.
+std::string put_record(std::span<const std::byte> record, PhaseNames& names) {
+  const std::uint32_t phase = phase_of(record);
   const std::string what = "phase " + std::to_string(phase);
   if (phase >= protocol::kPhases) {
     return "names " + what + "; there are 0 to " + std::to_string(protocol::kPhases - 1);
@@ -80,7 +93,9 @@ PhaseRecords read_phase_records(std::span<const std::byte> section) {
                    std::to_string(kPhaseRecordBytes);
   }
   for (; result.wrong.empty() && !section.empty(); section = section.subspan(kPhaseRecordBytes)) {
-    result.wrong = put_record(section.first(kPhaseRecordBytes), result.names);
+    const auto record = section.first(kPhaseRecordBytes);
+    result.wrong = put_record(record, result.names);
+    if (!result.wrong.empty()) result.wrong += in_c(phase_of(record));
   }
   const std::string program = protocol::kPhaseNames[kProgram];
   const bool taken = std::find(result.names.begin(), result.names.end(), program) != result.names.end();

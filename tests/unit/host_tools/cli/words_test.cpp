@@ -47,6 +47,12 @@ TEST(Words, MistypedWordsSayWhatWasMeant) {
               HasSubstr("scenes/cornell_box'?"));
 }
 
+TEST(Words, AnOptionOfOneValueThatIsGivenTwiceIsToldWithBoth) {
+  const Outcome outcome = torolux({"run", "a.elf", "--pes", "1x1", "--pes=2x2"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("--pes is given twice, with 1x1 and 2x2; it takes one value: leave one out"));
+}
+
 TEST(Words, HelpIsACommand) {
   EXPECT_EQ(torolux({"help"}).out, torolux({"--help"}).out);
   EXPECT_EQ(torolux({"help", "render"}).out, torolux({"render", "--help"}).out);
@@ -75,6 +81,18 @@ TEST(Results, ResultsInOneFileAreRefused) {
     EXPECT_THAT(outcome.err, HasSubstr("would be written over")) << testing::PrintToString(words);
   }
   EXPECT_EQ(folder.files(), 3U) << "the scene and the link";
+}
+
+TEST(Results, AMeshIsAPlyAndNoOtherExtensionIsTaken) {
+  const TemporaryFolder folder;
+  const std::string scene = write_small_scene(folder.path()).string();
+  const Outcome report = torolux({"render", scene, "--no-picture", "--report", folder.path() / "a.pdf"});
+  EXPECT_EQ(report.code, 1);
+  EXPECT_THAT(report.err, HasSubstr("a.pdf: a report is a page of HTML"));
+  const Outcome outcome = torolux({"render", scene, "--no-picture", "--save-mesh", folder.path() / "a.obj"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.obj: the mesh is written as .ply"), HasSubstr("a.ply")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.obj"));
 }
 
 TEST(SceneWords, StrictRefusesWhatIsTold) {

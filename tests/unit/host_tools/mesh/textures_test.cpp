@@ -61,6 +61,35 @@ TEST(MachineTexture, ShrinksToTheLimitInItsShapeAndKeepsTheMean) {
   EXPECT_EQ(line.height, 1U);
 }
 
+// Where it does not repeat, a look-up up to its edges finds the outermost texels alone, and in between the same.
+TEST(MachineTexture, DoesNotShineThroughFromTheOppositeEdgeWhereItIsClamped) {
+  SceneTexture from{"made up", 4, 2, {}};
+  for (std::uint8_t i = 0; i < 8; ++i)
+    from.texels.push_back({static_cast<std::uint8_t>(i % 4 * 80), static_cast<std::uint8_t>(i / 4 * 255), 128});
+  const MachineTexture repeating = machine_texture(from, 8);
+  from.clamped = true;
+  const MachineTexture clamped = machine_texture(from, 8);
+  const auto seen = [](const MachineTexture& texture, float u, float v) {
+    return protocol::texture_colour(texture.texels.data(), texture.width, texture.height, texture.placed({u, v}));
+  };
+  for (const float v : {0.0F, 0.1F, 0.25F}) {
+    for (const float u : {0.0F, 0.05F, 0.125F}) {
+      EXPECT_NEAR(seen(clamped, u, v)[0], 0, 1e-4) << u << " " << v;
+      EXPECT_NEAR(seen(clamped, 1 - u, v)[0], linear_of_srgb(240), 2e-3) << u << " " << v;
+      EXPECT_NEAR(seen(clamped, u, v)[1], 0, 1e-4) << u << " " << v;
+      EXPECT_NEAR(seen(clamped, u, 1 - v)[1], 1, 1e-4) << u << " " << v;
+    }
+  }
+  for (const float v : {0.25F, 0.4F, 0.75F})
+    for (const float u : {0.125F, 0.3F, 0.6F, 0.875F})
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen(clamped, u, v)[c], seen(repeating, u, v)[c], 1e-4) << u << " " << v << " " << c;
+  // Nor beyond the machine's longest edge.
+  SceneTexture line{"made up", protocol::kMostTextureEdge, 1, {}, true};
+  line.texels.resize(protocol::kMostTextureEdge);
+  EXPECT_EQ(machine_texture(line, 1U << 20U).width, protocol::kMostTextureEdge);
+}
+
 using Corners = std::array<protocol::TexturePoint, 3>;
 
 /// Left half black, right half white.
@@ -125,6 +154,48 @@ TEST(Reflectance, OfAPatchIsTheTexturesMeanOverIt) {
     const Vec3d whole = TextureMeans(mesh.textures[1]).over({corner[0], corner[1], corner[2]});
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], material.diffuse[c] * whole[c], 0.005);
   }
+}
+
+// Two tiles side by side that each show all of the image: neither goes on with the other's, as repeating ones may.
+TEST(Mesh, TilesWithATextureThatDoesNotRepeatEachShowAllOfIt) {
+  Scene scene = test::room_with_box();
+  scene.textures = {{"made up", 2, 1, {{0, 0, 0}, {255, 255, 255}}, true}};
+  SceneMaterial material;
+  material.diffuse = {0.5, 0.5, 0.5};
+  material.texture = 0;
+  scene.materials.push_back(material);
+  const auto first = static_cast<std::uint32_t>(scene.positions.size());
+  for (const double x : {0.25, 0.5, 0.75})
+    for (const double z : {0.25, 0.5}) scene.positions.push_back({x, 0.9, z});
+  for (std::uint32_t tile = 0; tile < 2; ++tile) {
+    for (const std::array<std::uint32_t, 3>& corners : {std::array{0U, 1U, 3U}, std::array{0U, 3U, 2U}}) {
+      SceneTriangle triangle{
+          {}, {kNoNormal, kNoNormal, kNoNormal}, static_cast<std::uint32_t>(scene.materials.size() - 1)};
+      triangle.texture_points = static_cast<std::uint32_t>(scene.texture_points.size());
+      for (std::size_t i = 0; i < 3; ++i) {
+        triangle.position[i] = first + 2 * tile + corners[i];
+        scene.texture_points.push_back({corners[i] / 2 == 1 ? 1.0 : 0.0, corners[i] % 2 == 1 ? 1.0 : 0.0});
+      }
+      scene.triangles.push_back(triangle);
+    }
+  }
+  const Mesh mesh = make_mesh(scene, {.patch_length = 0.2, .element_length = 0.1, .texels = 1000});
+  std::size_t any = 0;
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    if (triangle.texture == protocol::kNoTexture) continue;
+    ++any;
+    double least = 1;
+    double most = 0;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto u = static_cast<double>(mesh.texture_points[triangle.texture_points + i].u);
+      least = std::min(least, u);
+      most = std::max(most, u);
+    }
+    // A texel of border on each side of two.
+    EXPECT_NEAR(least, 0.25, 1e-6);
+    EXPECT_NEAR(most, 0.75, 1e-6);
+  }
+  EXPECT_EQ(any, 4U);
 }
 
 TEST(StageImage, APeHoldsTheTexturesOfItsPolygonsAlone) {

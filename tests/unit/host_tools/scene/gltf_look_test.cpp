@@ -12,6 +12,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 using Json = nlohmann::json;
 
@@ -185,6 +186,58 @@ TEST(GltfLights, HaveTheIntensityThatTheFileTells) {
     EXPECT_NEAR(intensity, 8, 1e-6) << type;
     EXPECT_NEAR(radiance[1], radiance[0] / 2, 1e-9);
   }
+}
+
+/// [W/sr], summed over all lights: of points in all directions, of spots along their axes.
+double whole_intensity(const Scene& scene, double share) {
+  double sum = 0;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+    sum += scene.materials[scene.triangles[t].material].emission[0] * area(scene, t) * share;
+  return sum;
+}
+
+// Exporters write one lamp for each bulb of a fitting.
+TEST(GltfLights, AtOnePlaceAddUp) {
+  GltfWriter file = gltf_square();
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 8}},
+                                                              {{"type", "point"}, {"intensity", 2}},
+                                                              {{"type", "spot"}, {"intensity", 3}}};
+  const auto add = [&file](int light, double x) {
+    file.node({{"translation", {x, 0, 4}}, {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+  };
+  for (const int light : {0, 0, 1}) add(light, 0);
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.triangles.size(), 22U);
+  EXPECT_NEAR(whole_intensity(scene, 0.25), 18, 1e-6);
+  EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("duplicate"))));
+  // Nearer to each other than they are wide: both whole.
+  add(0, 0.001);
+  const Scene near = load(file);
+  EXPECT_EQ(near.triangles.size(), 42U);
+  EXPECT_NEAR(whole_intensity(near, 0.25), 26, 1e-6);
+  vec::Box box;
+  for (const SceneTriangle& triangle : near.triangles)
+    for (const std::uint32_t p : triangle.position)
+      if (near.positions[p][2] > 3) box.include(near.positions[p]);
+  EXPECT_LT(box.extent()[0], 0.002);
+  // A spot in a point is before it.
+  GltfWriter spots = gltf_square();
+  spots.json["extensions"] = file.json["extensions"];
+  for (const int light : {0, 2, 2})
+    spots.node({{"translation", {0, 0, 4}}, {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+  const Scene both = load(spots);
+  EXPECT_EQ(both.triangles.size(), 28U);
+  double lowest = 4;
+  double of_spots = 4;
+  for (const SceneTriangle& triangle : both.triangles) {
+    for (const std::uint32_t p : triangle.position) {
+      const double z = both.positions[p][2];
+      if (z < 3) continue;
+      double& least = both.materials[triangle.material].name == "light 2" ? of_spots : lowest;
+      least = std::min(least, z);
+    }
+  }
+  EXPECT_LT(of_spots, lowest);
 }
 
 GltfWriter with_cameras() {

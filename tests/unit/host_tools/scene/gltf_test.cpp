@@ -12,6 +12,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 using Json = nlohmann::json;
 
@@ -56,6 +57,54 @@ TEST(Gltf, ASquareIsTheSameWithNeighbourAsGlbAndWithDataWithin) {
   small.json["buffers"][0]["uri"] =
       "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
   EXPECT_NEAR(whole_area(load_texts({{"a.gltf", small.json.dump()}}, "a.gltf")), 0.5, 1e-7);
+}
+
+// What validators refuse, and can be read in one way, is told with its place.
+TEST(Gltf, BuffersAndViewsThatAreNotAsTheFormatWantsThemAreToldOrRefused) {
+  GltfWriter file = gltf_square();
+  Texts all = texts(file);
+  const std::string length = std::to_string(file.bytes().size());
+  file.json["buffers"][0]["byteLength"] = file.bytes().size() + 4;
+  all["a.gltf"] = file.json.dump();
+  EXPECT_THAT(load_texts(all, "a.gltf").warnings,
+              Contains("a.gltf: buffer 0: a buffer has fewer bytes than its 'byteLength'; what reaches beyond them is "
+                       "refused: " +
+                       length + " of " + std::to_string(file.bytes().size() + 4)));
+  file.json["buffers"][0].erase("byteLength");
+  all["a.gltf"] = file.json.dump();
+  EXPECT_THAT(load_texts(all, "a.gltf").warnings,
+              Contains(HasSubstr("a.gltf: buffer 0: a buffer has no 'byteLength'")));
+
+  file.json["buffers"][0]["uri"] = "https://example.org/a.bin";
+  all["a.gltf"] = file.json.dump();
+  EXPECT_THAT(refusal(all, "a.gltf"), StartsWith("a.gltf: buffer 0: lies at 'https://example.org/a.bin': nothing is"));
+
+  const auto with_stride = [](int stride) {
+    GltfWriter strided;
+    const std::size_t positions = strided.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+    strided.json["bufferViews"][0]["byteStride"] = stride;
+    strided.mesh({{"attributes", {{"POSITION", positions}}}});
+    return strided;
+  };
+  GltfWriter right = with_stride(12);
+  EXPECT_THAT(load(right).warnings, Not(Contains(HasSubstr("byteStride"))));
+  GltfWriter zero = with_stride(0);
+  EXPECT_THAT(load(zero).warnings,
+              Contains(HasSubstr("a.gltf: bufferView 0: a 'byteStride' that glTF does not allow")));
+  GltfWriter small = with_stride(8);
+  EXPECT_THAT(refused(small), StartsWith("a.gltf: accessor 0: its elements have 12 bytes each, and the 'byteStride' of "
+                                         "its bufferView is 8"));
+}
+
+TEST(Gltf, ANodeWithAMatrixAndOtherPlacingIsToldOrRefused) {
+  GltfWriter file = gltf_square();
+  file.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1};
+  file.json["nodes"][0]["translation"] = {0, 0, 5};
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.positions[0][2], 5);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("a.gltf: node 0: a node has a 'matrix' and")));
+  file.json["nodes"][0]["translation"] = {0, 0, 4};
+  EXPECT_THAT(refused(file), StartsWith("a.gltf: node 0: has a 'matrix', and 'translation'"));
 }
 
 TEST(Gltf, StripsAndFansKeepTheirWinding) {

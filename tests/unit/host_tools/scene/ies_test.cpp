@@ -203,6 +203,13 @@ TEST(Ies, LampsThatCannotHangAreRefused) {
               StartsWith("s.toml:6: [[lamp]] 'ies' says"));
   EXPECT_THAT(refused_with("lumen = 3\ncentre = [1, 1, 1]\nradius = 1\nalong = [1, 0, 0]\n"),
               StartsWith("s.toml:7: [[lamp]] 'along'"));
+  const std::string parallel = "s.toml:6: [[lamp]] 'along' lies along where the lamp faces";
+  EXPECT_THAT(refused_with("ies = 'b.ies'\ncentre = [1, 1, 1]\nalong = [0, 2, 0]\n"), StartsWith(parallel));
+  EXPECT_THAT(refused_with("ies = 'b.ies'\nat = 'on the left wall'\nalong = [-1, 0, 0]\n"), StartsWith(parallel));
+  EXPECT_THAT(refused_with("ies = 'b.ies'\ncentre = [1, 1, 1]\nalong = [1, 0, 2]\nfacing = [0.5, 0, 1]\n"),
+              StartsWith(parallel));
+  EXPECT_THAT(refused_with("ies = 'b.ies'\ncorner = [1, 1, 1]\nalong = [0, 0, 2]\nedges = [[0, 1, 0], [1, 0, 0]]\n"),
+              StartsWith(parallel));
   EXPECT_THAT(refusal({{"a.mgf", "ies b.ies -m\n"}, {"b.ies", kIes}}, "a.mgf"), StartsWith("a.mgf:1: -m is followed"));
   EXPECT_THAT(refusal({{"a.mgf", "ies c.ies\n"}}, "a.mgf"), StartsWith("a.mgf:1: there is no measured lamp"));
 }

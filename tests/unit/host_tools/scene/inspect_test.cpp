@@ -8,6 +8,7 @@
 namespace torolux {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -46,6 +47,18 @@ TEST(Inspect, SoundSceneIsLeftInPeace) {
               IsEmpty());
 }
 
+TEST(Inspect, AnOpeningOfTheSkyThatFacesOutwards) {
+  const auto of = [](const std::string& facing) {
+    return inspect(load_texts({{"s.toml",
+                                "[room]\nsize = [4, 3, 5]\nopen = ['front']\n[sky]\nradiance = 1\n[[sky.opening]]\n"
+                                "centre = [2, 1.5, 5]\nsize = [4, 3]\nfacing = " +
+                                    facing + "\n"}},
+                              "s.toml"));
+  };
+  EXPECT_THAT(of("[0, 0, -1]"), IsEmpty());
+  EXPECT_THAT(of("[0, 0, 1]"), Contains(HasSubstr("[[sky.opening]] 1 around 2,1.5,5 faces outwards")));
+}
+
 TEST(Inspect, InvertedSolidAndRoom) {
   EXPECT_THAT(inspected(box(0, 10, true, "wall") + box(2, 3, true, "wall")),
               Contains(HasSubstr("closed solid 'wall' around 2.5,2.5,2.5 has its fronts inwards")));
@@ -79,7 +92,8 @@ TEST(Inspect, SurfacesThatAreLeftInOnePlane) {
   const std::string floor = "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nusemtl wall\nf -1 -2 -3 -4\n";
   const std::string beside = "v 4 0 0\nv 6 0 0\nv 6 0 4\nv 4 0 4\nusemtl other\nf -1 -2 -3 -4\n";
   EXPECT_THAT(inspected(floor + box(0, 2, false, "glass")),
-              Contains(HasSubstr("'wall' and 'glass' overlap in one plane")));
+              Contains(AllOf(HasSubstr("'wall' and 'glass' overlap in one plane"), HasSubstr("move 'glass' away"))));
+  EXPECT_THAT(inspected(floor + box(0, 2, false, "other")), IsEmpty()) << "nobody sees where it stands";
   EXPECT_THAT(inspected(floor + beside), IsEmpty()) << "a common edge is no overlap";
 }
 

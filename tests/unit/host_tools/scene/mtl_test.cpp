@@ -144,5 +144,15 @@ TEST(Mtl, RefusalsNameFileAndLine) {
   EXPECT_THAT(refused("Ke 1 1 1\nKs 0.5 0.5 0.5\nillum 3\n"), HasSubstr("is a mirror or glass and emits"));
 }
 
+TEST(Mtl, AStatementThatStandsTwiceIsTold) {
+  const Scene scene = with_material("Kd 0.5\nillum 1\nKd 0.25\nKd 0.75\n");
+  expect_colour(scene.materials.at(0).diffuse, 0.75, 0.75, 0.75);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("a.mtl:4: of a statement that stands twice in a material the last one "
+                                                 "counts: Kd, first in line 2 (and 1 more)")));
+  // Each material has its own.
+  const Scene two = with_material("Kd 0.5\nnewmtl other\nKd 0.25\n");
+  EXPECT_THAT(two.warnings, testing::Not(Contains(HasSubstr("stands twice"))));
+}
+
 }  // namespace
 }  // namespace torolux

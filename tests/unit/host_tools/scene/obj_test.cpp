@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Proves what an OBJ may say and that all else is refused with file and line.
+#include "emulator/errors.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "tests/unit/host_tools/scene/scene_text.hpp"
 
 namespace torolux {
@@ -159,6 +161,17 @@ TEST(Obj, WithoutLightItIsRefusedByCheckRenderable) {
 TEST(Obj, UnknownKindsOfFileAreRefusedWithWhatIsAllowed) {
   EXPECT_THAT(refusal({{"a.ply", "{}"}}, "a.ply"), HasSubstr("a folder with scene.toml, a .toml, an .obj"));
   EXPECT_THAT(refusal({}, "b.obj"), HasSubstr("there is no scene 'b.obj'"));
+}
+
+// What takes a minute ends where it stands.
+TEST(Obj, ALargeMeshIsNotReadToItsEndAfterCtrlC) {
+  std::string text;
+  for (int i = 0; i < 10'000; ++i) text += "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
+  set_interruption([] { return true; });
+  EXPECT_THROW(load_texts({{"a.obj", text}}, "a.obj"), Interrupted);
+  set_interruption([] { return false; });
+  EXPECT_NO_THROW(load_texts({{"a.obj", text}}, "a.obj"));
+  set_interruption(nullptr);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "host_tools/scene/polygon_triangles.hpp"
@@ -47,6 +48,21 @@ TEST(Polygon, ConcaveOnes) {
   expect_covered({{0, 0, 0}, {0, 3, 0}, {1, 3, 0}, {1, 1, 0}, {3, 1, 0}, {3, 0, 0}}, 1e-12);
   // An arrow whose tip is the first corner: a fan from there would cover its outside.
   expect_covered({{0, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}}, 1e-12);
+}
+
+// A quad whose corners stand in the wrong order: what it encloses one way round is as much as the other way.
+TEST(Polygon, ABowTieIsToldToCrossItselfAlsoWhereItIsSymmetric) {
+  for (const double turned : {0.0, 0.3, 1.1}) {
+    std::vector<Vec3d> tie;
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 1.0), std::pair(1.0, 0.0), std::pair(0.0, 1.0)})
+      tie.push_back({x * std::cos(turned) - 0.3 * y, y, x * std::sin(turned) + 0.1 * y});
+    const PolygonTriangles cut = cut_polygon(tie);
+    EXPECT_TRUE(cut.crosses_itself) << turned;
+    EXPECT_EQ(cut.triangles.size(), 2U) << turned;
+  }
+  const PolygonTriangles line = cut_polygon(std::vector<Vec3d>{{0, 0, 0}, {1, 1, 0}, {3, 3, 0}, {2, 2, 0}});
+  EXPECT_TRUE(line.triangles.empty());
+  EXPECT_FALSE(line.crosses_itself);
 }
 
 TEST(Polygon, CornersOnStraightEdgesStayCorners) {

@@ -209,6 +209,14 @@ TEST(SceneToml, TheFolderNamesTheScene) {
   EXPECT_EQ(with(kMesh).name, "d");
 }
 
+TEST(SceneToml, ANameThatNoPictureCanHaveIsRefused) {
+  for (const char* name : {"", "  ", "a/b", "a\\nb"})
+    EXPECT_THAT(
+        refusal({{"s.toml", "\nname = \"" + std::string(name) + "\"\n" + kMesh}, {"a.obj", kTriangle}}, "s.toml"),
+        StartsWith("s.toml:2: the scene's 'name' is"))
+        << name;
+}
+
 TEST(SceneToml, UnknownKeysAreRefusedWithTheNearest) {
   EXPECT_THAT(refused("[[mesh]]\nfile = 'a.obj'\ntranslat = [0, 0, 0]\n"),
               AllOf(StartsWith("s.toml:3: "), HasSubstr("did you mean 'translate'?")));
@@ -228,6 +236,8 @@ TEST(SceneToml, RefusalsNameFileAndLine) {
   EXPECT_THAT(refused("[[mesh]]\nfile = 'b.obj'\n"), StartsWith("s.toml:1: there is no file 'b.obj'"));
   EXPECT_THAT(refused("[[mesh]]\nfile = 'b.ply'\n"),
               StartsWith("s.toml:1: 'b.ply' is not an .obj, .gltf, .glb or .mgf"));
+  EXPECT_THAT(refused("[mesh]\nfile = 'a.obj'\n"), HasSubstr("the scene 'mesh' must be written as [[mesh]]"));
+  EXPECT_THAT(refused(kMesh + "instance = 3\n"), HasSubstr("[[mesh]] 'instance' must be written as [[mesh.instance]]"));
   EXPECT_THAT(refused(kMesh + "scale = 0\n"), StartsWith("s.toml:3: [[mesh]] 'scale' is zero"));
   EXPECT_THAT(refused(kMesh + "scale = [1, 0, 1]\n"), HasSubstr("'scale' is zero"));
   EXPECT_THAT(refused(kMesh + "translate = [1, 2]\n"), HasSubstr("array of three numbers"));

@@ -249,7 +249,11 @@ INSTANTIATE_TEST_SUITE_P(
                  kObj,
                  replaced(kLibrary, "0.75", "0.75 1.0"),
                  {"room.mtl:2: a fourth number (alpha) of a colour is not used: Kd 1.0"}},
-        Stranger{"last_value_counts", kObj, replaced(kLibrary, "Kd 0.5", "Kd nan\nKd 0.5"), {}},
+        Stranger{
+            "last_value_counts",
+            kObj,
+            replaced(kLibrary, "Kd 0.5", "Kd nan\nKd 0.5"),
+            {"room.mtl:3: of a statement that stands twice in a material the last one counts: Kd, first in line 2"}},
         Stranger{"values_of_a_material_without_faces",
                  kObj,
                  kLibrary + "newmtl unused\nKd nan 0 0\nillum 40\n",

@@ -12,6 +12,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 using Pixels = std::vector<std::array<std::uint8_t, 3>>;
@@ -137,7 +138,7 @@ TEST(Texture, EdgesGoOnWhereItDoesNotRepeat) {
   Texts all = texts("map_Kd -clamp on -s 2 2 -o -0.5 -0.5 my tiles.png\n");
   const Scene scene = load_texts(all, "a.obj");
   double sum = 0;
-  constexpr double inset = 0.25;  // half a texel of two
+  EXPECT_TRUE(scene.textures[0].clamped);
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     sum += area(scene, t);
     const SceneTriangle& triangle = scene.triangles[t];
@@ -146,7 +147,7 @@ TEST(Texture, EdgesGoOnWhereItDoesNotRepeat) {
       for (const std::uint32_t p : triangle.position) middle += (2 * scene.positions[p][axis] - 0.5) / 3;
       for (std::size_t i = 0; i < 3; ++i) {
         const double own = 2 * scene.positions[triangle.position[i]][axis] - 0.5;
-        const double expected = middle < 0 ? inset : middle > 1 ? 1 - inset : own;
+        const double expected = middle < 0 ? 0 : middle > 1 ? 1 : own;
         EXPECT_NEAR(scene.texture_points[triangle.texture_points + i][axis], expected, 1e-6) << t << " " << axis;
       }
     }
@@ -266,6 +267,13 @@ TEST(Texture, TgaIsReadWhateverItsName) {
   const Scene seen = load_texts(texts("map_Kd my tiles.png\n", glassy), "a.obj");
   EXPECT_EQ(seen.textures[0].texels, upwards);
   EXPECT_THAT(seen.warnings, Contains(HasSubstr("alpha of a texture")));
+  // The header tells that none of the 32 bits are alpha.
+  std::string filled = glassy;
+  filled[17] = 0;
+  const Scene opaque = load_texts(texts("map_Kd my tiles.png\n", filled), "a.obj");
+  EXPECT_EQ(opaque.textures[0].texels, upwards);
+  EXPECT_THAT(opaque.warnings, Contains(HasSubstr("a TGA whose header tells of no alpha")));
+  EXPECT_THAT(opaque.warnings, Not(Contains(HasSubstr("alpha of a texture"))));
   for (const std::string& image : {plain, packed, glassy})
     EXPECT_THAT(refusal(texts("map_Kd my tiles.png\n", image.substr(0, image.size() - 1)), "a.obj"),
                 StartsWith("lib/a.mtl:2: the texture 'lib/my tiles.png' cannot be read: it is cut short"));

@@ -175,6 +175,8 @@ TEST(Tables, WithoutItsBaselineAPointHasNoSpeedUp) {
   EXPECT_THROW(check_baseline(study.plan, study.points), InputError);
   study.plan.report.baseline["pes"] = "2x2";
   EXPECT_NO_THROW(check_baseline(study.plan, study.points));
+  study.plan.report.baseline["size"] = "8x8";
+  EXPECT_THROW(check_baseline(study.plan, study.points), InputError) << "nor does it vary";
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/study/options.hpp"
 #include "host_tools/study/points.hpp"
+#include "host_tools/study/report_names.hpp"
 #include "host_tools/study/results.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -27,6 +28,36 @@ std::string refusal(const std::string& text) {
 }
 
 const std::string kBase = "[base]\ncommand = 'render'\nscene = 'room'\n";
+
+void check_report(const std::string& base, const std::string& report) {
+  check_report_names(parse_plan(base + "[vary]\npes = ['1x1', '2x2']\n[report]\n" + report, "plan.toml"));
+}
+
+std::string report_refusal(const std::string& base, const std::string& report) {
+  return testing_support::message_of<InputError>([&] { check_report(base, report); });
+}
+
+TEST(Plan, NamesOfFiguresThatNoRunHasAreRefusedBeforeTheFirst) {
+  EXPECT_EQ(report_refusal(kBase, "x = 'pes'\ny = ['cycles',\n 'hops.meen']\n"),
+            "plan.toml:9: [report]: no run has a figure 'hops.meen'; did you mean 'hops.mean'?");
+  EXPECT_THAT(report_refusal(kBase, "y = 'cycles.paint'\n"), StartsWith("plan.toml:7: [report]: no run has a figure"));
+  EXPECT_THAT(report_refusal(kBase, "\nx = 'pe_cout'\n"), StartsWith("plan.toml:8: [report]: no run has a figure"));
+  EXPECT_THAT(report_refusal(kBase, "by = 'sise'\n"), StartsWith("plan.toml:7: [report]: no run has a figure"));
+  EXPECT_THAT(report_refusal(kBase, "y = ['pes.0.bussy_cycles']\n"), HasSubstr("'pes.0.busy_cycles'"));
+  EXPECT_THAT(report_refusal(kBase, "y = ['pes.x.busy_cycles']\n"), StartsWith("plan.toml:7:"));
+  for (const char* name : {"speed_up.radiosity", "pes.3.busy_cycles", "stages.2.limits.shares.bus", "energy.emitted.1",
+                           "kinds.light.packets", "phases.my own", "settings.camera.eye.0", "draft.splits", "pes",
+                           "histograms.bytes_by_hops.3", "rounds.17.tail", "links.2.west.flits", "memory.needed",
+                           "path.3.virtual_cycles", "host_processor.work.copy.items", "wall_seconds"})
+    EXPECT_NO_THROW(check_report(kBase, "y = ['" + std::string(name) + "']\n")) << name;
+  const std::string run = "[base]\ncommand = 'run'\nimage = 'a.elf'\n";
+  EXPECT_NO_THROW(check_report(run, "y = ['bus.busy_cycles', 'phases.sort']\n"));
+  EXPECT_THAT(report_refusal(run, "y = ['energy.emitted.0']\n"), StartsWith("plan.toml:7:"));
+  const std::string network = "[base]\ncommand = 'network'\n";
+  EXPECT_NO_THROW(check_report(network, "y = ['accepted']\n"));
+  EXPECT_EQ(report_refusal(network, "y = ['acepted']\n"),
+            "plan.toml:6: [report]: no run has a figure 'acepted'; did you mean 'accepted'?");
+}
 
 TEST(Plan, SaysWhatRunsAndInTheOrderOfTheFile) {
   const Plan plan = parse_plan(kBase +
@@ -99,6 +130,10 @@ TEST(Plan, WrongOnesAreRefusedWithFileAndLine) {
   EXPECT_THAT(refusal(kBase + "[very]\n"), HasSubstr("did you mean 'vary'? Allowed are: base, "));
   EXPECT_THAT(refusal(kBase + "[xx]\n"), HasSubstr("no key 'xx'; allowed are: base, "));
   EXPECT_THAT(refusal(kBase + "[report]\nz = 'pes'\n"), StartsWith("plan.toml:5: [report] has no key"));
+  EXPECT_THAT(refusal(kBase + "[report]\ny = ['cycles',\n '']\n"),
+              StartsWith("plan.toml:6: [report] 'y' has an empty name"));
+  EXPECT_THAT(refusal(kBase + "[report]\ny = ['a', 'b',\n 'a']\n"),
+              StartsWith("plan.toml:6: [report] 'y' names 'a' twice"));
   EXPECT_THAT(refusal(kBase + "[report]\ny = 3\n"), StartsWith("plan.toml:5:"));
   EXPECT_THAT(refusal(kBase + "[report]\ny = ['a', 3]\n"), StartsWith("plan.toml:5:"));
 }

@@ -48,6 +48,9 @@ TEST(PhaseRecords, GiveNamesByNumber) {
 
 TEST(PhaseRecords, SayWhatIsWrong) {
   EXPECT_THAT(wrong_with(16, "x"), HasSubstr("names phase 16; there are 0 to 15"));
+  // What a program in C has written.
+  EXPECT_THAT(wrong_with(16, "x"), HasSubstr("in C it is TOROLUX_PHASE_NAME(7, ...), of 0 to 6"));
+  EXPECT_THAT(wrong_with(10, ""), HasSubstr("in C it is TOROLUX_PHASE_NAME(1, ...)"));
   EXPECT_THAT(wrong_with(0xFFFF'FFFFU, "x"), HasSubstr("4294967295"));
   EXPECT_THAT(wrong_with(10, std::string(24, 'x')), HasSubstr("longer than 23 bytes"));
   EXPECT_THAT(wrong_with(10, ""), HasSubstr("empty name of phase 10"));

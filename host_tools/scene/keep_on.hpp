@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Whether the user has ended the program while a scene loads and its mesh is made, which may take a minute.
+#pragma once
+
+#include <cstddef>
+
+namespace torolux {
+
+/// Whom to ask; null: nobody, as at first. Once, before there are threads.
+void set_interruption(bool (*asked)());
+
+/// Between parts of the work. Throws Interrupted.
+void look_for_interruption();
+
+/// In a loop of many small steps: looks now and then. step: its number.
+inline void look_for_interruption(std::size_t step) {
+  constexpr std::size_t often = 4096;
+  if (step % often == 0) look_for_interruption();
+}
+
+}  // namespace torolux
