@@ -164,7 +164,7 @@ glm::vec3 radiance_from(const Scene& scene, const Emitter& emitter, const glm::v
   const float leaving = leaving_cosine(sample.direction, normal, geometric);
   if (!(leaving > 0.0F)) return false;
   const float part = leaving * emitter.area_over_chance * (4.0F * seen.half_angle) / glm::length(twice_area);
-  sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * std::min(part, kMostSeen);
+  sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * (part < kMostSeen ? part : kMostSeen);
   return true;
 }
 
@@ -197,7 +197,7 @@ bool sample_by_power(const Scene& scene, const protocol::StratifiedPair& numbers
   if (emitter.both_sides == 1U) arriving = std::fabs(arriving);
   if (!(arriving > 0.0F)) return false;
   const float seen = leaving * arriving * emitter.area_over_chance / square;
-  sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * std::min(seen, kMostSeen);
+  sample.irradiance_over_pi = radiance_from(scene, emitter, sample.direction) * (seen < kMostSeen ? seen : kMostSeen);
   return true;
 }
 

@@ -38,7 +38,7 @@ bool solve_draft(const Scene& scene, const Camera& camera, const Quality& full, 
 bool solve_drafts(const Scene& scene, const Camera& camera, const Quality& full, const MachineChoice& choice,
                   const Image& image, Watch& watch, Drafts& drafts) {
   for (; drafts.round < kDraftRounds; ++drafts.round) {
-    RenderSetup setup = fitting_setup(scene, camera, draft_of(full), choice, image, drafts.splits);
+    RenderSetup setup = watch.next_setup(scene, camera, draft_of(full), choice, image);
     if (!solve_draft(scene, camera, full, choice, image, watch, setup, drafts)) return false;
     if (drafts.round == 0) drafts.more = static_cast<std::uint64_t>(full.refine * setup.mesh.elements) / kDraftRounds;
     std::vector<Split> chosen = choose_splits(setup.mesh, scene, drafts.light, drafts.more);

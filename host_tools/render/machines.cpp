@@ -6,6 +6,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/render/running_render.hpp"
+#include "host_tools/scene/keep_on.hpp"
 #include "host_tools/setup/advice.hpp"
 
 namespace torolux {
@@ -77,6 +78,12 @@ Watch::Watch(Course course, Drafts& drafts, CheckpointKeeper* keeper, Checkpoint
              const std::function<bool(const RenderProgress&)>& progress)
     : course_(course), drafts_(drafts), keeper_(keeper), from_(from), progress_(progress) {
   if (from != nullptr) course_.skip_machines(drafts.over ? kDrafts : drafts.round * 2 + drafts.half);
+}
+
+RenderSetup Watch::next_setup(const Scene& scene, const Camera& camera, const Quality& quality,
+                              const MachineChoice& machine, const Image& image) const {
+  const HeldInterruption until_saved(keeper_ != nullptr && drafts_.cycles > 0);
+  return fitting_setup(scene, camera, quality, machine, image, drafts_.splits);
 }
 
 void Watch::run(Machine& machine, RenderProgram& program, const RenderSetup& setup, bool draft, Machine::Then then) {

@@ -29,6 +29,10 @@ class Watch {
   Watch(Course course, Drafts& drafts, CheckpointKeeper* keeper, CheckpointReader* from,
         const std::function<bool(const RenderProgress&)>& progress);
   SnapshotKeeper* keeper() const { return keeper_; }
+  /// As fitting_setup, of the machine that is next, with the drafts' splits. Ctrl-C does not end it where drafts are
+  /// done and can be saved: that machine does so.
+  RenderSetup next_setup(const Scene& scene, const Camera& camera, const Quality& quality, const MachineChoice& machine,
+                         const Image& image) const;
 
   void run(Machine& machine, RenderProgram& program, const RenderSetup& setup, bool draft,
            Machine::Then then = Machine::Then::end);

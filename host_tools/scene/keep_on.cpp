@@ -15,6 +15,14 @@ void set_interruption(bool (*asked)()) {
   interruption = asked;
 }
 
+HeldInterruption::HeldInterruption(bool held) : before_(interruption) {
+  if (held) interruption = nullptr;
+}
+
+HeldInterruption::~HeldInterruption() {
+  interruption = before_;
+}
+
 void look_for_interruption() {
   if (interruption != nullptr && interruption()) throw Interrupted("interrupted while the scene was loaded");
 }

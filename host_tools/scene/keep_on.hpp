@@ -12,6 +12,19 @@ void set_interruption(bool (*asked)());
 /// Between parts of the work. Throws Interrupted.
 void look_for_interruption();
 
+/// While it lives, and `held`, nobody is asked: what was done before is to be saved first, by a machine that looks
+/// itself.
+class HeldInterruption {
+ public:
+  explicit HeldInterruption(bool held);
+  HeldInterruption(const HeldInterruption&) = delete;
+  HeldInterruption& operator=(const HeldInterruption&) = delete;
+  ~HeldInterruption();
+
+ private:
+  bool (*before_)();
+};
+
 /// In a loop of many small steps: looks now and then. step: its number.
 inline void look_for_interruption(std::size_t step) {
   constexpr std::size_t often = 4096;

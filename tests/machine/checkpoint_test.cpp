@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host_tools/scene/keep_on.hpp"
 #include "tests/physics/same_picture.hpp"
 #include "tests/support/run_in_pieces.hpp"
 
@@ -50,6 +51,25 @@ TEST(Checkpoint, DraftsGoOn) {
   render_case.quality.layers = protocol::plane_bit(protocol::Plane::depth);
   render_case.machine.threads = 2;
   expect_same_in_pieces(render_case, 53, 5);
+}
+
+bool told_to_end = false;
+
+// Ctrl-C while the mesh of the next machine is made: drafts that are done are not lost, the machine saves them.
+TEST(Checkpoint, NoMeshBetweenMachinesIsGivenUp) {
+  const testing_support::TemporaryFolder folder;
+  RenderCase render_case = small_case();
+  render_case.quality.refine = 1;
+  render_case.files.checkpoint.file = folder.path() / "a.ckpt";
+  render_case.files.checkpoint.minutes = 0;
+  render_case.files.checkpoint.interrupted = [] {
+    told_to_end = true;
+    return false;
+  };
+  set_interruption([] { return told_to_end; });
+  EXPECT_NO_THROW(run_case(render_case));
+  EXPECT_TRUE(told_to_end) << "the test is to reach its end with that";
+  set_interruption(nullptr);
 }
 
 // Copies that fail their CRC, and delays by chance, in a torus that is not a square; diverted records, since there are
