@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes an icosahedron of a point light, an octagon of a spot, and notes a sun.
+// Makes an icosahedron of a point light, an octagon of a spot, and notes a sun. Bodies at one place stand so that none
+// hides another.
 #include "host_tools/scene/gltf_lights.hpp"
 
 #include <algorithm>
@@ -72,32 +73,25 @@ void add_body(const Body& body, const std::string& name, const Vec3d& emission, 
         {{first + t[0], first + t[1], first + t[2]}, {kNoNormal, kNoNormal, kNoNormal}, number, part});
 }
 
-/// What shines at one place, one way.
+/// What shines one way.
 struct Lamp {
   std::string name;
   Place place;
   Vec3d centre;
   std::optional<Vec3d> axis;  ///< of a spot; unit
   Vec3d power;                ///< [W/sr]
-  double size;                ///< half the body's width
 };
 
-/// A fraction of a light's size: nearer ones are at one place.
-constexpr double kOnePlace = 1e-3;
-
-bool at_one_place(const Lamp& a, const Lamp& b) {
-  return vec::length(vec::subtract(a.centre, b.centre)) <= kOnePlace * a.size;
-}
-
-bool shine_alike(const Lamp& a, const Lamp& b) {
-  constexpr double same_axis = 0.999999;
-  return at_one_place(a, b) && a.axis.has_value() == b.axis.has_value() &&
-         (!a.axis || vec::dot(*a.axis, *b.axis) > same_axis);
-}
+/// Lamps at one place. Their bodies keep within a ball of this radius.
+struct Site {
+  Vec3d centre;
+  std::vector<Lamp> lamps;
+  double reach;
+};
 
 /// Absent: it does not shine, or is a sun, which is in `mesh` then.
-std::optional<Lamp> lamp_of(const GltfObject& object, const GltfLight& light, double size, GltfUnits units,
-                            ImportedMesh& mesh, Notices& notices) {
+std::optional<Lamp> lamp_of(const GltfObject& object, const GltfLight& light, GltfUnits units, ImportedMesh& mesh,
+                            Notices& notices) {
   const Place place = object.place();
   const std::string type = object.text("type").value_or("");
   const double intensity = object.number("intensity", 0, kMostCoordinate).value_or(1) * radiance_per_luminance(units);
@@ -114,7 +108,7 @@ std::optional<Lamp> lamp_of(const GltfObject& object, const GltfLight& light, do
     mesh.suns.push_back({backwards, power, place});
     return std::nullopt;
   }
-  Lamp lamp{name, place, light.place.origin, std::nullopt, power, size};
+  Lamp lamp{name, place, light.place.origin, std::nullopt, power};
   if (type == "spot") {
     notices.note(
         "a spot is a disc that has its intensity on the axis and falls off as the cosine: its cone is not rendered",
@@ -124,26 +118,123 @@ std::optional<Lamp> lamp_of(const GltfObject& object, const GltfLight& light, do
   return lamp;
 }
 
-/// Pairs of lights are looked at, of not more than these.
+/// Fractions of a light's size. Nearer ones are at one place, the first's.
+constexpr double kOnePlace = 0.15;
+/// The least radius of a disc: 1/20,000 of a scene. Of smaller ones a PE's floats make other areas, or none.
+constexpr double kLeastRadius = 0.01;
+/// From a place to discs of spots; beside a point.
+constexpr double kStand = 0.25, kStandBesidePoint = 0.5;
+/// Pairs of places are looked at, of not more than these.
 constexpr std::size_t kMostPaired = 2000;
 
-/// Bodies that reach into each other would take each other's light.
-void keep_apart(std::vector<Lamp>& lamps) {
-  if (lamps.size() > kMostPaired) return;
-  for (Lamp& lamp : lamps) {
-    for (const Lamp& other : lamps) {
-      const double distance = vec::length(vec::subtract(lamp.centre, other.centre));
-      if (&lamp != &other && !at_one_place(lamp, other)) lamp.size = std::min(lamp.size, 0.49 * distance);
+std::vector<Site> sites_of(const std::vector<Lamp>& lamps, double size, Notices& notices) {
+  std::vector<Site> sites;
+  for (const Lamp& lamp : lamps) {
+    const auto is_here = [&](const Site& site) {
+      return vec::length(vec::subtract(site.centre, lamp.centre)) <= kOnePlace * size;
+    };
+    const auto here = sites.size() > kMostPaired ? sites.end() : std::ranges::find_if(sites, is_here);
+    if (here == sites.end())
+      sites.push_back({lamp.centre, {lamp}, size});
+    else
+      here->lamps.push_back(lamp);
+  }
+  if (sites.size() > kMostPaired) {
+    notices.note("lights at more than " + std::to_string(kMostPaired) +
+                     " places: those that are near to each other may hide each other",
+                 sites.back().lamps.front().place);
+    return sites;
+  }
+  for (Site& site : sites) {
+    for (const Site& other : sites)
+      if (&site != &other)
+        site.reach = std::min(site.reach, 0.49 * vec::length(vec::subtract(site.centre, other.centre)));
+  }
+  return sites;
+}
+
+double angle_between(const Vec3d& a, const Vec3d& b) {
+  return std::atan2(vec::length(vec::cross(a, b)), vec::dot(a, b));
+}
+
+/// Whether the other was joined to the first. Cosines about two axes add up to one about their weighted mean, but for
+/// directions that only one of them reaches. turn: from which on spots are two.
+bool join(Lamp& lamp, const Lamp& other, double turn, Notices& notices) {
+  constexpr double told = 0.1 * std::numbers::pi / 180;
+  if (lamp.axis.has_value() != other.axis.has_value()) return false;
+  if (lamp.axis) {
+    const double angle = angle_between(*lamp.axis, *other.axis);
+    if (angle >= turn) return false;
+    if (angle > told)
+      notices.note("spots at one place that hardly turn from each other are one, along their mean", other.place);
+    lamp.axis = vec::unit(
+        vec::add(vec::scale(*lamp.axis, vec::sum(lamp.power)), vec::scale(*other.axis, vec::sum(other.power))));
+  }
+  lamp.power = vec::add(lamp.power, other.power);
+  return true;
+}
+
+/// Of the turn between two spots, what half of a disc takes of it as seen from their place.
+constexpr double kShareOfTurn = 0.49;
+
+void join_alike(Site& site, double size, Notices& notices) {
+  // 4.7 degrees, more where another place is near: discs that turn by less would be too small.
+  const double turn = std::atan(kLeastRadius * size / std::min(site.reach, kStand * size)) / kShareOfTurn;
+  std::vector<Lamp>& lamps = site.lamps;
+  for (std::size_t before = lamps.size() + 1; before != lamps.size();) {
+    before = lamps.size();
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+      const auto after = lamps.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      const auto gone =
+          std::remove_if(after, lamps.end(), [&](const Lamp& other) { return join(lamps[i], other, turn, notices); });
+      lamps.erase(gone, lamps.end());
     }
   }
-  // A spot stands before what shines another way at its place.
-  std::vector<Vec3d> centres;
+}
+
+/// Radii of discs of spots over their common distance from the centre. Each disc lies in a cone of its own: none has a
+/// part before another's plane, so that none hides another. widest: of the discs beside a point.
+std::vector<double> slopes_of(const std::vector<Lamp>& lamps, double widest) {
+  std::vector<double> slopes;
   for (const Lamp& lamp : lamps) {
-    const auto others = std::ranges::count_if(lamps, [&](const Lamp& other) { return at_one_place(lamp, other); }) - 1;
-    centres.push_back(lamp.axis && others > 0 ? vec::add(lamp.centre, vec::scale(*lamp.axis, 1.01 * lamp.size))
-                                              : lamp.centre);
+    double least = std::numbers::pi / 2;
+    for (const Lamp& other : lamps)
+      if (&other != &lamp && lamp.axis && other.axis) least = std::min(least, angle_between(*lamp.axis, *other.axis));
+    slopes.push_back(lamp.axis ? std::min(widest, std::tan(kShareOfTurn * least)) : 0);
   }
-  for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i].centre = centres[i];
+  return slopes;
+}
+
+void add_lamp(const Lamp& lamp, const Body& body, ImportedMesh& mesh) {
+  // The mean projected area of a convex body is a quarter of its surface (A. Cauchy 1841).
+  add_body(body, lamp.name, vec::scale(lamp.power, (lamp.axis ? 1 : 4) / body.area()), lamp.place, mesh);
+}
+
+void add_site(const Site& site, double size, ImportedMesh& mesh) {
+  if (site.lamps.size() == 1) {
+    const Lamp& lamp = site.lamps.front();
+    add_lamp(lamp, lamp.axis ? octagon(site.centre, *lamp.axis, site.reach) : icosahedron(site.centre, site.reach),
+             mesh);
+    return;
+  }
+  const auto spots =
+      static_cast<double>(std::ranges::count_if(site.lamps, [](const Lamp& lamp) { return !!lamp.axis; }));
+  const bool point = spots < static_cast<double>(site.lamps.size());
+  const double stand = std::min(site.reach, (point ? kStandBesidePoint : kStand) * size);
+  // All discs together hide some 1/400 of a point's body, more where they would be too small.
+  const double widest = point ? std::max(0.05 / std::sqrt(spots), kLeastRadius * size / stand) : 1;
+  const std::vector<double> slopes = slopes_of(site.lamps, widest);
+  const double steepest = *std::ranges::max_element(slopes);
+  const double distance = std::min(stand, site.reach / std::sqrt(1 + steepest * steepest));
+  for (std::size_t i = 0; i < site.lamps.size(); ++i) {
+    const Lamp& lamp = site.lamps[i];
+    if (lamp.axis) {
+      const Vec3d centre = vec::add(site.centre, vec::scale(*lamp.axis, distance));
+      add_lamp(lamp, octagon(centre, *lamp.axis, distance * slopes[i]), mesh);
+    } else {
+      add_lamp(lamp, icosahedron(site.centre, 0.99 * distance), mesh);
+    }
+  }
 }
 
 }  // namespace
@@ -153,21 +244,12 @@ void add_gltf_lights(const GltfObject& root, std::span<const GltfLight> lights, 
   std::vector<Lamp> lamps;
   for (const GltfLight& light : lights) {
     const GltfObject object = root.extension("KHR_lights_punctual")->element("lights", light.number, "light");
-    auto lamp = lamp_of(object, light, size, units, mesh, notices);
-    if (!lamp) continue;
-    const auto same = lamps.size() > kMostPaired
-                          ? lamps.end()
-                          : std::ranges::find_if(lamps, [&](const Lamp& other) { return shine_alike(other, *lamp); });
-    if (same == lamps.end())
-      lamps.push_back(std::move(*lamp));
-    else
-      same->power = vec::add(same->power, lamp->power);
+    auto lamp = lamp_of(object, light, units, mesh, notices);
+    if (lamp) lamps.push_back(std::move(*lamp));
   }
-  keep_apart(lamps);
-  for (const Lamp& lamp : lamps) {
-    const Body body = lamp.axis ? octagon(lamp.centre, *lamp.axis, lamp.size) : icosahedron(lamp.centre, lamp.size);
-    // The mean projected area of a convex body is a quarter of its surface (A. Cauchy 1841).
-    add_body(body, lamp.name, vec::scale(lamp.power, (lamp.axis ? 1 : 4) / body.area()), lamp.place, mesh);
+  for (Site& site : sites_of(lamps, size, notices)) {
+    join_alike(site, size, notices);
+    add_site(site, size, mesh);
   }
 }
 

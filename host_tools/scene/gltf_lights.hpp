@@ -16,9 +16,10 @@ struct GltfLight {
   Affine place;
 };
 
-/// size: half the width of the bodies, scene units; less where lights are nearer to each other. Adds triangles, their
-/// materials and parts to `mesh`. A point has the intensity that is told in all directions, on average; a spot on its
-/// axis; those at one place add up. Throws InputError: an unknown type, a value out of range.
+/// size: half the width of the bodies, scene units; less where lights are nearer to each other, or several at one
+/// place. Adds triangles, their materials and parts to `mesh`. A point has the intensity that is told in all
+/// directions, on average; a spot on its axis. Those at one place add up: discs of spots hide nothing of each other and
+/// little of a point (docs/gltf.md). Throws InputError: an unknown type, a value out of range.
 void add_gltf_lights(const GltfObject& root, std::span<const GltfLight> lights, double size, GltfUnits units,
                      ImportedMesh& mesh, Notices& notices);
 

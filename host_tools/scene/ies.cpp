@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "host_tools/colour/colour.hpp"
 #include "host_tools/scene/lamp_web.hpp"
@@ -27,6 +28,41 @@ std::string_view trimmed(std::string_view line) {
   return line.substr(first, line.find_last_not_of(blanks) - first + 1);
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+bool has_decimal_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  return comma != std::string_view::npos && comma > 0 && comma + 1 < word.size() && is_digit(word[comma - 1]) &&
+         is_digit(word[comma + 1]) && word.find_first_of(",.", comma + 1) == std::string_view::npos &&
+         word.find('.') == std::string_view::npos;
+}
+
+/// The first word among the numbers that looks like one, and its line. Absent: there is none, or a word has several
+/// commas, which part numbers then.
+std::optional<std::pair<std::string_view, std::size_t>> decimal_comma(std::string_view text) {
+  std::optional<std::pair<std::string_view, std::size_t>> first;
+  bool numbers = false;
+  for (std::size_t line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view rest = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (!numbers) {
+      numbers = equal_but_for_case(rest.substr(0, 4), "TILT");
+      continue;
+    }
+    while (!rest.empty()) {
+      const std::size_t length = std::min(rest.find_first_of(" \t\r\f\v"), rest.size());
+      const std::string_view word = rest.substr(0, length);
+      rest = trimmed(rest.substr(length));
+      if (std::ranges::count(word, ',') > 1) return std::nullopt;
+      if (!first && has_decimal_comma(word)) first.emplace(word, line);
+    }
+  }
+  return first;
+}
+
 class IesReader {
  public:
   IesReader(std::string_view text, const std::string& file, Notices& notices)
@@ -40,13 +76,16 @@ class IesReader {
     const std::vector<double> turn = angles(turns_, "horizontal");
     const Place last_turn = place();
     read_web(gamma, turn);
-    if (next_word()) notices_.note("numbers after the last intensity are passed over", place());
+    ended_ = !next_word();
+    if (!ended_) notices_.note("numbers after the last intensity are passed over", place());
     close_turns(turn, last_turn);
     add_horizon();
     lamp_.flux = flux_of(lamp_.web);
     if (!(lamp_.flux[0] + lamp_.flux[1] > 0)) refuse(place(), "the lamp gives no light: all intensities are zero");
     return std::move(lamp_);
   }
+  /// No numbers were left over.
+  bool ended() const { return ended_; }
 
  private:
   Place place() const { return {file_, line_}; }
@@ -254,13 +293,26 @@ class IesReader {
   std::size_t gammas_ = 0, turns_ = 0;
   double multiplier_ = 1;
   bool later_ = false;  ///< than of 1991
+  bool ended_ = false;
   MeasuredLamp lamp_;
 };
 
 }  // namespace
 
 MeasuredLamp read_ies(std::string_view text, const std::string& file, Notices& notices) {
-  return IesReader(text, file, notices).read();
+  const auto comma = decimal_comma(text);
+  if (!comma) return IesReader(text, file, notices).read();
+  // Commas part numbers in this format: where they do so without blanks, the right count of numbers comes out.
+  try {
+    IesReader reader(text, file, notices);
+    MeasuredLamp lamp = reader.read();
+    if (reader.ended()) return lamp;
+  } catch (const InputError&) {
+    // It is told below by what it most likely comes from.
+  }
+  refuse({file, comma->second}, "a number with a decimal comma, " + in_quotes(comma->first) +
+                                    ": commas part numbers here (IESNA LM-63), and so read they are not a lamp. Write "
+                                    "decimal points");
 }
 
 }  // namespace torolux

@@ -19,7 +19,8 @@ struct MeasuredLamp {
 };
 
 /// Throws InputError with file and line: no TILT= line, a word that is no number or out of its range, angles that do
-/// not rise or do not span what type C has, photometry of types A and B, an end before the last intensity, no light.
+/// not rise or do not span what type C has, photometry of types A and B, an end before the last intensity, no light,
+/// decimal commas.
 MeasuredLamp read_ies(std::string_view text, const std::string& file, Notices& notices);
 
 }  // namespace torolux

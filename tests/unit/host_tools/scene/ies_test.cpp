@@ -125,6 +125,18 @@ TEST(Ies, MistakesSayWhere) {
   EXPECT_THAT(refused(head + "0 45 90\n0 90\n0 0 0\n0 0 -1\n"), HasSubstr("the lamp gives no light"));
 }
 
+TEST(Ies, DecimalCommasAreRefusedAndOthersPartNumbers) {
+  const std::string told =
+      "commas part numbers here (IESNA LM-63), and so read they are not a lamp. Write decimal points";
+  EXPECT_EQ(refused(kHead + "1 1000 1 3 1 1 2 0,5 0,25 0\n1 1 10\n0 90 180\n0\n100 100 100\n"),
+            "a.ies:4: a number with a decimal comma, '0,5': " + told);
+  // As many numbers as there should be, and more.
+  EXPECT_EQ(refused(kHead + "1 1000 1 3 1 1 2 0 0 0\n1 1 10\n0 90 180\n0\n100,5 90,25 80\n"),
+            "a.ies:8: a number with a decimal comma, '100,5': " + told);
+  EXPECT_NEAR(candela(lamp(kHead + "1,1000,1,3,1,1,2,0,0,0\n1,1,10\n0,90,180\n0\n100,90,80\n"), 90, 0), 90, 1e-9);
+  EXPECT_NEAR(candela(lamp(kHead + "1 1000 1 2 1 1 2 0 0 0\n1 1 10\n0,90\n0\n100,90\n"), 90, 0), 90, 1e-9);
+}
+
 const std::string kIes = kHead + "1 1000 1 3 2 1 2 0.5 1 0\n1 1 10\n0 90 180\n0 90\n100 50 10\n100 60 10\n";
 
 double lumens(const Scene& scene) {
