@@ -79,7 +79,7 @@ class Watch {
       listen(kLook);
       if (Clock::now() > end) kill_ranks();
     }
-    Orphans::end();
+    orphans_.end();
   }
 
   void kill_ranks() const {
@@ -99,6 +99,7 @@ class Watch {
 }  // namespace
 
 int run_ranks(const LaunchChoice& choice, const std::vector<std::string>& words) {
+  ::signal(SIGCHLD, SIG_DFL);  // ignored by a parent, it would let no end of a child be seen
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   return Watch(choice, launch_words(choice, program, words)).run();
 }

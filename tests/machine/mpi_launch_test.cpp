@@ -184,6 +184,24 @@ TEST_F(MpiLaunch, CtrlCSavesTheStateAndAnotherNumberOfRanksGoesOn) {
   expect_goes_on();
 }
 
+// As nohup leaves SIGHUP, some parents SIGCHLD, and a shell that has made a torolux of itself what runs behind it.
+TEST_F(MpiLaunch, WhatWasThereBeforeStaysAsItWas) {
+  const fs::path background = folder_.path() / "background", output = folder_.path() / "output";
+  fs::create_directory(output);
+  std::vector<std::string> words = {"-c", "sleep 600 & echo $! > \"$0\"; exec env --ignore-signal=CHLD,HUP \"$@\"",
+                                    background.string(), torolux_file().string()};
+  const std::vector<std::string> own = render(output, {"--ranks", "3"});
+  words.insert(words.end(), own.begin(), own.end());
+  study::Child run("sh", words);
+  wait_for([&] { return rank_and_keeper(0, output).rank != 0; });
+  run.signal(SIGHUP);
+  const study::Ended end = run.wait();
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  const auto sleeper = static_cast<pid_t>(std::stol(text_of(background)));
+  EXPECT_TRUE(runs(sleeper));
+  ::kill(sleeper, SIGKILL);
+}
+
 TEST_F(MpiLaunch, WithoutACheckpointASignalEndsARunThatLeavesNothing) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     study::Child run(torolux_file().string(), render(folder_.path(), {"--ranks", "3"}));
