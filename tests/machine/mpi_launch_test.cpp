@@ -154,7 +154,7 @@ TEST_P(MpiLaunchDeath, EndsTheRunWhichNamesTheRank) {
 
 INSTANTIATE_TEST_SUITE_P(OfAnyRank, MpiLaunchDeath,
                          testing::Values(Death{0, SIGKILL, false}, Death{1, SIGKILL, false}, Death{2, SIGKILL, false},
-                                         Death{0, SIGABRT, false}, Death{1, SIGSEGV, false}, Death{2, SIGTERM, false},
+                                         Death{0, SIGABRT, false}, Death{1, SIGSEGV, false}, Death{2, SIGALRM, false},
                                          Death{0, SIGKILL, true}, Death{2, SIGKILL, true}),
                          [](const testing::TestParamInfo<Death>& one) {
                            return "rank" + std::to_string(one.param.rank) + "_signal" +
@@ -180,6 +180,20 @@ TEST_F(MpiLaunch, CtrlCSavesTheStateAndAnotherNumberOfRanksGoesOn) {
   EXPECT_EQ(end.exit_code, 130) << end.errors;
   EXPECT_THAT(end.errors, EndsWith("torolux: interrupted\n"));
   EXPECT_EQ(end.errors.find("torolux: interrupted"), end.errors.rfind("torolux: interrupted")) << "told once";
+  expect_nothing_half_done(launched);
+  expect_goes_on();
+}
+
+// Of a batch system: its word comes by several ways.
+TEST_F(MpiLaunch, ASignalToEveryProcessSavesTheState) {
+  Launched launched = start(folder_.path());
+  ASSERT_TRUE(launched.there());
+  for (const pid_t process : launched.all()) ::kill(process, SIGTERM);
+  launched.run.signal(SIGTERM);
+  const study::Ended end = launched.run.wait();
+  EXPECT_EQ(end.exit_code, 130) << end.errors;
+  EXPECT_EQ(last_line(end.errors), "torolux: interrupted");
+  EXPECT_EQ(end.errors.find("is lost"), std::string::npos) << end.errors;
   expect_nothing_half_done(launched);
   expect_goes_on();
 }
@@ -289,6 +303,7 @@ TEST_F(MpiLaunch, WhatIsWrongIsToldInOneLine) {
          "--trace does not go with PEs on other ranks");
   expect({"--ranks", "2", "--pe-memory", "128K"}, 2, "");
   expect({"--ranks", "2", "--launcher", "/nowhere"}, 2, "/nowhere: the launcher cannot be started: No such file");
+  expect({"--ranks", "2", "--launcher", "true"}, 0, "note: no rank has begun on this computer");
   expect({"--ranks", "2", "--launcher", "false"}, 3, "the launcher ended with exit code 1, and no rank has begun");
   const study::Ended twice = mpirun(2, render(folder_.path(), {"--ranks", "2"})).wait();
   EXPECT_EQ(twice.exit_code, 1);
