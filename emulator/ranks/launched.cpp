@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdlib>
@@ -24,7 +25,12 @@ struct Launcher {
 constexpr std::array<Launcher, 3> kLaunchers = {{{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                                  {"PMI_SIZE", "PMI_RANK"},
                                                  {"SLURM_STEP_NUM_TASKS", "PMIX_RANK"}}};
-constexpr std::array<std::string_view, 5> kOfLaunchers = {"OMPI_", "PMI_", "PMIX_", "HYDI_", kStarterVariable};
+constexpr std::array<std::string_view, 4> kOfLaunchers = {"OMPI_", "PMI_", "PMIX_", "HYDI_"};
+
+/// Whether a launcher has started this process, or what has started it.
+bool of_launcher() {
+  return std::ranges::any_of(kLaunchers, [](const Launcher& one) { return std::getenv(one.own) != nullptr; });
+}
 
 std::optional<unsigned> number(const char* name) {
   const char* text = std::getenv(name);
@@ -53,12 +59,13 @@ std::string host_name() {
 }
 
 std::vector<std::string> environment_of_no_rank() {
+  const bool has_launcher = of_launcher();
   std::vector<std::string> kept;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text = *variable;
-    bool of_launcher = false;
-    for (const std::string_view prefix : kOfLaunchers) of_launcher = of_launcher || text.starts_with(prefix);
-    if (!of_launcher) kept.emplace_back(text);
+    const auto starts = [text](std::string_view prefix) { return text.starts_with(prefix); };
+    if (starts(kStarterVariable) || (has_launcher && std::ranges::any_of(kOfLaunchers, starts))) continue;
+    kept.emplace_back(text);
   }
   return kept;
 }

@@ -16,7 +16,8 @@ Ranks launched_ranks();
 /// Of this computer.
 std::string host_name();
 
-/// This process's environment without what makes a child take itself for a rank.
+/// This process's environment without what makes a child take itself for a rank. Where no launcher has started this
+/// process, a user's settings for one (OMPI_MCA_...) stay.
 std::vector<std::string> environment_of_no_rank();
 
 }  // namespace torolux::ranks

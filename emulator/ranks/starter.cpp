@@ -74,7 +74,7 @@ sigset_t kept_signals() {
   ::prctl(PR_SET_NAME, "torolux-keeper");  // for ps
   const sigset_t signals = kept_signals();
   int status = 0;
-  while (::waitpid(child, &status, WNOHANG) != child) {
+  while (::waitpid(child, &status, WNOHANG) == 0) {  // -1: there is none, whatever became of it
     int number = 0;
     ::sigwait(&signals, &number);
     if (number != SIGCHLD) ::kill(child, number);
@@ -92,6 +92,7 @@ bool join_starter() {
   const sigset_t signals = kept_signals();
   sigset_t before;
   ::sigprocmask(SIG_BLOCK, &signals, &before);
+  ::signal(SIGCHLD, SIG_DFL);  // ignored by a parent, it would not come, nor a status be kept
   const pid_t keeper = ::getpid();
   const pid_t child = ::fork();
   if (child > 0) keep(child, of_keeper);

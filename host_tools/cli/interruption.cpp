@@ -23,18 +23,15 @@ void forget_interruption() {
   flag = 0;
 }
 
-void end_by_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
-}
-
-InterruptionGuard::InterruptionGuard() {
+InterruptionGuard::InterruptionGuard(SecondSignal second) {
   flag = 0;
+  const int once = second == SecondSignal::ends ? static_cast<int>(SA_RESETHAND) : 0;
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     struct sigaction action {};
     const bool ends = kSignals[i] == SIGINT || kSignals[i] == SIGTERM || kSignals[i] == SIGHUP;
     action.sa_handler = ends ? &torolux_set_interrupted : SIG_IGN;
     sigemptyset(&action.sa_mask);
-    action.sa_flags = ends ? SA_RESTART | static_cast<int>(SA_RESETHAND) : SA_RESTART;
+    action.sa_flags = ends ? SA_RESTART | once : SA_RESTART;
     ::sigaction(kSignals[i], &action, &before_[i]);
     // Started by nohup: leave it so.
     if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) ::sigaction(kSignals[i], &before_[i], nullptr);

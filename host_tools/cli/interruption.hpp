@@ -10,15 +10,17 @@ namespace torolux {
 /// What was interrupted had nothing more to do: interrupted() is false again.
 void forget_interruption();
 
-/// SIGINT, SIGTERM and SIGHUP end this process at once, as if there were no guard; for the rest of the guard's life.
-void end_by_signals();
+/// What a second signal of the same kind does.
+enum class SecondSignal {
+  ends,    ///< the process at once, whatever it computes
+  nothing  ///< one signal may come by several ways, and somebody else ends this process where it is to be at once
+};
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP only sets the flag that interrupted() reads; a second of the
-/// same kind ends the process at once, whatever it computes. A full disk, a file size limit or a closed pipe is an
-/// error of the write, not a death by signal. Puts everything back at the end.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP only sets the flag that interrupted() reads. A full disk, a file
+/// size limit or a closed pipe is an error of the write, not a death by signal. Puts everything back at the end.
 class InterruptionGuard {
  public:
-  InterruptionGuard();
+  explicit InterruptionGuard(SecondSignal second = SecondSignal::ends);
   InterruptionGuard(const InterruptionGuard&) = delete;
   InterruptionGuard& operator=(const InterruptionGuard&) = delete;
   ~InterruptionGuard();

@@ -158,8 +158,8 @@ void add_commands(CLI::App& app, CommandAction& action) {
 }
 
 int torolux_main(int argc, const char* const* argv) {
-  ranks::join_starter();
-  const InterruptionGuard guard;
+  // A rank hears of one signal from its sender, its keeper, and its starter, which kills it at the user's second.
+  const InterruptionGuard guard(ranks::join_starter() ? SecondSignal::nothing : SecondSignal::ends);
   set_interruption(&interrupted);
   CLI::App app("Torolux: a massively parallel machine for image synthesis, emulated", "torolux");
   app.set_version_flag("--version", version_text());

@@ -34,8 +34,6 @@ void add_rank_options(CLI::App& command, RankOptions& options, const std::string
 
 int run_on_ranks(const RankOptions& options, const std::function<int(remote::PeRanks*)>& work) {
   if (ranks::launched_ranks().count == 1) return work(nullptr);
-  // Who has started the ranks passes the user's signals on to rank 0 alone: others mean this rank.
-  if (ranks::launched_ranks().own != 0 && ranks::has_starter()) end_by_signals();
   const std::unique_ptr<ranks::Transport> transport = ranks::join_mpi();
   const std::string program = sha256_of_file("/proc/self/exe");
   if (transport->ranks().own != 0) {

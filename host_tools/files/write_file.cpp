@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -45,8 +47,8 @@ class Descriptor {
 };
 
 /// A new file in the folder of the target. It has no name until it is whole, so that a process that is killed leaves
-/// nothing; where the file system has no such files, it has one, and is removed at the end unless it has been renamed.
-/// That name does not contain the target's, which may be as long as names may be.
+/// nothing; where the file system has no such files, or gives them no name, it has one, and is removed at the end
+/// unless it has been renamed. That name does not contain the target's, which may be as long as names may be.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : descriptor_(create(target, name_)) {
@@ -63,8 +65,7 @@ class TemporaryFile {
   bool become(const fs::path& target) {
     if (name_.empty()) {
       const fs::path name = unused_name(target);
-      if (::linkat(AT_FDCWD, path_of(descriptor_.get()).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
-        return false;
+      if (!give_name(descriptor_.get(), name)) return false;
       name_ = name;
     }
     if (!descriptor_.close() || std::rename(name_.c_str(), target.c_str()) != 0) return false;
@@ -80,12 +81,32 @@ class TemporaryFile {
   }
   /// Of an open file, whether it has a name or not.
   static std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+  static bool give_name(int descriptor, const fs::path& name) {
+    return ::linkat(AT_FDCWD, path_of(descriptor).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  }
+  static fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : "."; }
+  static int unnamed_file(const fs::path& target) {
+    return ::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+  }
+  /// Whether a file without a name gets one here: not without /proc, nor where links are refused. Tried with another
+  /// one, since it goes once; in each folder once, since who is killed meanwhile leaves an empty file.
+  static bool gives_names(const fs::path& target) {
+    static std::mutex mutex;
+    static std::map<fs::path, bool> known;  // by folder
+    const std::lock_guard lock(mutex);
+    const auto [entry, is_new] = known.try_emplace(folder_of(target), false);
+    if (!is_new) return entry->second;
+    const Descriptor tried(unnamed_file(target));
+    const fs::path name = unused_name(target);
+    entry->second = tried.open() && give_name(tried.get(), name);
+    if (entry->second) ::unlink(name.c_str());
+    return entry->second;
+  }
   /// name: stays empty where it needs none.
   static int create(const fs::path& target, fs::path& name) {
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-    const int unnamed = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
-    if (unnamed >= 0 && ::access(path_of(unnamed).c_str(), F_OK) == 0) return unnamed;
-    if (unnamed >= 0) ::close(unnamed);  // no /proc, by which it would get a name
+    const int unnamed = unnamed_file(target);
+    if (unnamed >= 0 && gives_names(target)) return unnamed;
+    if (unnamed >= 0) ::close(unnamed);
     const fs::path unused = unused_name(target);
     const int named = ::open(unused.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (named >= 0) name = unused;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <iostream>
 #include <set>
 
 #include "host_tools/launch/launcher_process.hpp"
@@ -43,7 +44,9 @@ class Watch {
       if (settled_ && Clock::now() - *settled_ > (verdict_.failed() ? kAfterFailure : kAfterWork)) end_all();
     }
     end_rest();
-    return verdict_.exit_code(*launcher_.poll(), command_);
+    const int status = *launcher_.poll();
+    if (const std::string note = verdict_.note(status); !note.empty()) std::cerr << "torolux: note: " << note << "\n";
+    return verdict_.exit_code(status, command_);
   }
 
  private:
@@ -55,6 +58,7 @@ class Watch {
   void pass_on(int signal) {
     const std::optional<pid_t> first = links_.process_of(0);
     if (heard_.insert(signal).second && first) {
+      verdict_.ask_to_end();
       ::kill(*first, signal);
       return;
     }
@@ -79,7 +83,7 @@ class Watch {
       listen(kLook);
       if (Clock::now() > end) kill_ranks();
     }
-    Orphans::end();
+    orphans_.end();
   }
 
   void kill_ranks() const {
@@ -99,6 +103,7 @@ class Watch {
 }  // namespace
 
 int run_ranks(const LaunchChoice& choice, const std::vector<std::string>& words) {
+  ::signal(SIGCHLD, SIG_DFL);  // ignored by a parent, it would let no end of a child be seen
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   return Watch(choice, launch_words(choice, program, words)).run();
 }

@@ -86,7 +86,10 @@ LauncherProcess::~LauncherProcess() {
 
 std::optional<int> LauncherProcess::poll() {
   int status = 0;
-  if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) status_ = status;
+  if (status_) return status_;
+  const pid_t ended = ::waitpid(process_, &status, WNOHANG);
+  if (ended == process_) status_ = status;
+  if (ended < 0 && errno == ECHILD) status_ = 1 << 8U;  // nobody knows how: as exit code 1
   return status_;
 }
 

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -24,7 +25,7 @@ std::vector<pid_t> own_children() {
 
 }  // namespace
 
-Orphans::Orphans() {
+Orphans::Orphans() : before_(own_children()) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
 }
 
@@ -32,9 +33,10 @@ Orphans::~Orphans() {
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
-void Orphans::end() {
+void Orphans::end() const {
   for (;;) {
-    const std::vector<pid_t> children = own_children();  // each one's children are among the next
+    std::vector<pid_t> children = own_children();  // each one's children are among the next
+    std::erase_if(children, [&](pid_t child) { return std::ranges::find(before_, child) != before_.end(); });
     if (children.empty()) return;
     for (const pid_t child : children) ::kill(child, SIGKILL);
     for (const pid_t child : children) ::waitpid(child, nullptr, 0);

@@ -2,6 +2,10 @@
 // What ranks and launchers that were killed leave behind enters; nothing leaves.
 #pragma once
 
+#include <sys/types.h>
+
+#include <vector>
+
 namespace torolux::launch {
 
 /// While it lives, descendants of this process whose parent has ended become its children.
@@ -12,8 +16,12 @@ class Orphans {
   Orphans& operator=(const Orphans&) = delete;
   ~Orphans();
 
-  /// Kills and reaps all children of this process, and theirs.
-  static void end();
+  /// Kills and reaps all children of this process, and theirs, but for those that were there before: a shell's in the
+  /// background, which a process keeps that the shell has made of itself (exec).
+  void end() const;
+
+ private:
+  std::vector<pid_t> before_;
 };
 
 }  // namespace torolux::launch

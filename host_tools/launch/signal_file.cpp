@@ -9,11 +9,22 @@
 #include <system_error>
 
 namespace torolux::launch {
+namespace {
+
+/// Linux keeps a blocked signal, and gives it to a signalfd, even where it is ignored.
+bool ignored(int number) {
+  struct sigaction action {};
+  return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
 
 SignalFile::SignalFile() {
   sigset_t signals;
   ::sigemptyset(&signals);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&signals, number);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    if (!ignored(number)) ::sigaddset(&signals, number);
+  }
   ::sigprocmask(SIG_BLOCK, &signals, &before_);
   descriptor_ = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
   if (descriptor_ >= 0) return;

@@ -7,7 +7,7 @@
 
 namespace torolux::launch {
 
-/// While it lives, these signals do nothing but wait to be taken. Those that were ignored before (nohup) still are.
+/// While it lives, these signals do nothing but wait to be taken. One that is ignored already (nohup) still is.
 class SignalFile {
  public:
   SignalFile();

@@ -51,11 +51,16 @@ void Verdict::lose(const RankEvent& event) {
           ") is lost: " + (event.kind == RankEvent::Kind::died ? how_it_died(event.status) : "its keeper was killed");
 }
 
+void Verdict::ask_to_end() {
+  asked_ = asked_ || !exit_code_;
+}
+
 void Verdict::interrupt() {
   interrupted_ = !exit_code_;
 }
 
 int Verdict::exit_code(int launcher, const std::vector<std::string>& command) const {
+  if (asked_ && (!lost_.empty() || !exit_code_)) throw Interrupted("");
   if (!lost_.empty()) {
     const bool all_here = here_.size() == ranks_;
     throw MachineFailure(
@@ -69,6 +74,15 @@ int Verdict::exit_code(int launcher, const std::vector<std::string>& command) co
   // Rank 0 is on another computer, or was never started.
   if (WIFEXITED(launcher) && !here_.contains(0) && WEXITSTATUS(launcher) == 0) return 0;
   blame_launcher(launcher, command);
+}
+
+std::string Verdict::note(int launcher) const {
+  if (asked_ && !lost_.empty())
+    return lost_ + ", before rank 0 had ended: the state is that of the last checkpoint before, if there is one";
+  if (!exit_code_ && !asked_ && !interrupted_ && here_.empty() && WIFEXITED(launcher) && WEXITSTATUS(launcher) == 0)
+    return "no rank has begun on this computer: if the launcher has not run them on others, but only queued them, say, "
+           "the results are not there yet";
+  return "";
 }
 
 void Verdict::blame_launcher(int status, const std::vector<std::string>& command) const {

@@ -20,6 +20,8 @@ class Verdict {
   explicit Verdict(unsigned ranks) : ranks_(ranks) {}
 
   void take(const RankEvent& event);
+  /// This process was told to end, and has told rank 0. Whoever told it may have told ranks and launcher as well.
+  void ask_to_end();
   /// This process was told to end, and no rank can be told to do so in order.
   void interrupt();
   /// Nothing can change it, but for a last word of rank 0.
@@ -29,6 +31,8 @@ class Verdict {
   /// launcher: its wait status; command: its words, for a message. Throws Interrupted; MachineFailure: a rank was lost,
   /// and is named, or the launcher has not come so far.
   int exit_code(int launcher, const std::vector<std::string>& command) const;
+  /// What the user should know where exit_code throws no failure; empty: nothing.
+  std::string note(int launcher) const;
 
  private:
   struct Rank {
@@ -43,6 +47,7 @@ class Verdict {
   std::map<unsigned, Rank> here_;  ///< that have begun on this computer
   std::optional<int> exit_code_;
   bool of_rank_0_ = false;  ///< exit_code_ is
+  bool asked_ = false;      ///< to end, before anything was lost
   bool interrupted_ = false;
   std::string lost_;  ///< the first rank that was, and how; empty: none
 };

@@ -154,7 +154,7 @@ TEST_P(MpiLaunchDeath, EndsTheRunWhichNamesTheRank) {
 
 INSTANTIATE_TEST_SUITE_P(OfAnyRank, MpiLaunchDeath,
                          testing::Values(Death{0, SIGKILL, false}, Death{1, SIGKILL, false}, Death{2, SIGKILL, false},
-                                         Death{0, SIGABRT, false}, Death{1, SIGSEGV, false}, Death{2, SIGTERM, false},
+                                         Death{0, SIGABRT, false}, Death{1, SIGSEGV, false}, Death{2, SIGALRM, false},
                                          Death{0, SIGKILL, true}, Death{2, SIGKILL, true}),
                          [](const testing::TestParamInfo<Death>& one) {
                            return "rank" + std::to_string(one.param.rank) + "_signal" +
@@ -182,6 +182,38 @@ TEST_F(MpiLaunch, CtrlCSavesTheStateAndAnotherNumberOfRanksGoesOn) {
   EXPECT_EQ(end.errors.find("torolux: interrupted"), end.errors.rfind("torolux: interrupted")) << "told once";
   expect_nothing_half_done(launched);
   expect_goes_on();
+}
+
+// Of a batch system: its word comes by several ways.
+TEST_F(MpiLaunch, ASignalToEveryProcessSavesTheState) {
+  Launched launched = start(folder_.path());
+  ASSERT_TRUE(launched.there());
+  for (const pid_t process : launched.all()) ::kill(process, SIGTERM);
+  launched.run.signal(SIGTERM);
+  const study::Ended end = launched.run.wait();
+  EXPECT_EQ(end.exit_code, 130) << end.errors;
+  EXPECT_EQ(last_line(end.errors), "torolux: interrupted");
+  EXPECT_EQ(end.errors.find("is lost"), std::string::npos) << end.errors;
+  expect_nothing_half_done(launched);
+  expect_goes_on();
+}
+
+// As nohup leaves SIGHUP, some parents SIGCHLD, and a shell that has made a torolux of itself what runs behind it.
+TEST_F(MpiLaunch, WhatWasThereBeforeStaysAsItWas) {
+  const fs::path background = folder_.path() / "background", output = folder_.path() / "output";
+  fs::create_directory(output);
+  std::vector<std::string> words = {"-c", "sleep 600 & echo $! > \"$0\"; exec env --ignore-signal=CHLD,HUP \"$@\"",
+                                    background.string(), torolux_file().string()};
+  const std::vector<std::string> own = render(output, {"--ranks", "3"});
+  words.insert(words.end(), own.begin(), own.end());
+  study::Child run("sh", words);
+  wait_for([&] { return rank_and_keeper(0, output).rank != 0; });
+  run.signal(SIGHUP);
+  const study::Ended end = run.wait();
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  const auto sleeper = static_cast<pid_t>(std::stol(text_of(background)));
+  EXPECT_TRUE(runs(sleeper));
+  ::kill(sleeper, SIGKILL);
 }
 
 TEST_F(MpiLaunch, WithoutACheckpointASignalEndsARunThatLeavesNothing) {
@@ -271,6 +303,7 @@ TEST_F(MpiLaunch, WhatIsWrongIsToldInOneLine) {
          "--trace does not go with PEs on other ranks");
   expect({"--ranks", "2", "--pe-memory", "128K"}, 2, "");
   expect({"--ranks", "2", "--launcher", "/nowhere"}, 2, "/nowhere: the launcher cannot be started: No such file");
+  expect({"--ranks", "2", "--launcher", "true"}, 0, "note: no rank has begun on this computer");
   expect({"--ranks", "2", "--launcher", "false"}, 3, "the launcher ended with exit code 1, and no rank has begun");
   const study::Ended twice = mpirun(2, render(folder_.path(), {"--ranks", "2"})).wait();
   EXPECT_EQ(twice.exit_code, 1);

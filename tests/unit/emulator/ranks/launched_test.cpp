@@ -8,9 +8,12 @@
 #include <cstdlib>
 #include <utility>
 
+#include "emulator/ranks/starter.hpp"
+
 namespace torolux::ranks {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::Not;
 using testing::StartsWith;
@@ -59,6 +62,18 @@ TEST(LaunchedRanks, ChildrenAreNone) {
   const std::vector<std::string> kept = environment_of_no_rank();
   for (const char* prefix : {"OMPI_", "PMI_", "PMIX_"}) EXPECT_THAT(kept, Not(Contains(StartsWith(prefix))));
   EXPECT_THAT(kept, Contains(StartsWith("PATH=")));
+}
+
+TEST(LaunchedRanks, AUsersSettingsForALauncherStay) {
+  const Environment environment({});
+  ::setenv("SLURM_STEP_NUM_TASKS", "1", 1);  // of a job
+  ::setenv("OMPI_MCA_btl", "self", 1);
+  ::setenv("HYDRA_IFACE", "eth0", 1);
+  ::setenv(kStarterVariable, "another's", 1);
+  const std::vector<std::string> kept = environment_of_no_rank();
+  EXPECT_THAT(kept, AllOf(Contains("OMPI_MCA_btl=self"), Contains("HYDRA_IFACE=eth0")));
+  EXPECT_THAT(kept, Not(Contains(StartsWith(kStarterVariable))));
+  for (const char* name : {"OMPI_MCA_btl", "HYDRA_IFACE", kStarterVariable}) ::unsetenv(name);
 }
 
 }  // namespace

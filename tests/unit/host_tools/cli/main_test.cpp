@@ -383,5 +383,11 @@ TEST(Interruption, TheSecondSignalEndsTheProcess) {
       testing::KilledBySignal(SIGTERM), "");
 }
 
+TEST(Interruption, TheSecondSignalIsTheFirstWhereItComesByTwoWays) {
+  const InterruptionGuard guard(SecondSignal::nothing);
+  for (int times = 0; times < 3; ++times) ::raise(SIGTERM);
+  EXPECT_TRUE(interrupted());
+}
+
 }  // namespace
 }  // namespace torolux

@@ -5,11 +5,18 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 
 #include "emulator/errors.hpp"
 #include "host_tools/picture/picture.hpp"
@@ -70,6 +77,39 @@ TEST(WriteFile, WhoIsKilledWhileItWritesLeavesNothing) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(folder.files(), 0U);
+}
+
+/// From now on links are refused to this process, as some file systems and containers do.
+bool refuse_links() {
+  std::array<sock_filter, 4> program = {{{BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
+                                         {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, __NR_linkat},
+                                         {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | EPERM},
+                                         {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}}};
+  const sock_fprog filter{program.size(), program.data()};
+  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+TEST(WriteFile, WhereLinksAreRefusedItIsWrittenToo) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "a";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (!refuse_links()) ::_exit(2);
+    try {
+      check_file_writable(file);
+      write_file(file, "first");
+      write_file(file, "second");
+    } catch (const std::exception&) {
+      ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 2) GTEST_SKIP() << "this computer has no seccomp";
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_file(file, kMost), bytes_of("second"));
+  EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(WriteFile, NameOfGreatestLength) {

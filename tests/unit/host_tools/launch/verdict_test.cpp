@@ -119,11 +119,33 @@ TEST(Verdict, AnInterruptionIsOneUnlessSomethingWasBefore) {
   EXPECT_EQ(code_of(done), 0);
 }
 
+TEST(Verdict, WhoIsLostAfterAllWereToldToEndIsNoFailure) {
+  Verdict verdict = begun();
+  verdict.ask_to_end();
+  verdict.take({Kind::died, 1, 91, SIGKILL});
+  EXPECT_TRUE(verdict.failed()) << "no launcher need be waited for";
+  EXPECT_THROW(code_of(verdict, SIGTERM), Interrupted);
+  EXPECT_THAT(verdict.note(SIGTERM), AllOf(HasSubstr("rank 1 ("), HasSubstr("before rank 0 had ended")));
+  Verdict in_order = begun();
+  in_order.ask_to_end();
+  in_order.take({Kind::ends, 0, 100, 130});
+  in_order.take({Kind::died, 1, 91, SIGKILL});
+  EXPECT_EQ(code_of(in_order), 130);
+  EXPECT_EQ(in_order.note(SIGTERM), "");
+  Verdict before = begun();
+  before.take({Kind::died, 1, 91, SIGKILL});
+  before.ask_to_end();
+  EXPECT_THAT(failure_of(before), HasSubstr("rank 1 ("));
+}
+
 TEST(Verdict, ALauncherThatStartsNothingIsBlamed) {
   EXPECT_THAT(failure_of(Verdict(3), exited(1)), AllOf(HasSubstr("the launcher ended with exit code 1"),
                                                        HasSubstr("no rank has begun"), HasSubstr("mpirun -n 3")));
   EXPECT_THAT(failure_of(begun(), SIGKILL), AllOf(HasSubstr("signal 9"), HasSubstr("rank 0 has not said how it ends")));
   EXPECT_EQ(code_of(Verdict(3), exited(0)), 0) << "all are on other computers";
+  EXPECT_THAT(Verdict(3).note(exited(0)), HasSubstr("no rank has begun on this computer"));
+  EXPECT_EQ(Verdict(3).note(exited(1)), "");
+  EXPECT_EQ(begun().note(exited(0)), "");
 }
 
 }  // namespace
