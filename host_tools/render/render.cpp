@@ -148,8 +148,7 @@ RenderResult RenderSession::run(Machine::Then then) {
   if (!drafts.over && !solve_drafts(p.scene, p.camera, p.quality, p.choice, p.image, watch, drafts)) return result;
   result.figures.draft_cycles = drafts.cycles;
   result.figures.draft_records = drafts.records;
-  const RenderSetup& setup =
-      p.setup.emplace(watch.next_setup(p.scene, p.camera, p.quality, p.choice, p.image));
+  const RenderSetup& setup = p.setup.emplace(watch.next_setup(p.scene, p.camera, p.quality, p.choice, p.image));
   RenderJob job = job_of(p.scene, p.camera, p.quality, p.choice, setup, false);
   const RadiosityOrigin origin = radiosity_origin(p.scene, p.quality, setup.mesh);
   if (saved) {
