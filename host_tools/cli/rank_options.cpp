@@ -25,8 +25,7 @@ void add_rank_options(CLI::App& command, RankOptions& options, const std::string
           .add_option_function<std::string>(
               "--placing", [&options](const std::string& name) { options.placing = kNames.at(name); },
               "With --ranks or mpirun: which rank runs which PE: block (neighbours together), cyclic or random; no "
-              "result depends "
-              "on it [block]")
+              "result depends on it [block]")
           ->type_name("NAME")
           ->check(CLI::IsMember({"block", "cyclic", "random"}));
   if (!group.empty()) placing->group(group);

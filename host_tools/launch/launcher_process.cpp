@@ -13,18 +13,10 @@
 #include <system_error>
 
 #include "emulator/errors.hpp"
+#include "emulator/exec_pointers.hpp"
 
 namespace torolux::launch {
 namespace {
-
-/// As execve takes them; they point into `words`.
-std::vector<char*> pointers_to(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
 
 struct Program {
   char* const* words;
@@ -55,10 +47,8 @@ struct Program {
 
 LauncherProcess::LauncherProcess(const std::vector<std::string>& words, const std::vector<std::string>& environment,
                                  const sigset_t& mask) {
-  std::vector<std::string> own_words = words;
-  std::vector<std::string> own_environment = environment;
-  const std::vector<char*> word_pointers = pointers_to(own_words);
-  const std::vector<char*> environment_pointers = pointers_to(own_environment);
+  const std::vector<char*> word_pointers = exec_pointers(words);
+  const std::vector<char*> environment_pointers = exec_pointers(environment);
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "a pipe");
   const pid_t parent = ::getpid();

@@ -2,11 +2,11 @@
 // A picture and a path enter; by the path's extension a file of one format leaves, or is read.
 #include "host_tools/picture/picture.hpp"
 
-#include <cctype>
 #include <string>
 
 #include "emulator/errors.hpp"
 #include "emulator/nearest_name.hpp"
+#include "host_tools/files/extension.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/picture/formats.hpp"
 
@@ -15,15 +15,8 @@ namespace {
 
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 32U;
 
-/// In lower case, with the dot.
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
 void check_extension(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
+  const std::string extension = small_extension(file);
   if (extension != ".png" && extension != ".exr" && extension != ".pfm")
     throw UsageError(file.string() + ": pictures end in .png, .exr or .pfm" +
                      did_you_mean(extension, {".png", ".exr", ".pfm"}));
@@ -47,7 +40,7 @@ void write_layers(const Picture& picture, std::span<const Layer> layers, const s
                   const ToneMapping& mapping) {
   check_extension(file);
   check_picture_size(picture.width, picture.height, file.string());
-  const std::string extension = extension_of(file);
+  const std::string extension = small_extension(file);
   if (extension == ".pfm") write_file(file, encode_pfm(picture));
   if (extension == ".exr") write_file(file, encode_exr(picture, layers));
   if (extension != ".png") return;
@@ -67,12 +60,12 @@ std::filesystem::path layer_file(const std::filesystem::path& file, std::string_
 
 void check_layers_writable(const std::filesystem::path& file, LayerSet set) {
   check_writable(file);
-  if (extension_of(file) != ".png") return;
+  if (small_extension(file) != ".png") return;
   for (const LayerName& layer : layers_in(set)) check_file_writable(layer_file(file, layer.name));
 }
 
 bool holds_radiance(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
+  const std::string extension = small_extension(file);
   return extension == ".exr" || extension == ".pfm";
 }
 
@@ -82,7 +75,7 @@ void check_writable(const std::filesystem::path& file) {
 }
 
 Picture read_picture(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
+  const std::string extension = small_extension(file);
   if (extension == ".pfm") return decode_pfm(read_file(file, kMostFileBytes), file.string());
   if (extension == ".exr") return decode_exr(read_file(file, kMostFileBytes), file.string());
   throw InputError(file.string() + ": only .pfm and .exr can be read, as they hold radiance");

@@ -5,10 +5,10 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "emulator/errors.hpp"
+#include "host_tools/files/extension.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/picture/formats.hpp"
 #include "host_tools/picture/reduce.hpp"
@@ -124,8 +124,7 @@ std::string escaped(std::string_view text) {
 }  // namespace
 
 void check_report_writable(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = small_extension(file);
   if (!extension.empty() && extension != ".html" && extension != ".htm")
     throw UsageError("--report: " + file.string() + ": a report is a page of HTML, in no other format; call it " +
                      std::filesystem::path(file).replace_extension(".html").string());

@@ -61,10 +61,6 @@ std::vector<Flat> flat_triangles(const Scene& scene) {
   return flats;
 }
 
-}  // namespace
-
-namespace {
-
 bool is_glass(const Scene& scene, std::uint32_t material) {
   return scene.materials[material].kind == SurfaceKind::glass;
 }

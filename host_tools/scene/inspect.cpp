@@ -10,6 +10,7 @@
 #include "host_tools/scene/components.hpp"
 #include "host_tools/scene/coplanar.hpp"
 #include "host_tools/scene/ray_cast.hpp"
+#include "host_tools/scene/sky.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -127,9 +128,7 @@ void inspect_openings(const Scene& scene, double size, std::vector<std::string>&
     if (met_before(scene, opening, facing, size) > 0) continue;
     if (met_before(scene, opening, vec::scale(facing, -1), size) < 3) continue;
     vec::Box box;
-    for (const double s : {0.0, 1.0})
-      for (const double t : {0.0, 1.0})
-        box.include(vec::add(opening.corner, vec::add(vec::scale(opening.along, s), vec::scale(opening.across, t))));
+    include_opening(opening, box);
     found.push_back("[[sky.opening]] " + std::to_string(number) + around(box) +
                     " faces outwards, so that its light goes away from the scene; swap its 'edges', or turn 'facing'");
   }

@@ -60,11 +60,13 @@ Vec3d sky_direction(const Sky& sky, double elevation, double azimuth) {
 
 void include_openings(const Scene& scene, vec::Box& box) {
   if (!scene.sky) return;
-  for (const SkyQuad& opening : scene.sky->openings) {
-    for (const Vec3d& near : {opening.corner, vec::add(opening.corner, opening.along)}) {
-      box.include(near);
-      box.include(vec::add(near, opening.across));
-    }
+  for (const SkyQuad& opening : scene.sky->openings) include_opening(opening, box);
+}
+
+void include_opening(const SkyQuad& opening, vec::Box& box) {
+  for (const Vec3d& near : {opening.corner, vec::add(opening.corner, opening.along)}) {
+    box.include(near);
+    box.include(vec::add(near, opening.across));
   }
 }
 

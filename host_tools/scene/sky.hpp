@@ -20,6 +20,8 @@ Vec3d sky_direction(const Sky& sky, double elevation, double azimuth);
 
 /// The corners of the openings of a scene's sky, which are part of the object space wherever surfaces end.
 void include_openings(const Scene& scene, vec::Box& box);
+/// Of one of them.
+void include_opening(const SkyQuad& opening, vec::Box& box);
 
 /// The first of these suns shines where the sky has none of its own, or there is no sky; the others are told.
 /// direction: in the scene's space, any length.

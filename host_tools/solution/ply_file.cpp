@@ -4,7 +4,6 @@
 #include "host_tools/solution/ply_file.hpp"
 
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -12,6 +11,7 @@
 
 #include "emulator/errors.hpp"
 #include "firmware/protocol/element_light.hpp"
+#include "host_tools/files/extension.hpp"
 #include "host_tools/files/write_file.hpp"
 #include "host_tools/scene/vec.hpp"
 
@@ -91,8 +91,7 @@ std::vector<std::byte> pack_ply(const Scene& scene, const Mesh& mesh, const Ligh
 }
 
 void check_ply_writable(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = small_extension(file);
   if (!extension.empty() && extension != ".ply")
     throw UsageError("--save-mesh: " + file.string() + ": the mesh is written as .ply, in no other format; call it " +
                      std::filesystem::path(file).replace_extension(".ply").string());

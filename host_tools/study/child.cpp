@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "emulator/exec_pointers.hpp"
 #include "emulator/ranks/launched.hpp"
 
 namespace torolux::study {
@@ -35,15 +36,6 @@ std::string contents_of(int descriptor) {
   const ssize_t bytes = ::pread(descriptor, text.data(), text.size(), 0);
   text.resize(bytes > 0 ? static_cast<std::size_t>(bytes) : 0);
   return text;
-}
-
-/// As execve takes them; they point into `words`.
-std::vector<char*> pointers_to(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
 }
 
 /// Signals as a program finds them that is started by hand.
@@ -108,8 +100,8 @@ Child::Child(const std::string& program, const std::vector<std::string>& argumen
   const Files files(in, output_, errors_, ends[1]);
   int error = written == static_cast<ssize_t>(input.size()) ? 0 : EIO;
   if (error == 0)
-    error = ::posix_spawnp(&process_, program.c_str(), files.get(), attributes.get(), pointers_to(words).data(),
-                           pointers_to(environment).data());
+    error = ::posix_spawnp(&process_, program.c_str(), files.get(), attributes.get(), exec_pointers(words).data(),
+                           exec_pointers(environment).data());
   ::close(in);
   if (ends[1] >= 0) ::close(ends[1]);
   if (error != 0) {

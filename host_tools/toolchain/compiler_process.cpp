@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "emulator/errors.hpp"
+#include "emulator/exec_pointers.hpp"
 
 namespace torolux {
 namespace {
@@ -74,11 +75,7 @@ std::string pass_on(int from) {
 CompilerEnd run_compiler(const std::vector<std::string>& words, const std::string& package) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "a pipe");
-  std::vector<std::string> copies = words;
-  std::vector<char*> pointers;
-  pointers.reserve(copies.size() + 1);
-  for (std::string& word : copies) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+  const std::vector<char*> pointers = exec_pointers(words);
   pid_t process = -1;
   const SpawnSettings settings(ends[1]);
   const int error =

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
+#include "emulator/exec_pointers.hpp"
 
 namespace torolux {
 namespace {
@@ -63,12 +64,7 @@ double seconds(const timeval& time) {
 
 QemuProcess::QemuProcess(const std::vector<std::string>& arguments, std::span<const int> inherited,
                          std::span<const int> cores) {
-  std::vector<char*> pointers;
-  pointers.reserve(arguments.size() + 1);
-  for (const std::string& argument : arguments) {
-    pointers.push_back(const_cast<char*>(argument.c_str()));  // execvp's signature; nothing is written
-  }
-  pointers.push_back(nullptr);
+  const std::vector<char*> pointers = exec_pointers(arguments);
   cpu_set_t set;
   CPU_ZERO(&set);
   for (const int core : cores) {

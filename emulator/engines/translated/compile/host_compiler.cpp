@@ -22,6 +22,7 @@
 #include <thread>
 
 #include "emulator/errors.hpp"
+#include "emulator/exec_pointers.hpp"
 
 namespace torolux::translated {
 namespace {
@@ -79,10 +80,7 @@ class Process {
   Process(const std::vector<std::string>& arguments, const std::filesystem::path& output,
           std::function<bool()> stop = {})
       : output_(output), stop_(std::move(stop)) {
-    std::vector<char*> pointers;
-    pointers.reserve(arguments.size() + 1);
-    for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
-    pointers.push_back(nullptr);
+    const std::vector<char*> pointers = exec_pointers(arguments);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
