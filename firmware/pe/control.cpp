@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "firmware/pe/final_gather.hpp"
 #include "firmware/pe/pe.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/store_names.hpp"
@@ -48,6 +49,7 @@ void configure(Pe& pe, Niu& niu) {
 void begin(Pe& pe, Niu& niu) {
   verify_stores(niu, pe.scene);
   const protocol::StageLayout& layout = pe.scene.layout;
+  if (layout.stage == protocol::Stage::radiosity && gathers(layout)) note_areas(pe.scene);
   pe.slots.set(niu.memory(), layout);
   pe.outbox.set(layout);
   pe.shot = {};

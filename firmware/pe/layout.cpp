@@ -58,6 +58,9 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
           l.emission_points, protocol::kMostEmissionPoints);
   require(niu, finite_positive(l.points_per_quantum), LayoutField::points_per_quantum,
           static_cast<std::uint32_t>(bits(l.points_per_quantum)));
+  const bool apart = l.apart == protocol::kDirect || l.apart == protocol::kTurned ||
+                     l.apart == (std::uint32_t{protocol::kDirect} | protocol::kTurned);
+  require(niu, apart, LayoutField::apart, l.apart);
 }
 
 /// What tells a sample's place in the picture, whoever makes its ray.

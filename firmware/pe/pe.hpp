@@ -68,8 +68,8 @@ void verify_stores(Niu& niu, const Scene& scene);
 [[gnu::noinline]] void handle_ray(Pe& pe, Niu& niu, Slot slot);
 /// Follows a hemi-cube pixel's flux until it leaves this PE or ends (radiosity.cpp).
 void follow_light(Pe& pe, Niu& niu, Slot slot);
-/// Adds flux to one of this PE's elements (deposit.cpp).
-void add_to_element(Pe& pe, std::uint32_t patch, std::uint32_t element, std::uint32_t side, bool direct,
+/// Adds flux to one of this PE's elements (deposit.cpp). apart: as StageLayout::apart says.
+void add_to_element(Pe& pe, std::uint32_t patch, std::uint32_t element, std::uint32_t side, bool apart,
                     const protocol::Flux& flux);
 /// The light of a record falls on a diffuse or glossy surface: adds it here, or sends it to the element's owner. True:
 /// it goes on from here.

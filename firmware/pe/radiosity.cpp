@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Radiosity records: the flux of one hemi-cube pixel on its way. Enters: a record that arrived or was just created;
 // leaves: flux in an element, a record for another PE, or a sum in the tally.
-#include "firmware/pe/follow.hpp"
+#include "firmware/pe/final_gather.hpp"
 #include "firmware/pe/glossy.hpp"
+#include "firmware/pe/landing.hpp"
 #include "firmware/pe/specular.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/flux.hpp"
@@ -79,7 +80,8 @@ bool turn_light(Pe& pe, Niu& niu, Slot slot, const Hit& hit) {
     }
   }
   turn(record, origin, out, polygon.number);
-  if (!passes) record.flags = static_cast<std::uint8_t>(record.flags & ~std::uint32_t{protocol::kDirect});
+  if (!passes)
+    record.flags = static_cast<std::uint8_t>((record.flags & ~std::uint32_t{protocol::kDirect}) | protocol::kTurned);
   if (record.flux[0] == 0 && record.flux[1] == 0 && record.flux[2] == 0) {
     end_record(pe, niu, slot);
     return false;
@@ -104,25 +106,10 @@ void choose_lobe(const Pe& pe, RadiosityRecord& record, const Hit& hit) {
   record.flags |= protocol::kGoesOn;
 }
 
-void check_deposit(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
-  const Scene& scene = pe.scene;
-  require(niu, record.place < scene.patch_parts.size(), RecordField::part, record.place);
-  const protocol::Patch& patch = scene.patches[scene.patch_parts[record.place].patch];
-  const std::uint32_t side = (record.flags & protocol::kBackSide) != 0 ? 1U : 0U;
-  require(niu, patch.side[side] != protocol::kNoSide, RecordField::side, side);
-}
-
-void check_flux(Niu& niu, const protocol::Flux& record_flux) {
-  constexpr std::int64_t most_flux = std::int64_t{1} << 56U;  // all of a scene's is 3 * 2^48
-  for (const std::int64_t flux : record_flux) {
-    require(niu, flux >= 0 && flux <= most_flux, RecordField::flux, static_cast<std::uint32_t>(flux >> 32U));
-  }
-}
-
 void check_record(const Pe& pe, Niu& niu, const RadiosityRecord& record) {
   check_flux(niu, record.flux);
   if (record.kind == RecordKind::deposit) {
-    check_deposit(pe, niu, record);
+    check_landing(pe, niu, record.place, (record.flags & protocol::kBackSide) != 0 ? 1U : 0U);
     return;
   }
   require(niu, record.kind == RecordKind::light, RecordField::kind, static_cast<std::uint32_t>(record.kind));
@@ -142,6 +129,17 @@ void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
     niu.release(slot);
     return;
   }
+  if (record.kind == RecordKind::gather_point) {
+    const auto& point = pe.slots.at<protocol::GatherPointRecord>(slot);
+    check_gather_point(pe, niu, point);
+    take_point(pe, niu, std::bit_cast<protocol::PointRecord>(point));
+    niu.release(slot);
+    return;
+  }
+  if (record.kind >= RecordKind::gather && record.kind <= RecordKind::answer) {
+    handle_gather_record(pe, niu, slot);
+    return;
+  }
   check_record(pe, niu, record);
   if (record.kind != RecordKind::deposit) {
     follow_light(pe, niu, slot);
@@ -151,7 +149,7 @@ void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
   const protocol::PatchPart& part = pe.scene.patch_parts[record.place];
   const std::uint32_t element = protocol::leaf_on_way(pe.scene.nodes.data(), part.tree, record.polygon);
   add_to_element(pe, part.patch, element, (record.flags & protocol::kBackSide) != 0 ? 1 : 0,
-                 (record.flags & protocol::kDirect) != 0, record.flux);
+                 (record.flags & pe.scene.layout.apart) != 0, record.flux);
   if (leave_element(pe, niu, slot, part.patch)) follow_light(pe, niu, slot);
 }
 
@@ -184,7 +182,7 @@ bool leave_element(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch) {
     record.key = protocol::hash_combine(record.key, std::bit_cast<std::uint32_t>(x));
   }
   record.kind = RecordKind::light;
-  record.flags = protocol::kFirst;
+  record.flags = protocol::kFirst | protocol::kTurned;
   return true;
 }
 

@@ -47,8 +47,8 @@ void note_unshot(const Scene& scene, const protocol::Patch& patch, std::uint32_t
   const std::uint32_t first = scene.patch_sides[patch.side[side]].first_element;
   for (protocol::Element& element : scene.elements.subspan(first, patch.elements)) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const float left = static_cast<float>(element.flux[c]) - element.shot[c];
-      element.unshot[c] = left > 0.0F ? left : 0.0F;
+      const float left = static_cast<float>(element.flux[c]) - element.shots.shot[c];
+      element.shots.unshot[c] = left > 0.0F ? left : 0.0F;
     }
   }
 }

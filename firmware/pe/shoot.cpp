@@ -3,6 +3,7 @@
 // who gets the points; leaves: point records.
 #include <algorithm>
 
+#include "firmware/pe/final_gather.hpp"
 #include "firmware/pe/pe.hpp"
 #include "firmware/pe/shot_points.hpp"
 #include "firmware/protocol/fault_fields.hpp"
@@ -31,10 +32,12 @@ void require(Niu& niu, bool holds, StoreIndex index, std::uint32_t value, std::s
 Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
   require(niu, shoot.patch < pe.scene.patches.size(), StoreIndex::shoot_patch, shoot.patch, pe.scene.patches.size());
   require(niu, shoot.side < 2, StoreIndex::shoot_side, shoot.side);
-  require(niu, shoot.kind <= ShotKind::emitted, StoreIndex::shoot_kind, static_cast<std::uint32_t>(shoot.kind),
-          static_cast<std::uint32_t>(ShotKind::emitted));
+  const ShotKind last = gathers(pe.scene.layout) ? ShotKind::gathering : ShotKind::emitted;
+  require(niu, shoot.kind <= last, StoreIndex::shoot_kind, static_cast<std::uint32_t>(shoot.kind),
+          static_cast<std::uint32_t>(last));
   const Patch& patch = pe.scene.patches[shoot.patch];
   require(niu, patch.side[shoot.side] != protocol::kNoSide, StoreIndex::shoot_side, shoot.side);
+  if (shoot.kind == ShotKind::gathering) return {};
   protocol::PatchSide& side = pe.scene.patch_sides[patch.side[shoot.side]];
   Flux flux{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -72,8 +75,16 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
   shot.command = shoot;
   shot.flux = withdraw(pe, niu, shot.command);
   const protocol::StageLayout& layout = pe.scene.layout;
-  shot.points = protocol::points_of_shot(shoot.kind, shot.flux, layout.points_per_quantum, layout.shot_points,
-                                         layout.emission_points);
+  if (shoot.kind == ShotKind::gathering) {
+    const std::int64_t points = shoot.amount[0];
+    require(niu, points >= 1 && points <= protocol::kMostGatherPoints, StoreIndex::gather_points,
+            static_cast<std::uint32_t>(points), protocol::kMostGatherPoints);
+    shot.points = static_cast<std::uint32_t>(points);
+    begin_gathering(pe.scene, shoot);
+  } else {
+    shot.points = protocol::points_of_shot(shoot.kind, shot.flux, layout.points_per_quantum, layout.shot_points,
+                                           layout.emission_points);
+  }
   shot.key = protocol::shot_key(pe.scene.layout.seed, pe.scene.patches[shot.command.patch].number, shot.command);
   shot.active = true;
   shot.point = 0;
@@ -90,7 +101,7 @@ void deal_points(Pe& pe, Niu& niu, const protocol::Deal& deal) {
     require(niu, deal.pe[i] < niu.pes(), StoreIndex::deal_pe, deal.pe[i], niu.pes());
     if (shot.part == 0) {
       require(niu, shot.point < shot.points, StoreIndex::deal_point, i, shot.points);
-      shot.divided = make_point(pe.scene, shot);
+      shot.divided = make_point(pe.scene, shot, niu.pe());
     }
     protocol::PointRecord point = shot.divided;
     if (deal.parts > 1U) {

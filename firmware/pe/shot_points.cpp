@@ -3,6 +3,9 @@
 // path of its grid; the row is cut into equal parts, and each point lies somewhere in its own.
 #include "firmware/pe/shot_points.hpp"
 
+#include <bit>
+
+#include "firmware/pe/final_gather.hpp"
 #include "firmware/pe/lamps.hpp"
 #include "firmware/pe/surface.hpp"
 #include "firmware/protocol/flux.hpp"
@@ -20,13 +23,19 @@ float sum_of(const glm::vec3& v) {
   return (v.x + v.y) + v.z;
 }
 
-/// What a facet would send, R G B; emitted light by its area, reflected light by what came to its element.
+bool is_gathering(const Shot& shot) {
+  return shot.command.kind == protocol::ShotKind::gathering;
+}
+
+/// What a facet would send, R G B; emitted light by its area, reflected light by what came to its element. Elements
+/// gather alike.
 glm::vec3 sent_by(const Scene& scene, const Shot& shot, const Facet& facet) {
+  if (is_gathering(shot)) return {facet.of_element, 0.0F, 0.0F};
   if (shot.by_area) return glm::vec3(facet.of_patch);
   const Patch& patch = scene.patches[shot.command.patch];
   const Element& element =
       scene.elements[scene.patch_sides[patch.side[shot.command.side]].first_element + facet.element];
-  return to_vector(element.unshot) *
+  return to_vector(element.shots.unshot) *
          glm::vec3(static_cast<float>(patch.reflectance[0]), static_cast<float>(patch.reflectance[1]),
                    static_cast<float>(patch.reflectance[2])) *
          0x1p-32F * facet.of_element;
@@ -43,7 +52,7 @@ void count_as_shot(const Scene& scene, const Shot& shot) {
   const Patch& patch = scene.patches[shot.command.patch];
   const std::uint32_t first = scene.patch_sides[patch.side[shot.command.side]].first_element;
   for (Element& element : scene.elements.subspan(first, patch.elements)) {
-    for (std::size_t c = 0; c < 3; ++c) element.shot[c] += element.unshot[c];
+    for (std::size_t c = 0; c < 3; ++c) element.shots.shot[c] += element.shots.unshot[c];
   }
 }
 
@@ -101,16 +110,17 @@ void begin_points(const Scene& scene, Shot& shot) {
   shot.given = {};
   shot.by_area = shot.command.kind == protocol::ShotKind::emitted;
   shot.all = sent_by_all(scene, shot);
-  if (!shot.by_area) count_as_shot(scene, shot);
+  if (shot.command.kind == protocol::ShotKind::reflected) count_as_shot(scene, shot);
   if (sum_of(shot.all) > 0.0F) return;
   shot.by_area = true;  // so little that rounding hid where it came
   shot.all = sent_by_all(scene, shot);
 }
 
-protocol::PointRecord make_point(const Scene& scene, Shot& shot) {
+protocol::PointRecord make_point(const Scene& scene, Shot& shot, protocol::PeNumber home) {
   const float part = sum_of(shot.all) / static_cast<float>(shot.points);
   const auto begin = static_cast<float>(shot.point);
-  const std::uint32_t key = protocol::hash_combine(shot.key, shot.point);
+  // Of a gathering all as far on in their parts: so no element is left out.
+  const std::uint32_t key = is_gathering(shot) ? shot.key : protocol::hash_combine(shot.key, shot.point);
   const float at = begin + protocol::uniform(key, protocol::Dimension::place);
   const float along = walk_to(scene, shot, at * part, shot.walk);
   const Facet& facet = scene.facets[scene.patches[shot.command.patch].first_facet + shot.walk.facet];
@@ -138,7 +148,8 @@ protocol::PointRecord make_point(const Scene& scene, Shot& shot) {
   if (shot.command.kind == protocol::ShotKind::emitted && lamp != protocol::kNoLamp)
     name_lamp(lamp, shot.command.side, point);
   ++shot.point;
-  return point;
+  if (!is_gathering(shot)) return point;
+  return std::bit_cast<protocol::PointRecord>(gathering_point(scene, shot.command, facet.element, home, point));
 }
 
 }  // namespace torolux::pe

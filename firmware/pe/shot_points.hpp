@@ -12,7 +12,8 @@ namespace torolux::pe {
 /// so that nothing leaves from below what stands on it. The elements count as shot from then on.
 void begin_points(const Scene& scene, Shot& shot);
 
-/// The shot's next point. Their shares of the flux add up to all of it exactly.
-protocol::PointRecord make_point(const Scene& scene, Shot& shot);
+/// The shot's next point. Their shares of the flux add up to all of it exactly. Of a gathering: a GatherPointRecord's
+/// bytes; home: of its element.
+protocol::PointRecord make_point(const Scene& scene, Shot& shot, protocol::PeNumber home);
 
 }  // namespace torolux::pe

@@ -285,6 +285,8 @@ class Verifier {
     for (const float share : {facet.of_patch, facet.of_element}) {
       require(share > 0.0F && share <= 1.0F, StoreIndex::facet_share, facet.polygon, 1);
     }
+    require(facet.lit_area >= protocol::kLeastLitArea && facet.lit_area <= protocol::kMostLitArea, StoreIndex::lit_area,
+            facet.polygon, 0);
   }
 
   void check_hemicube() {

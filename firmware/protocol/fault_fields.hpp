@@ -78,6 +78,8 @@ enum class StoreIndex : std::uint32_t {
   lamp_size,
   lamp_table,
   lamp_chance,
+  gather_points,
+  lit_area,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreIndex::count)> kStoreIndexWords = {
@@ -144,6 +146,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(StoreInde
     "table of a lamp: % bands by % sectors",
     "first entry of a lamp's table = %, with its size beyond the limit %",
     "chance of a part of a lamp = %, at least %",
+    "points of a gathering = %: at least 1 and at most %",
+    "lit area of a facet too small or too large, of polygon %",
 };
 
 /// FaultCode::bad_record: which field; no third detail.
@@ -163,6 +167,8 @@ enum class RecordField : std::uint32_t {
   point_part,
   opening,
   point_lamp,
+  home,
+  element,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(RecordField::count)> kRecordFieldWords = {
@@ -181,6 +187,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(RecordFie
     "part of a point = %",
     "opening through which sky comes = %, which is not there",
     "lamp of a point: flags %, which is not there or dark on that side",
+    "PE to which a gathering ray's light goes = %",
+    "element for which a ray gathers = %",
 };
 
 /// FaultCode::bad_layout: a StoreName, with its address and count, or one of the layout's other fields.
@@ -201,6 +209,7 @@ enum class LayoutField : std::uint32_t {
   samples,
   filter_bits,
   picture_edge,
+  apart,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(LayoutField::count)> kLayoutFieldWords = {
@@ -249,6 +258,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(LayoutFie
     "samples of a pixel = %, of % sample places",
     "bits of the filter's places = %: at least 1 and at most %",
     "edge of the picture = %: at least 1 and at most %",
+    "flux that elements keep apart: flags %",
 };
 
 /// "" for a number that is none of the list's.

@@ -66,7 +66,11 @@ struct Select {
 };
 inline constexpr std::uint32_t kMostShooters = 1024;
 
-enum class ShotKind : std::uint32_t { reflected = 0, emitted = 1 };
+enum class ShotKind : std::uint32_t {
+  reflected = 0,
+  emitted = 1,
+  gathering = 2,  ///< no flux leaves: the side's elements look for what lights them, when all shots are over
+};
 
 /// One possible shot. Order: more unshot first; then lower patch number, front before back, emitted before reflected.
 struct Candidate {
@@ -90,7 +94,7 @@ static_assert(sizeof(Candidates) <= kMostMessageBytes);
 
 /// The owner subtracts exactly `amount` and shoots `amount` times reflectance (reflected) or `amount` (emitted).
 struct Shoot {
-  Flux amount;
+  Flux amount;          ///< gathering: points (1..kMostGatherPoints), and nothing
   std::uint32_t patch;  ///< local
   std::uint32_t side;
   ShotKind kind;

@@ -27,6 +27,11 @@ enum class RecordKind : std::uint8_t {
   deposit,  ///< flux on its way to the owner of the element that it met (radiosity stage)
   point,    ///< a point of a shot on its way to the PE that makes its records (radiosity stage): a PointRecord
   shade,    ///< has met a surface, and goes to its keeper (ray tracing stage)
+  // Final gathering, at the end of the radiosity stage.
+  gather_point,  ///< a point of an element on its way to the PE that makes its rays: a GatherPointRecord
+  gather,        ///< looks from an element for the surface that lights it: a GatherRecord
+  question,      ///< has met one, and goes to the owner of the element there: a GatherRecord
+  answer,        ///< flux on its way back to the element that asked
 };
 
 /// Bits of `flags`.
@@ -35,6 +40,8 @@ inline constexpr std::uint8_t kFirst = 2;     ///< still in the subspace where t
 inline constexpr std::uint8_t kBackSide = 4;  ///< deposit: on the back of the element
 inline constexpr std::uint8_t kShadow = 8;    ///< ray tracing: on its way from a diffuse surface to an emitter
 inline constexpr std::uint8_t kGoesOn = 64;   ///< deposit: at the owner it goes on along its origin and direction
+inline constexpr std::uint8_t kTurned =
+    128;  ///< radiosity: by mirror, glass or lobe, where final gathering cannot look
 /// light, without kFirst: the axis (0..2) of the face through which it entered its subspace. The interval of the
 /// subspace begins at exactly that plane, so the next PE must know which one it was.
 inline constexpr std::uint32_t kEntryAxisShift = 4;
@@ -57,7 +64,7 @@ struct RadiosityRecord {
   std::uint32_t place;    ///< cell code of the subspace that it enters; deposit: of the owner's parts of patches
   std::uint32_t polygon;  ///< global number of the polygon that it left, or kNoPolygon; deposit: way_to_leaf
   std::uint32_t key;      ///< random numbers of this record: hash of (seed, patch, shot, point, pixel); kGoesOn: global
-                          ///< number of the polygon that it leaves
+                          ///< number of the polygon that it leaves; answer: as GatherPointRecord::element
   RecordKind kind;
   std::uint8_t bounce;  ///< mirror, glass and glossy events so far
   std::uint8_t flags;
@@ -89,6 +96,44 @@ static_assert(offsetof(PointRecord, flags) == offsetof(RadiosityRecord, flags));
 constexpr std::uint32_t point_number(const PointRecord& point) {
   return point.number_low | (std::uint32_t{point.number_high} << 8U);
 }
+
+/// Final gathering: a point of an element. It travels and waits as a PointRecord does.
+struct GatherPointRecord {
+  Vec3f origin;
+  Vec3f normal;           ///< unit length, of the side that gathers
+  std::uint32_t element;  ///< that gathers: of its owner's elements
+  float area;             ///< of it, normalised; 0: no rays are to be made
+  PeNumber home;          ///< its owner
+  std::uint16_t unused[7];
+  std::uint32_t place;  ///< as PointRecord, to the end
+  std::uint32_t polygon;
+  std::uint32_t key;
+  RecordKind kind;
+  std::uint8_t number_low;
+  std::uint8_t flags;
+  std::uint8_t number_high;
+};
+static_assert(sizeof(GatherPointRecord) == sizeof(PointRecord));
+static_assert(offsetof(GatherPointRecord, place) == offsetof(PointRecord, place));
+
+/// Final gathering: a ray against the light's way. It travels and is followed as a RadiosityRecord is.
+struct GatherRecord {
+  Vec3f origin;
+  Vec3f direction;        ///< unit length
+  Vec3f weight;           ///< of the flux per area that it finds: area of its element over the rays of the point
+  std::uint32_t element;  ///< as GatherPointRecord
+  PeNumber home;
+  std::uint16_t unused[3];
+  std::uint32_t place;  ///< as RadiosityRecord, to the end
+  std::uint32_t polygon;
+  std::uint32_t key;
+  RecordKind kind;
+  std::uint8_t bounce;
+  std::uint8_t flags;
+  std::uint8_t visited;
+};
+static_assert(sizeof(GatherRecord) == sizeof(RadiosityRecord));
+static_assert(offsetof(GatherRecord, place) == offsetof(RadiosityRecord, place));
 
 /// A second way of a ray (of refraction and reflection) that waits until the first has ended.
 struct Branch {

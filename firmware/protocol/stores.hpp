@@ -117,8 +117,10 @@ struct Facet {
   std::uint32_t element;  ///< of the patch
   float of_patch;         ///< its share of the patch's area, 0..1
   float of_element;       ///< its share of the element's area, 0..1; less: it would send where no light comes
+  float lit_area;         ///< where light comes to it, normalised; kLeastLitArea..kMostLitArea
 };
-static_assert(sizeof(Facet) == 20);
+inline constexpr float kLeastLitArea = 0x1p-60F, kMostLitArea = 4.0F;
+static_assert(sizeof(Facet) == 24);
 
 /// One lit side of a patch.
 struct PatchSide {
@@ -130,25 +132,36 @@ struct PatchSide {
 };
 static_assert(sizeof(PatchSide) == 80);
 
-struct Element {
-  Flux flux;     ///< incident, `direct` included
-  Flux direct;   ///< incident straight from emitters: apart, so that shadow rays can take its place
-  Vec3f shot;    ///< the part of `flux` that has been turned into shots, rounded: where light leaves, not how much
-  Vec3f unshot;  ///< what of `flux` was not, at the last selection: while a round lasts, `flux` depends on the time
+/// What of an element's flux has left it.
+struct ElementShots {
+  Vec3f shot;    ///< the part that has been turned into shots, rounded: where light leaves, not how much
+  Vec3f unshot;  ///< what was not, at the last selection: while a round lasts, `flux` depends on the time
 };
-static_assert(sizeof(Element) == 72);
+
+struct Element {
+  Flux flux;   ///< incident, `apart` included
+  Flux apart;  ///< the part of it that came as StageLayout::apart says
+  union {
+    ElementShots shots{};
+    Flux gathered;  ///< from its final gathering on: what `points` have found together
+  };
+  float inverse_area;    ///< one over where light comes, normalised
+  std::uint32_t points;  ///< that gather for it
+};
+static_assert(sizeof(Element) == 80);
 
 /// Sums of one PE over the radiosity stage.
 struct Tally {
-  Flux absorbed_specular;  ///< lost at mirrors and glass
-  Flux reflected_glossy;   ///< sent on by glossy lobes, of flux that elements have received
-  Flux escaped;            ///< left the object space
-  Flux cut_off;            ///< bounce limit
-  Flux back_side;          ///< fell on a side that has no elements
-  Flux sky_rest;           ///< of sky points' flux, less that of their records
-  std::uint64_t rays;      ///< records created
+  Flux absorbed_specular;     ///< lost at mirrors and glass
+  Flux reflected_glossy;      ///< sent on by glossy lobes, of flux that elements have received
+  Flux escaped;               ///< left the object space
+  Flux cut_off;               ///< bounce limit
+  Flux back_side;             ///< fell on a side that has no elements
+  Flux sky_rest;              ///< of sky points' flux, less that of their records
+  std::uint64_t rays;         ///< records created
+  std::uint64_t gather_rays;  ///< of final gathering, not among them
 };
-static_assert(sizeof(Tally) == 152);
+static_assert(sizeof(Tally) == 160);
 
 /// [n]: segments that ended at one PE, in a stage, after n subspaces of all PEs; kMostVisits: or more.
 using Visits = std::array<std::uint32_t, kMostVisits + 1>;
@@ -230,6 +243,8 @@ inline constexpr std::uint32_t kMostBounces = 255;
 inline constexpr std::uint32_t kMostHemicubeSize = 256;
 inline constexpr std::uint32_t kMostShotPoints = 64;
 inline constexpr std::uint32_t kMostEmissionPoints = 256;
+/// Of one side's final gathering: points are numbered in 16 bits.
+inline constexpr std::uint32_t kMostGatherPoints = 65536;
 
 /// What the host tells a PE before a stage. The PE checks it: stores inside its free memory, aligned to 8, apart from
 /// each other.
@@ -270,6 +285,8 @@ struct StageLayout {
   std::uint32_t shot_points;      ///< k: k * k points at most per patch, reflected light
   std::uint32_t emission_points;  ///< k for emitted light
   float points_per_quantum;       ///< of reflected light, by the greatest channel of what is shot
+  std::uint32_t apart;  ///< what Element::apart has, by records' flags. kDirect: straight from emitters, so that shadow
+                        ///< rays can take its place. kTurned (or both): what final gathering does not find
   // Ray tracing stage.
   Store irradiance;      ///< CornerIrradiance[]
   Store kept;            ///< KeptSurface[]
@@ -284,6 +301,6 @@ struct StageLayout {
   float least_weight;  ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 500);
+static_assert(sizeof(StageLayout) == 504);
 
 }  // namespace torolux::protocol

@@ -104,7 +104,11 @@ std::string answer_text(const ElementAnswer& answer) {
            "PE " + std::to_string(answer.owner) + "; the patch's centre is in subspace " + subspace(answer.subspace)) +
       line("in ray tracing", answer.keeper ? "kept by PE " + std::to_string(*answer.keeper) + " alone"
                                            : "at every PE that has its polygon") +
-      line("incident", triple(answer.incident) + " W, straight from emitters " + triple(answer.direct) + " W") +
+      line("incident",
+           triple(answer.incident) + " W" +
+               (answer.direct ? ", straight from emitters " + triple(*answer.direct) + " W"
+                              : " by shots, of which " + triple(answer.apart.value_or(Vec3d{})) +
+                                    " W are kept; gathered " + triple(answer.gathered.value_or(Vec3d{})) + " W")) +
       line("irradiance", triple(answer.irradiance) + " W/m^2") + line("reflectance", triple(answer.reflectance)) +
       line("emission", triple(answer.emission) + " W/m^2") + line("radiosity", triple(answer.radiosity) + " W/m^2") +
       line("not shot on", triple(answer.patch_unshot) + " W, of what its patch has received");

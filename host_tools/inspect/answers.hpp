@@ -40,7 +40,9 @@ struct ElementAnswer {
   protocol::PeNumber owner = 0;
   std::array<std::uint32_t, 3> subspace{};      ///< that holds the patch's centre, radiosity stage
   std::optional<protocol::PeNumber> keeper;     ///< ray tracing stage: who alone has its surface
-  Vec3d incident{}, direct{};                   ///< [W]; direct: of it, straight from emitters
+  Vec3d incident{};                             ///< [W], as shots brought it
+  std::optional<Vec3d> direct;                  ///< [W]; of it, straight from emitters; absent: it has gathered
+  std::optional<Vec3d> gathered, apart;         ///< [W]; then: what its points found, and of `incident` what is kept
   Vec3d irradiance{}, emission{}, radiosity{};  ///< [W/m^2]; radiosity: emission and what is reflected
   Vec3d patch_unshot{};                         ///< of its patch's side: incident flux that it has not shot on [W]
   std::vector<LightSource> sources;             ///< the greatest first

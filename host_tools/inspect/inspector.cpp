@@ -9,6 +9,7 @@
 
 #include "emulator/errors.hpp"
 #include "host_tools/inspect/light_sources.hpp"
+#include "host_tools/scene/vec.hpp"
 #include "host_tools/solution/foreseen_flux.hpp"
 
 namespace torolux {
@@ -96,7 +97,13 @@ ElementAnswer Inspector::element(std::uint32_t number) const {
   const SolvedElement& held = of_.solution.elements[number];
   const SolvedSide& side = of_.solution.sides[patch.side[place.side]];
   answer.incident = watts_of(held.flux, of_.setup.units);
-  answer.direct = watts_of(held.direct, of_.setup.units);
+  const Vec3d apart = watts_of(held.apart, of_.setup.units);
+  if (has_gathered(of_.solution)) {
+    answer.apart = apart;
+    answer.gathered = vec::scale(watts_of(held.gathered, of_.setup.units), 1.0 / std::max(held.points, 1U));
+  } else {
+    answer.direct = apart;
+  }
   const Vec3d emitted = emitted_radiance(of_.scene, patch, place.side, of_.setup.units);
   const Vec3d incident = watts_of(side.incident, of_.setup.units), shot = watts_of(side.shot, of_.setup.units);
   for (std::size_t c = 0; c < 3; ++c) {

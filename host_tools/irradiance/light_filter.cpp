@@ -38,12 +38,9 @@ Vec3d bend_of(const FilterPlan::Bend& bend, const Values& values) {
 class LightFilter {
  public:
   /// All outlive this.
-  LightFilter(const FilterPlan& plan, std::span<const protocol::Flux> flux, double flux_of_record, Values& values)
-      : plan_(plan),
-        flux_(flux),
-        values_(values),
-        noise_(kVariance * 3 * flux_of_record),
-        weight_(plan.bends().size()) {}
+  LightFilter(const FilterPlan& plan, std::span<const protocol::Flux> flux, std::span<const double> flux_of_record,
+              Values& values)
+      : plan_(plan), flux_(flux), flux_of_record_(flux_of_record), values_(values), weight_(plan.bends().size()) {}
 
   void run() {
     const Values before = values_;
@@ -83,20 +80,27 @@ class LightFilter {
     return squares;
   }
 
+  /// The variance of the channels' sum, of an element's flux, over that flux [quanta].
+  double noise_of(const FilterPlan::Triangle& triangle) const {
+    return kVariance * 3 * flux_of_record_[triangle.element];
+  }
+
   void weigh_bends() {
     const std::vector<double> squares = squares_around();
     for (std::size_t b = 0; b < weight_.size(); ++b) {
       const FilterPlan::Bend& bend = plan_.bends()[b];
       double area = 0;
       double light = 0;
+      double noise = 0;
       for (const std::uint32_t t : bend.triangle) {
         const FilterPlan::Triangle& triangle = plan_.triangles()[t];
         area += triangle.area;
+        noise = std::max(noise, noise_of(triangle));
         for (std::size_t c = 0; c < 3; ++c) light += triangle.of_mean[c] * vec::sum(values_[triangle.corner[c]]) / 2;
       }
       // Smoothed over `reach`, noise leaves bends of a spread of sqrt(noise) / reach^3 over a unit of length.
       const double reach = kReach * std::sqrt(area);
-      const double doubted = kDoubted * std::sqrt(noise_ * std::max(0.0, light) * area) / (reach * reach * reach);
+      const double doubted = kDoubted * std::sqrt(noise * std::max(0.0, light) * area) / (reach * reach * reach);
       const double bent = doubted > 0 ? std::sqrt(1 + squares[b] / (doubted * doubted)) : 0;
       weight_[b] = bent > 0 ? bend.curvature * reach * reach * reach * reach / bent : 0;
     }
@@ -138,6 +142,7 @@ class LightFilter {
     double moved = 0;           ///< the same, with those around vertices that hang on it, as far as they do
     double darkest = HUGE_VAL;  ///< of these, what one received, and may have missed by chance
     double brightest = 0;       ///< of these, what one received [quanta / user unit^2], all channels
+    double variance = 0;        ///< the greatest noise_of these
     double noise = 0;           ///< how far off `light` it may be by chance
     double light = 0;           ///< what is known of it
   };
@@ -150,7 +155,9 @@ class LightFilter {
         const std::uint32_t v = triangle.corner[c];
         known[v].area += triangle.area;
         known[v].shown += 3 * triangle.of_mean[c] * triangle.area;
-        known[v].darkest = std::min(known[v].darkest, own + std::sqrt(noise_ * known[v].light / triangle.area));
+        known[v].variance = std::max(known[v].variance, noise_of(triangle));
+        known[v].darkest =
+            std::min(known[v].darkest, own + std::sqrt(noise_of(triangle) * known[v].light / triangle.area));
         known[v].brightest = std::max(known[v].brightest, own);
       }
     }
@@ -161,7 +168,7 @@ class LightFilter {
       known[at.to].moved += known[at.vertex].moved * at.along;
     }
     for (const std::uint32_t v : plan_.free()) {
-      known[v].noise = kMostDeviations * std::sqrt(noise_ * known[v].light * known[v].area) / known[v].shown;
+      known[v].noise = kMostDeviations * std::sqrt(known[v].variance * known[v].light * known[v].area) / known[v].shown;
     }
     return known;
   }
@@ -308,15 +315,15 @@ class LightFilter {
 
   const FilterPlan& plan_;
   std::span<const protocol::Flux> flux_;
+  std::span<const double> flux_of_record_;
   Values& values_;
-  double noise_;                ///< variance of the channels' sum, of an element's flux, over that flux [quanta]
   std::vector<double> weight_;  ///< by bend [user units^4, and those of its curvature]
   std::vector<double> scale_;   ///< by vertex
 };
 
 }  // namespace
 
-void filter_light(const FilterPlan& plan, std::span<const protocol::Flux> flux, double flux_of_record,
+void filter_light(const FilterPlan& plan, std::span<const protocol::Flux> flux, std::span<const double> flux_of_record,
                   std::vector<Vec3d>& values) {
   LightFilter(plan, flux, flux_of_record, values).run();
 }

@@ -22,9 +22,9 @@ namespace torolux {
 /// dark side, and goes to the bright one, where no value rises beyond the brightest element around it.
 /// Where no vertex is kept, the best values hold exactly what the elements received; steps end when no more
 /// is seen of the rest (docs/decisions/elements.md).
-/// flux: by global element [quanta]. flux_of_record: in the mean, of the channels [quanta], > 0. values: by vertex,
-/// irradiance [quanta / user unit^2]: as well as is known without; changed.
-void filter_light(const FilterPlan& plan, std::span<const protocol::Flux> flux, double flux_of_record,
+/// flux: by global element [quanta]. flux_of_record: likewise, what a record brings in the mean, of the channels.
+/// values: by vertex, irradiance [quanta / user unit^2]: as well as is known without; changed.
+void filter_light(const FilterPlan& plan, std::span<const protocol::Flux> flux, std::span<const double> flux_of_record,
                   std::vector<Vec3d>& values);
 
 /// So often filter_light comes by each triangle.

@@ -22,13 +22,13 @@ bool is_dark(const Vec3d& light) {
 class SideLight {
  public:
   /// plan, flux: outlive this.
-  SideLight(const SidePlan& plan, std::span<const protocol::Flux> flux, double flux_of_record)
+  SideLight(const SidePlan& plan, std::span<const protocol::Flux> flux, std::span<const double> flux_of_record)
       : plan_(plan), flux_(flux), clusters_(plan.clusters, flux) {
     take_means();
     spread_and_anchor();
     follow_to_borders();
     spread_and_anchor();
-    if (flux_of_record > 0) filter_light(plan.filter, flux, flux_of_record, values_);
+    if (!flux_of_record.empty()) filter_light(plan.filter, flux, flux_of_record, values_);
     note_lit_sides();
   }
 
@@ -130,14 +130,15 @@ class SideLight {
 }  // namespace
 
 VertexIrradiance make_vertex_irradiance(const IrradiancePlan& plan, std::span<const protocol::Flux> flux,
-                                        double watts_per_quantum, double unit_radiance, double flux_of_record) {
+                                        double watts_per_quantum, double unit_radiance,
+                                        std::span<const double> flux_of_record) {
   const double factor = watts_per_quantum / (std::numbers::pi * unit_radiance);
   VertexIrradiance irradiance;
   irradiance.first = plan.first;
   irradiance.triangles.resize(plan.triangles);
   for (const SidePlan& side : plan.side) {
     irradiance.fits += side.clusters.fits();
-    if (flux_of_record > 0) irradiance.filtered += kFilterPasses * side.filter.triangles().size();
+    if (!flux_of_record.empty()) irradiance.filtered += kFilterPasses * side.filter.triangles().size();
     const SideLight light(side, flux, flux_of_record);
     for (const SidePlan::Facet& facet : side.facets) {
       const std::array<Vec3d, 3> corners = light.at_corners(facet);

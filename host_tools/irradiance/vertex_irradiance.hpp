@@ -24,10 +24,11 @@ struct VertexIrradiance {
 /// A vertex takes the flux of all elements around it on its smooth surface, divided by their area. A vertex on the edge
 /// of a larger element is anchored: it lies on the line between that element's corners. Facets of clusters share their
 /// vertices' light but for what their own normals make of it.
-/// flux_of_record: what a record carries in the mean, of the channels [quanta]; where it is known, the noise that it
-/// makes is filtered (light_filter.hpp). 0: elements' light is shown as it came.
+/// flux_of_record: by global element, what a record brought in the mean, of the channels [quanta]: the noise that it
+/// makes is filtered (light_filter.hpp). Empty: elements' light is shown as it came.
 VertexIrradiance make_vertex_irradiance(const IrradiancePlan& plan, std::span<const protocol::Flux> flux,
-                                        double watts_per_quantum, double unit_radiance, double flux_of_record = 0);
+                                        double watts_per_quantum, double unit_radiance,
+                                        std::span<const double> flux_of_record = {});
 /// With a plan for this once.
 inline VertexIrradiance make_vertex_irradiance(const Mesh& mesh, std::span<const protocol::Flux> flux,
                                                double watts_per_quantum, double unit_radiance) {

@@ -21,6 +21,9 @@ namespace {
 using protocol::PeNumber;
 using protocol::Store;
 
+/// Where next to nothing of a facet is seen, its edges yet get some light: it must not count as ever so bright.
+constexpr double kLeastSeen = 0.25;
+
 class ImageWriter {
  public:
   ImageWriter(const Scene& scene, const Mesh& mesh, const Placement& placement, PeNumber pe, const LightUnits& units,
@@ -313,6 +316,13 @@ class ImageWriter {
     }
   }
 
+  /// area: of the facet [user units^2].
+  float lit_area(const MeshFacet& facet, double area) const {
+    const double lit =
+        (facet.is_piece ? area : area * std::max(facet.seen, kLeastSeen)) * mesh_.space.scale * mesh_.space.scale;
+    return std::clamp(static_cast<float>(lit), protocol::kLeastLitArea, protocol::kMostLitArea);
+  }
+
   void write_facet(const MeshPatch& patch, const MeshFacet& facet, std::uint32_t index) {
     const double area = mesh_.facet_area(facet);
     double of_element = facet.of_element;
@@ -322,7 +332,8 @@ class ImageWriter {
     const auto share = [](double value) { return std::max(static_cast<float>(value), 0x1p-100F); };
     put(layout_.facets, index,
         protocol::Facet{local_polygon(facet.triangle), facet.sends_from.value_or(facet.code), facet.element,
-                        std::min(share(area / patch.area), 1.0F), std::min(share(of_element), 1.0F)});
+                        std::min(share(area / patch.area), 1.0F), std::min(share(of_element), 1.0F),
+                        lit_area(facet, area)});
   }
 
   const Scene& scene_;

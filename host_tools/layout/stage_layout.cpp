@@ -228,6 +228,7 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
     layout.shot_points = parameters.shot_points;
     layout.emission_points = parameters.emission_points;
     layout.points_per_quantum = parameters.points_per_quantum;
+    layout.apart = parameters.apart;
   } else {
     layout.pixel_scale = parameters.pixel_scale;
     layout.least_weight = parameters.least_weight;

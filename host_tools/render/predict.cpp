@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <thread>
 
 #include "firmware/protocol/messages.hpp"
@@ -89,6 +90,15 @@ struct Load {
   }
 };
 
+/// Some light falls on a side of a patch.
+bool is_lit(const RenderSetup& setup, const LightSample& light, std::uint32_t patch, std::uint32_t side) {
+  const MeshPatch& of = setup.mesh.patches[patch];
+  const auto facets = std::span(setup.mesh.facets).subspan(of.first_facet, of.facets);
+  return std::ranges::any_of(facets, [&](const MeshFacet& facet) {
+    return light.emitted.hits[facet.triangle][side] + light.reflected.hits[facet.triangle][side] > 0;
+  });
+}
+
 /// One side of a patch as a source of light. Of all emitted light the same share falls on it as of the sample's, and
 /// likewise of all reflected light, wherever that comes from.
 struct Source {
@@ -137,6 +147,11 @@ class Rounds {
     double emitted = 0;
     for (const Source& source : sources_) emitted += source.unshot;
     greatest_channel_ = kEmittedQuanta / emitted;
+    // Rays go the ways of reflected light, backwards.
+    for (const FinalGather& of : settings_.gatherings) {
+      const double rays = is_lit(setup, light, of.number, of.side) ? of.points : 0;
+      gather_rays_ += rays * protocol::hemicube_pixels(setup.parameters.hemicube);
+    }
   }
 
   void run(Prediction& prediction) {
@@ -147,6 +162,11 @@ class Rounds {
       unshot = shoot(chosen, prediction);
     }
     prediction.shots = shots_;
+    Load gathering(setup_.placement.torus.pes());
+    gathering.anywhere = gather_rays_ * kCyclesToMake;
+    gathering.add(kinds_.front().load, gather_rays_);
+    add(gathering, gather_rays_, prediction);
+    prediction.packets += gather_rays_ * kinds_.front().packets;
   }
 
  private:
@@ -201,16 +221,21 @@ class Rounds {
       source.unshot += emitted * source.from_emitted + reflected * source.from_reflected;
       unshot += source.unshot;
     }
+    add(round, made, prediction);
+    return unshot;
+  }
+
+  void add(const Load& round, double made, Prediction& prediction) const {
+    if (!(made > 0)) return;
     prediction.records += made;
     prediction.instructions += round.sum() / kCyclesPerInstruction;
     prediction.radiosity_cycles += round.cycles();
-    if (round.of_pe.size() == 1) return unshot;
+    if (round.of_pe.size() == 1) return;
     if (!setup_.points_travel) {
       prediction.radiosity_cycles += round.cycles() * (1 / kUtilisation - 1);
     } else {
       prediction.radiosity_cycles += kTail * protocol::hemicube_pixels(setup_.parameters.hemicube) * round.sum() / made;
     }
-    return unshot;
   }
 
   const RenderSetup& setup_;
@@ -218,6 +243,7 @@ class Rounds {
   std::vector<Source> sources_;
   std::vector<Kind> kinds_;  ///< of light reflected, and emitted
   double greatest_channel_;  ///< its share of the flux
+  double gather_rays_ = 0;
   std::uint64_t shots_ = 0;
 };
 

@@ -176,7 +176,10 @@ RenderResult RenderSession::run(Machine::Then then) {
   result.figures.wall_seconds = seconds_since(begin);
   if (!program.finished()) return result;  // stopped by `progress`
   result.figures.energy = balance(p.scene, setup.mesh, setup.units, *program.solution());
-  if (!p.files.radiosity) result.figures.radiosity_records = program.solution()->tally.rays;
+  if (!p.files.radiosity) {
+    const protocol::Tally& tally = program.solution()->tally;
+    result.figures.radiosity_records = tally.rays + tally.gather_rays;
+  }
   p.write_files(origin, drafts.splits, *program.solution());
   p.take_picture(result, program.samples());
   p.solved = program.take_solution();

@@ -12,6 +12,7 @@ namespace torolux {
 
 inline constexpr std::uint32_t kMostSamples = 65536;  ///< of a pixel
 inline constexpr std::uint32_t kMostEmissionRecords = 1'000'000'000;
+inline constexpr std::uint32_t kMostGatherRays = 65536;  ///< of an element, in the mean
 /// 16 MiB of a PE's memory.
 inline constexpr std::uint32_t kMostTexels = 4U << 20U;
 
@@ -35,6 +36,8 @@ struct Quality {
   /// With which all emitters together begin, about: their light casts the sharpest shadows, so that a patch that emits
   /// gets more points than one that only reflects.
   std::uint32_t emission_records = 4'000'000;
+  /// Not 0: elements gather what lights them when all shots are over, by so many rays in the mean.
+  std::uint32_t final_gather = 0;
   double unshot = 0.002;        ///< fraction of the emitted flux at which the radiosity stage ends
   std::uint32_t max_shots = 0;  ///< patches shot in all; 0: no limit
   std::uint32_t bounces = 32;   ///< path segments

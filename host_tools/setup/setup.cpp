@@ -70,6 +70,13 @@ void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality,
   parameters.points_per_quantum = static_cast<float>(points / (kFaintestRecord * kEmittedQuanta));
 }
 
+/// Gathering rays find what surfaces reflect, straight or through panes. Emitted light they do not look for: it comes
+/// by shadow rays, or is kept as shots brought it.
+std::uint32_t apart_flags(const Quality& quality, const StageParameters& parameters) {
+  if (quality.final_gather == 0) return protocol::kDirect;
+  return parameters.emitters > 0 ? protocol::kTurned : std::uint32_t{protocol::kTurned} | protocol::kDirect;
+}
+
 /// The map of the cells that each PE has is told before they are filled.
 void require_small_map(std::array<std::uint32_t, 3> cells, Scheme scheme, std::uint64_t image, std::uint64_t memory) {
   const auto bytes = [&cells, scheme] {
@@ -94,6 +101,7 @@ void require_small_map(std::array<std::uint32_t, 3> cells, Scheme scheme, std::u
 Quality draft_of(Quality quality) {
   quality.shot_points = std::max(1U, quality.shot_points / 4);
   quality.emission_records /= 8;
+  quality.final_gather = 0;
   quality.unshot = std::max(quality.unshot, 0.05);
   return quality;
 }
@@ -138,6 +146,7 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   if (quality.shadow_rays) {
     setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
   }
+  setup.parameters.apart = apart_flags(quality, setup.parameters);
   setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.sample_places());
   const MachineDescription::Records& records = machine.description.records;
   setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,

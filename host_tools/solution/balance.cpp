@@ -92,6 +92,10 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
   return energy;
 }
 
+bool has_gathered(const Solution& solution) {
+  return solution.tally.gather_rays > 0;
+}
+
 double flux_of_record(const Solution& solution) {
   if (solution.tally.rays == 0) return 0;
   const Flux entered = sky_entered(solution);
@@ -106,7 +110,7 @@ std::vector<Flux> incident_flux(const Solution& solution, bool without_direct) {
   flux.reserve(solution.elements.size());
   for (const SolvedElement& element : solution.elements) {
     Flux& sum = flux.emplace_back(element.flux);
-    for (std::size_t c = 0; without_direct && c < 3; ++c) sum[c] -= element.direct[c];
+    for (std::size_t c = 0; without_direct && c < 3; ++c) sum[c] -= element.apart[c];
   }
   return flux;
 }

@@ -2,10 +2,20 @@
 // A geometric series for each channel, over the whole scene: what is unshot, times what becomes of each quantum.
 #include "host_tools/solution/foreseen_flux.hpp"
 
+#include <cmath>
+
 namespace torolux {
 namespace {
 
 using protocol::Flux;
+
+/// The variance of what rays find beside that of as many records of equal flux by chance: they look evenly around, and
+/// each finds something.
+constexpr double kVarianceOfRays = 0.3;
+
+double sum_of(const Flux& flux) {
+  return static_cast<double>(flux[0]) + static_cast<double>(flux[1]) + static_cast<double>(flux[2]);
+}
 
 /// Reflected light that has come and not left again.
 Flux unshot_flux(const Mesh& mesh, const Solution& solution) {
@@ -44,9 +54,43 @@ std::vector<Flux> foreseen_flux(const Mesh& mesh, const Solution& solution, bool
   for (std::size_t e = 0; e < flux.size(); ++e) {
     const SolvedElement& element = solution.elements[e];
     for (std::size_t c = 0; c < 3; ++c)
-      flux[e][c] += static_cast<std::int64_t>(static_cast<double>(element.flux[c] - element.direct[c]) * parts[c]);
+      flux[e][c] += static_cast<std::int64_t>(static_cast<double>(element.flux[c] - element.apart[c]) * parts[c]);
   }
   return flux;
+}
+
+PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool without_direct) {
+  const double of_record = flux_of_record(solution);
+  if (!has_gathered(solution)) {
+    PictureLight light{foreseen_flux(mesh, solution, without_direct), {}};
+    if (of_record > 0) light.of_record.assign(light.flux.size(), of_record);
+    return light;
+  }
+  // Of what lights the surfaces that rays have met, this part came by reflection, and more of that is to come.
+  const std::array<double, 3> parts = parts_to_come(mesh, solution);
+  const Flux entered = sky_entered(solution);
+  std::array<double, 3> foreseen{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto reflected = static_cast<double>(solution.reflected_shot[c]);
+    const double all = reflected + static_cast<double>(solution.emitted_shot[c] + entered[c]);
+    foreseen[c] = all > 0 ? 1 + parts[c] * reflected / all : 1;
+  }
+  PictureLight light;
+  light.flux.reserve(solution.elements.size());
+  light.of_record.reserve(solution.elements.size());
+  double all_found = 0;
+  for (const SolvedElement& element : solution.elements)
+    all_found += element.points > 0 ? sum_of(element.gathered) / element.points : 0;
+  const double of_ray = kVarianceOfRays * all_found / 3 / static_cast<double>(solution.tally.gather_rays);
+  for (const SolvedElement& element : solution.elements) {
+    Flux& sum = light.flux.emplace_back(element.apart);
+    for (std::size_t c = 0; c < 3 && element.points > 0; ++c)
+      sum[c] += std::llround(static_cast<double>(element.gathered[c]) / element.points * foreseen[c]);
+    const double apart = sum_of(element.apart);
+    const double all = sum_of(sum);
+    light.of_record.push_back(all > 0 ? (apart * of_record + (all - apart) * of_ray) / all : of_ray);
+  }
+  return light;
 }
 
 }  // namespace torolux

@@ -26,7 +26,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 constexpr std::array<char, 6> kMagic{'T', 'L', 'X', 'R', 'A', 'D'};
-constexpr std::uint16_t kVersion = 8;
+constexpr std::uint16_t kVersion = 9;
 
 struct SavedSums {
   protocol::Tally tally;
@@ -35,7 +35,7 @@ struct SavedSums {
   protocol::Flux sky_shot;
   std::uint64_t shots;
 };
-static_assert(sizeof(SavedSums) == 232);
+static_assert(sizeof(SavedSums) == 240);
 
 constexpr auto make_crc_table() {
   std::array<std::uint32_t, 256> table{};
@@ -99,6 +99,17 @@ class FluxSum {
 void check_flux(const protocol::Flux& flux, const std::string& name) {
   for (const std::int64_t value : flux) {
     if (value < 0 || value > kMostFlux) throw InputError(name + ": damaged: a flux is out of range");
+  }
+}
+
+/// Of all points of an element.
+constexpr std::int64_t kMostGathered = std::int64_t{1} << 62U;
+
+void check_gathered(const SolvedElement& element, const std::string& name) {
+  if (element.points > protocol::kMostGatherPoints || element.unused != 0)
+    throw InputError(name + ": damaged: an element has gathered from more points than it can");
+  for (const std::int64_t value : element.gathered) {
+    if (value < 0 || value > kMostGathered) throw InputError(name + ": damaged: a flux is out of range");
   }
 }
 
@@ -190,7 +201,8 @@ Solution unpack_radiosity(const SavedRadiosity& saved, const RadiosityOrigin& ex
   for (std::uint32_t i = 0; i < mesh.elements; ++i) {
     const SolvedElement& element = solution.elements.emplace_back(take<SolvedElement>(bytes));
     check_flux(element.flux, name);
-    check_flux(element.direct, name);
+    check_flux(element.apart, name);
+    check_gathered(element, name);
     element_sum.add(element.flux, name);
   }
   return solution;

@@ -43,7 +43,7 @@ struct Field {
   std::string_view key;
   std::size_t at;
 };
-constexpr std::array<Field, 16> kFields{{{"patch_factor", 32},
+constexpr std::array<Field, 17> kFields{{{"patch_factor", 32},
                                          {"patches", 16},
                                          {"elements", 24},
                                          {"refine", 56},
@@ -52,6 +52,7 @@ constexpr std::array<Field, 16> kFields{{{"patch_factor", 32},
                                          {"hemicube", 80},
                                          {"shot_points", 84},
                                          {"emission_records", 108},
+                                         {"final_gather", 120},
                                          {"max_shots", 88},
                                          {"bounces", 92},
                                          {"texels", 112},
@@ -141,8 +142,9 @@ std::vector<Difference> differences(const Quality& saved, const Quality& run) {
     if (!has_words || same_value(option, was, is)) continue;
     const bool of_preset = option.in_presets || std::holds_alternative<option::Length>(option.kind);
     if (of_preset && !same_preset) continue;
-    // Without a draft nothing was split for the sake of either way: the file serves both.
-    if (option.key == "direct" && !(saved.refine > 0)) continue;
+    // Without a draft nothing was split for the sake of either way, and without final gathering no light is missing
+    // for it: the file serves both.
+    if (option.key == "direct" && !(saved.refine > 0) && saved.final_gather == 0) continue;
     found.push_back({option.name, value_text(option, was), value_text(option, is)});
   }
   return found;

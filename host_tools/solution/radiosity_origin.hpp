@@ -24,7 +24,7 @@ struct RadiosityOrigin {
 RadiosityOrigin radiosity_origin(const Scene& scene, const Quality& quality, const Mesh& mesh);
 
 /// As the file has it, little-endian.
-using OriginBytes = std::array<std::byte, 120>;
+using OriginBytes = std::array<std::byte, 128>;
 OriginBytes bytes_of(const RadiosityOrigin& origin);
 /// Any bytes are read; what they cannot mean is not equal to any run's, or the nearest that they can.
 RadiosityOrigin origin_of(const OriginBytes& bytes);

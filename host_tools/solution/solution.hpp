@@ -22,7 +22,10 @@ struct SolvedSide {
 /// One side of an element; see protocol::Element. [quanta]
 struct SolvedElement {
   protocol::Flux flux{};
-  protocol::Flux direct{};
+  protocol::Flux apart{};
+  protocol::Flux gathered{};  ///< by all `points`
+  std::uint32_t points = 0;   ///< 0: it has not gathered
+  std::uint32_t unused = 0;
 };
 
 struct Solution {
@@ -59,7 +62,11 @@ EnergyBalance balance(const Scene& scene, const Mesh& mesh, const LightUnits& un
 /// What a record carries in the mean, of the channels [quanta]; 0 where there was none.
 double flux_of_record(const Solution& solution);
 
-/// Incident flux by global element; without_direct: but for what came straight from emitters.
+/// Rays of final gathering have looked for what lights the elements.
+bool has_gathered(const Solution& solution);
+
+/// Incident flux by global element; without_direct, of a solution that has not gathered: but for what came straight
+/// from emitters.
 std::vector<protocol::Flux> incident_flux(const Solution& solution, bool without_direct);
 
 }  // namespace torolux

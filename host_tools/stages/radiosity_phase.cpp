@@ -160,14 +160,45 @@ void RadiosityPhase::begin_round(HostPort& port) {
   round.chosen = round.last_shot_done = round.end = port.now();
   const bool sky_waits = !settings_.sky.empty() && rounds_.size() == 1;
   if (!sky_waits && (candidates_.empty() || unshot_ <= settings_.enough_unshot)) {
-    state_ = State::done;
+    candidates_.clear();
+    gather_or_end(port);
     return;
   }
-  state_ = State::shooting;
   round.shooters = static_cast<std::uint32_t>(candidates_.size());
   add_shots();
   if (sky_waits) add_sky_shots();
-  round.pes = static_cast<std::uint32_t>(owners_.size());
+  begin_dealing(port);
+}
+
+/// The last round: of shots that look for light.
+void RadiosityPhase::gather_or_end(HostPort& port) {
+  gathers_ = !settings_.gatherings.empty();
+  if (!gathers_) {
+    state_ = State::done;
+    return;
+  }
+  RoundFigures& round = rounds_.back();
+  round.chosen = round.last_shot_done = round.end = port.now();
+  round.shooters = static_cast<std::uint32_t>(settings_.gatherings.size());
+  recalled_ = false;
+  auto number = static_cast<std::uint32_t>(shots_);
+  for (const FinalGather& of : settings_.gatherings) {
+    Candidate candidate{};
+    candidate.amount = {of.points, 0, 0};
+    candidate.number = of.number;
+    candidate.patch = of.patch;
+    candidate.side = of.side;
+    candidate.kind = ShotKind::gathering;
+    shots_of_[of.pe].push_back({candidate, number++, of.points});
+  }
+  port.work(HostWork::entry, settings_.gatherings.size());
+  list_owners();
+  begin_dealing(port);
+}
+
+void RadiosityPhase::begin_dealing(HostPort& port) {
+  state_ = State::shooting;
+  rounds_.back().pes = static_cast<std::uint32_t>(owners_.size());
   wanting_.clear();
   for (std::uint32_t i = 0; i < kSupply; ++i) {
     for (unsigned pe = 0; pe < settings_.pes; ++pe) wanting_.push_back(static_cast<PeNumber>(pe));
@@ -183,9 +214,6 @@ void RadiosityPhase::begin_round(HostPort& port) {
 
 /// The number of a shot seeds its random numbers, so it follows the order of choice.
 void RadiosityPhase::add_shots() {
-  owners_.clear();
-  points_left_ = 0;
-  turn_ = 0;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i].candidate;
     Flux flux = candidate.amount;
@@ -206,6 +234,14 @@ void RadiosityPhase::add_shots() {
          protocol::points_of_shot(candidate.kind, flux, settings_.points_per_quantum, settings_.shot_points,
                                   settings_.emission_points)});
   }
+  list_owners();
+}
+
+/// Of the shots that are to be dealt.
+void RadiosityPhase::list_owners() {
+  owners_.clear();
+  points_left_ = 0;
+  turn_ = 0;
   for (const auto& shots : shots_of_) {
     for (const RoundShot& shot : shots) points_left_ += shot.points;
   }
@@ -345,9 +381,19 @@ void RadiosityPhase::recall_if_due(HostPort& port) {
 void RadiosityPhase::end_round_if_over(HostPort& port) {
   if (!owners_.empty() || under_way_ > 0 || !credits_.all_home()) return;
   shots_ += candidates_.size();
+  candidates_.clear();
   rounds_.back().end = port.now();
-  if (settings_.max_shots > 0 && shots_ >= settings_.max_shots) {
+  if (gathers_) {
     state_ = State::done;
+    return;
+  }
+  if (settings_.max_shots > 0 && shots_ >= settings_.max_shots) {
+    if (!settings_.gatherings.empty()) {
+      rounds_.push_back(rounds_.back());  // as much is unshot
+      rounds_.back().begin = port.now();
+      rounds_.back().records = 0;
+    }
+    gather_or_end(port);
     return;
   }
   begin_selection(port);

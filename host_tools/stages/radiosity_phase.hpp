@@ -38,8 +38,8 @@ class RadiosityPhase : public Phase {
   template <class Archive>
   void archive(Archive& archive) {
     archive(state_, candidates_, answers_, unshot_, selected_unshot_, threshold_, expected_, shots_of_, owners_, turn_,
-            deals_, dealing_, wanting_, supplied_, under_way_, points_left_, recalled_, credits_, shots_, rounds_,
-            emitted_shot_, reflected_shot_, sky_shot_);
+            deals_, dealing_, wanting_, supplied_, under_way_, points_left_, gathers_, recalled_, credits_, shots_,
+            rounds_, emitted_shot_, reflected_shot_, sky_shot_);
   }
 
   enum class State { selecting, shooting, done };
@@ -62,6 +62,9 @@ class RadiosityPhase : public Phase {
   void take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   void begin_round(HostPort& port);
   void add_shots();
+  void list_owners();
+  void begin_dealing(HostPort& port);
+  void gather_or_end(HostPort& port);
   void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
   void deal(HostPort& port);
   void deal_point(HostPort& port, PeNumber owner, PeNumber to);
@@ -92,6 +95,7 @@ class RadiosityPhase : public Phase {
   std::vector<std::uint32_t> supplied_;          ///< points that a PE has been dealt and not finished
   std::uint64_t under_way_ = 0;                  ///< of those, in all
   std::uint64_t points_left_ = 0;                ///< to be dealt
+  bool gathers_ = false;                         ///< rounds are over, and elements gather
   bool recalled_ = false;                        ///< PEs without work send their credits home
   CreditPool credits_;
   std::uint64_t shots_ = 0;

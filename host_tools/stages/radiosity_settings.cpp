@@ -35,6 +35,33 @@ std::vector<SkyShot> sky_shots(const Scene& scene, const RenderSetup& setup) {
   return shots;
 }
 
+/// A quarter of all rays is shared out by elements, the rest by area.
+constexpr double kByElement = 0.25;
+
+std::vector<FinalGather> gatherings(const RenderSetup& setup, std::uint32_t rays) {
+  const Mesh& mesh = setup.mesh;
+  std::vector<FinalGather> all;
+  if (rays == 0) return all;
+  double area = 0;
+  for (const MeshPatch& patch : mesh.patches) {
+    for (const std::uint32_t side : patch.side) area += side != protocol::kNoSide ? patch.area : 0;
+  }
+  const double points = static_cast<double>(rays) / protocol::hemicube_pixels(setup.parameters.hemicube);
+  for (std::uint32_t number = 0; number < mesh.patches.size(); ++number) {
+    const MeshPatch& patch = mesh.patches[number];
+    const double by_area = (1 - kByElement) * points * mesh.elements * patch.area / area;
+    const double by_element = kByElement * points * patch.elements;
+    const double most = protocol::kMostGatherPoints;
+    const auto& home = setup.placement.patch_home[number];
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (patch.side[side] == protocol::kNoSide) continue;
+      const double wanted = std::ceil(std::max<double>(by_area + by_element, patch.elements));
+      all.push_back({home.pe, home.local, number, side, static_cast<std::uint32_t>(std::min(wanted, most))});
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality) {
@@ -59,6 +86,7 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
   settings.emission_points = setup.parameters.emission_points;
   settings.points_per_quantum = setup.parameters.points_per_quantum;
   settings.points_travel = setup.points_travel;
+  settings.gatherings = gatherings(setup, quality.final_gather);
   settings.sky = sky_shots(scene, setup);
   for (const SkyShot& shot : settings.sky) emitted += static_cast<double>(shot.enters);
   settings.emitted = emitted;

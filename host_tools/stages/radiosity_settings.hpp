@@ -19,6 +19,15 @@ struct SkyShot {
   std::uint32_t key = 0;     ///< of its random numbers
 };
 
+/// One side of a patch, whose elements gather when all shots are over.
+struct FinalGather {
+  protocol::PeNumber pe = 0;  ///< its owner
+  std::uint32_t patch = 0;    ///< local
+  std::uint32_t number = 0;   ///< global
+  std::uint32_t side = 0;
+  std::uint32_t points = 0;  ///< 1..protocol::kMostGatherPoints
+};
+
 struct RadiositySettings {
   unsigned pes = 1;
   std::uint64_t credits = 256;     ///< W, > 0
@@ -31,7 +40,8 @@ struct RadiositySettings {
   std::vector<std::array<protocol::Fraction, 3>> reflectance;  ///< by global patch
   std::uint32_t shot_points = 1, emission_points = 1;          ///< as in protocol::StageLayout
   float points_per_quantum = 1;
-  bool points_travel = true;  ///< to whoever has little work; else each is expanded by the patch's owner
+  std::vector<FinalGather> gatherings;  ///< by global side; empty: no final gathering
+  bool points_travel = true;            ///< to whoever has little work; else each is expanded by the patch's owner
 };
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);

@@ -62,6 +62,7 @@ void ReadPhase::on_message(HostPort& port, PeNumber source, MessageKind kind, st
       sum.sky_rest[c] += tally.sky_rest[c];
     }
     sum.rays += tally.rays;
+    sum.gather_rays += tally.gather_rays;
     port.work(HostWork::unpack, host_lines(bytes_[source].size()));
     store(source);
     ++done_;
@@ -89,7 +90,8 @@ void ReadPhase::store(PeNumber pe) {
       for (std::uint32_t e = 0; e < patch.elements; ++e) {
         protocol::Element element{};
         std::memcpy(&element, bytes.data() + elements_at + (side.first_element + e) * sizeof element, sizeof element);
-        solution_.elements[patch.first_element[s] + e] = {element.flux, element.direct};
+        solution_.elements[patch.first_element[s] + e] = {
+            element.flux, element.apart, element.points > 0 ? element.gathered : protocol::Flux{}, element.points};
       }
     }
   }

@@ -101,13 +101,14 @@ std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
       }
       return std::make_unique<ReadPhase>(setup.mesh, setup.placement, std::move(layouts));
     }
-    case Step::load_ray_tracing:
+    case Step::load_ray_tracing: {
       // The plan is a matter of the mesh, and like that not charged (docs/costs.md): it is made here, as late as it can
       // be, to spare memory.
-      irradiance_ = make_vertex_irradiance(
-          IrradiancePlan(setup.mesh), foreseen_flux(setup.mesh, *job_.solution, setup.parameters.emitters > 0),
-          setup.units.watts_per_quantum, setup.units.unit_radiance, flux_of_record(*job_.solution));
+      const PictureLight light = picture_light(setup.mesh, *job_.solution, setup.parameters.emitters > 0);
+      irradiance_ = make_vertex_irradiance(IrradiancePlan(setup.mesh), light.flux, setup.units.watts_per_quantum,
+                                           setup.units.unit_radiance, light.of_record);
       return loading(Stage::ray_tracing);
+    }
     case Step::ray_tracing:
       if (is_adaptive())
         return std::make_unique<AdaptivePhase>(setup.placement.torus.pes(), job_.ray_tracing, job_.rays.view());

@@ -147,6 +147,10 @@ void Story::look_through(Cycles time, const RecordPacket& packet, bool comes) {
       if (of_pixel) meets_ray(time, packet, read<protocol::RayRecord>(packet.records, first), comes);
     } else if (!of_pixel && packet.record_bytes == sizeof(protocol::RadiosityRecord)) {
       const auto light = read<protocol::RadiosityRecord>(packet.records, first);
+      if (light.kind == RecordKind::gather_point || light.kind == RecordKind::gather ||
+          light.kind == RecordKind::question || light.kind == RecordKind::answer) {
+        continue;  // no light, but what looks for it
+      }
       if (light.kind == RecordKind::point) {
         meets_point(time, packet, read<protocol::PointRecord>(packet.records, first), comes);
       } else {
@@ -222,6 +226,18 @@ void Story::meets_point(Cycles time, const RecordPacket& packet, const protocol:
              ", at " + at(point.origin));
 }
 
+std::string Story::what_leaves(const protocol::Shoot& shoot) const {
+  switch (shoot.kind) {
+    case protocol::ShotKind::gathering:
+      return "gathers what lights it, from " + grouped(static_cast<std::uint64_t>(shoot.amount[0])) + " points";
+    case protocol::ShotKind::emitted:
+      return "emits " + watts(shoot.amount);
+    case protocol::ShotKind::reflected:
+      break;
+  }
+  return "reflects what has come, " + watts(shoot.amount);
+}
+
 void Story::shot(Cycles time, std::uint16_t owner, const protocol::Shoot& shoot) {
   const auto& wanted = std::get<FollowedShot>(target_);
   if (shoot.number != wanted.shot) return;
@@ -232,8 +248,7 @@ void Story::shot(Cycles time, std::uint16_t owner, const protocol::Shoot& shoot)
   tell(time, pe_text(owner),
        "shot " + std::to_string(shoot.number) + ": patch " + std::to_string(patch) + " of '" +
            scene_->materials[setup_->mesh.patches[patch].material].name + "', " + (shoot.side == 0 ? "front" : "back") +
-           ", " + (shoot.kind == protocol::ShotKind::emitted ? "emits " : "reflects what has come, ") +
-           watts(shoot.amount));
+           ", " + what_leaves(shoot));
 }
 
 void Story::pixels(Cycles time, std::uint16_t source, std::span<const std::byte> contents) {

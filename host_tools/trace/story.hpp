@@ -59,6 +59,7 @@ class Story final : public RecordFollower {
   void leaves(Cycles time, const RecordPacket& packet, const std::string& what);
   void arrives(Cycles time, const RecordPacket& packet);
   void shot(Cycles time, std::uint16_t owner, const protocol::Shoot& shoot);
+  std::string what_leaves(const protocol::Shoot& shoot) const;
   void pixels(Cycles time, std::uint16_t source, std::span<const std::byte> contents);
 
   bool is_followed(const protocol::RayRecord& ray) const;

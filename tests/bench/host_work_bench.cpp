@@ -190,7 +190,7 @@ void unpack(benchmark::State& state) {
     for (std::size_t e = 0; e < kElements; ++e) {
       protocol::Element element{};
       std::memcpy(&element, bytes.data() + e * sizeof element, sizeof element);
-      solution[e * 7919 % kElements] = {element.flux, element.direct};
+      solution[e * 7919 % kElements] = {element.flux, element.apart};
     }
     benchmark::DoNotOptimize(solution);
   }

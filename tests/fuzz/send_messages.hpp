@@ -54,6 +54,7 @@ inline bool send_to_pe(std::span<const std::byte> bytes) {
     test::TestScene made;
     made.cells = {2, 2, 2};
     made.materials = {test::diffuse_material(0.5F, 1), test::mirror_material(0.5F), test::glass_material(1.5F)};
+    made.apart = std::uint32_t{protocol::kDirect} | protocol::kTurned;  // so records of final gathering are taken
     test::add_room(made, {0, 0, 0}, {1, 1, 1}, 1, 0);
     return made;
   }();

@@ -93,7 +93,7 @@ TEST(Inspect, AnElementsLightIsFoundAgain) {
     EXPECT_GT(answer.pixels, 0U);
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_NEAR(answer.irradiance[c] * answer.area, answer.incident[c], 1e-9 * answer.incident[c]);
-      EXPECT_LE(answer.direct[c], answer.incident[c]);
+      EXPECT_LE(answer.direct.value()[c], answer.incident[c]);
     }
     held += sum_of(answer.incident);
     for (const LightSource& source : answer.sources) found += source.sum();

@@ -297,6 +297,7 @@ std::uint32_t FakeMachine::take_credits() {
 }
 
 std::uint32_t FakeMachine::points_of(std::uint16_t pe, const protocol::Shoot& shoot) const {
+  if (shoot.kind == protocol::ShotKind::gathering) return static_cast<std::uint32_t>(shoot.amount[0]);
   const protocol::StageLayout& l = stores[pe].layout;
   protocol::Flux flux = shoot.amount;
   if (shoot.kind == protocol::ShotKind::reflected) {
@@ -351,7 +352,9 @@ std::uint32_t FakeMachine::shoot(std::uint16_t owner, const protocol::Shoot& sho
     run();
     require(take_credits() == granted, "credits lost or made");
     for (const auto& p : pes) require(p->free_niu_slots() == p->niu_slots(), "record slots lost");
-    for (const HostMessage& m : take(MessageKind::work_done)) {
+    const auto finished = take(MessageKind::work_done);
+    require(!to.empty() || granted > 0 || !finished.empty(), "all asleep, and not all points are done");
+    for (const HostMessage& m : finished) {
       const auto part = m.as<protocol::WorkDone>();
       require(part.points <= supplied[m.source], "more points done than dealt");
       supplied[m.source] -= part.points;
@@ -370,7 +373,10 @@ std::uint32_t FakeMachine::shoot(std::uint16_t owner, const protocol::Shoot& sho
 
 std::uint64_t FakeMachine::rays() {
   std::uint64_t sum = 0;
-  for (std::uint16_t p = 0; p < pes.size(); ++p) sum += tally(p).rays;
+  for (std::uint16_t p = 0; p < pes.size(); ++p) {
+    const protocol::Tally made = tally(p);
+    sum += made.rays + made.gather_rays;
+  }
   return sum;
 }
 

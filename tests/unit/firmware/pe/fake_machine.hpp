@@ -150,7 +150,7 @@ class FakeMachine {
 
  private:
   std::uint32_t grant_to_all_in_need(std::uint32_t credits);
-  std::uint64_t rays();  ///< records made so far by all PEs
+  std::uint64_t rays();  ///< records made so far by all PEs, of final gathering too
   void load_stores(std::uint16_t pe, std::uint32_t niu_slots);
   void load_bytes(std::uint16_t pe, std::uint32_t address, std::span<const std::byte> bytes);
 };

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 
+#include "firmware/protocol/fault_fields.hpp"
 #include "tests/unit/firmware/pe/fake_machine.hpp"
 
 namespace torolux::test {
@@ -30,18 +32,39 @@ inline TestScene small_scene() {
   return s;
 }
 
-/// The code with which `act` ends the run; 0 if it does not.
-inline std::uint32_t fault_of(const std::function<void()>& act) {
+/// To the first PE, as if it came over the torus.
+template <class Record>
+void send(FakeMachine& machine, const Record& record) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(&record);
+  machine.send({protocol::kHost, 0, {{bytes, bytes + sizeof(record)}}});
+  machine.run();
+}
+
+/// The fault with which `act` ends the run; code 0 if it does not.
+inline protocol::Fault whole_fault_of(const std::function<void()>& act) {
   try {
     act();
   } catch (const PeFailed& failed) {
-    return failed.fault.code;
+    return failed.fault;
   }
-  return 0;
+  return {};
+}
+inline std::uint32_t fault_of(const std::function<void()>& act) {
+  return whole_fault_of(act).code;
 }
 
 inline std::uint32_t code(FaultCode c) {
   return static_cast<std::uint32_t>(c);
+}
+
+/// It ends the run by this code, and names this field (fault_fields.hpp).
+template <class Field>
+void expect_fault(const protocol::Fault& fault, FaultCode c, Field field, const std::string& what = "") {
+  EXPECT_EQ(fault.code, code(c)) << what;
+  EXPECT_EQ(fault.detail[0], static_cast<std::uint32_t>(field)) << what;
+}
+inline void expect_none(const protocol::Fault& fault, const std::string& what = "") {
+  EXPECT_EQ(fault.code, 0U) << what << ": " << fault.detail[0];
 }
 
 }  // namespace torolux::test

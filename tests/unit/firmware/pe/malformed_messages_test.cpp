@@ -133,13 +133,6 @@ TEST(Malformed, BlocksStayInsideFreeMemory) {
   }
 }
 
-template <class Record>
-void send(FakeMachine& machine, const Record& record) {
-  const auto* bytes = reinterpret_cast<const std::byte*>(&record);
-  machine.send({protocol::kHost, 0, {{bytes, bytes + sizeof(record)}}});
-  machine.run();
-}
-
 TEST(Malformed, RecordsThatNameWhatIsNotThereAreRefused) {
   const auto fault = [](const std::function<void(RadiosityRecord&)>& change) {
     FakeMachine machine(1);

@@ -60,6 +60,45 @@ TEST(Malformed, LayoutsThatDoNotHoldAreRefused) {
   }
 }
 
+// What elements keep apart: an emitter's own light, turned light, or both; nothing else, and not nothing.
+TEST(Malformed, FluxKeptApartIsOneOfThree) {
+  constexpr std::uint32_t kDirect = protocol::kDirect;
+  constexpr std::uint32_t kTurned = protocol::kTurned;
+  for (const std::uint32_t flags : {kDirect, kTurned, kDirect | kTurned, 0U, std::uint32_t{protocol::kFirst},
+                                    kTurned | protocol::kGoesOn, kDirect | 0x100U, 0xFFFF'FFFFU}) {
+    TestScene scene = small_scene();
+    scene.apart = flags;
+    FakeMachine machine(1);
+    const protocol::Fault fault = whole_fault_of([&] { machine.begin(scene, Stage::radiosity); });
+    if (flags != 0 && (flags & ~(kDirect | kTurned)) == 0) {
+      expect_none(fault, std::to_string(flags));
+    } else {
+      expect_fault(fault, FaultCode::bad_layout, protocol::LayoutField::apart, std::to_string(flags));
+      EXPECT_EQ(fault.detail[1], flags);
+    }
+  }
+}
+
+// Gathering divides by the area where light comes to an element.
+TEST(Malformed, LitAreasAreNeitherTooSmallNorTooLarge) {
+  const auto fault = [](float area) {
+    FakeMachine machine(1);
+    TestScene scene = small_scene();
+    scene.apart = protocol::kTurned;
+    machine.load(scene, Stage::radiosity, 64, 1, [area](PeStores& s) { s.facets[5].lit_area = area; });
+    return whole_fault_of([&] {
+      machine.message(0, MessageKind::begin);
+      machine.run();
+    });
+  };
+  for (const float area : {protocol::kLeastLitArea, 1.0F, protocol::kMostLitArea})
+    expect_none(fault(area), std::to_string(area));
+  for (const float area : {0.0F, -1.0F, 0x1p-61F, 4.5F, std::numeric_limits<float>::infinity(),
+                           std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN()}) {
+    expect_fault(fault(area), FaultCode::outside_store, protocol::StoreIndex::lit_area, std::to_string(area));
+  }
+}
+
 TEST(Malformed, LayersThatThereAreNotAreRefused) {
   TestScene scene = small_scene();
   for (const std::uint32_t layers : {0U, (1U << protocol::kPlanes) - 2U, 1U << protocol::kPlanes}) {

@@ -50,7 +50,7 @@ inline void light_lamp(PeStores& stores) {
 }
 
 struct RoomOutcome {
-  /// By global patch and side: incident flux and elements' flux, direct apart.
+  /// By global patch and side: incident flux, and of each element its flux and what of it is kept apart.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<protocol::Flux>> flux;
   protocol::Flux specular{}, glossy{}, escaped{}, cut_off{}, back{};
   std::int64_t carried = 0;  ///< by all shots, R + G + B
@@ -81,7 +81,7 @@ inline void gather(FakeMachine& machine, RoomOutcome& out) {
         list.push_back(s.incident);
         for (std::uint32_t e = 0; e < patch.elements; ++e) {
           list.push_back(elements[s.first_element + e].flux);
-          list.push_back(elements[s.first_element + e].direct);
+          list.push_back(elements[s.first_element + e].apart);
           add_to(sum, elements[s.first_element + e].flux);
         }
         EXPECT_EQ(sum, s.incident) << "patch " << patch.number;
@@ -90,20 +90,19 @@ inline void gather(FakeMachine& machine, RoomOutcome& out) {
   }
 }
 
-/// Shoots the best side of the whole machine `shots` times, as a host would, one at a time.
-RoomOutcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits,
-                    bool points_travel = true, std::uint32_t parts = 1) {
-  FakeMachine machine(scene.pes);
-  machine.points_travel = points_travel;
-  machine.shoot_in_parts = parts;
+/// Loads the room, its lamp lit.
+inline void begin_room(FakeMachine& machine, const TestScene& scene, std::uint32_t niu_slots) {
   machine.load(scene, protocol::Stage::radiosity, niu_slots, 1, light_lamp);
   for (std::uint16_t p = 0; p < scene.pes; ++p) machine.message(p, protocol::MessageKind::begin);
   machine.run();
-  RoomOutcome out;
+}
+
+/// Shoots the best side of the whole machine `shots` times, as a host would, one at a time.
+inline void shoot_best(FakeMachine& machine, std::uint32_t shots, std::uint32_t credits, RoomOutcome& out) {
   for (std::uint32_t shot = 0; shot < shots; ++shot) {
     std::uint16_t where = 0;
     protocol::Candidate best{};
-    for (std::uint16_t p = 0; p < scene.pes; ++p) {
+    for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
       for (const auto& c : machine.select(p, 1, 0)) {
         if (c.unshot > best.unshot || (c.unshot == best.unshot && c.number < best.number)) {
           best = c;
@@ -115,6 +114,17 @@ RoomOutcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t n
     out.carried += best.unshot;
     out.records += machine.shoot(where, {best.amount, best.patch, best.side, best.kind, shot}, credits);
   }
+}
+
+/// All of that, and what it leaves.
+RoomOutcome radiate(const TestScene& scene, std::uint32_t shots, std::uint32_t niu_slots, std::uint32_t credits,
+                    bool points_travel = true, std::uint32_t parts = 1) {
+  FakeMachine machine(scene.pes);
+  machine.points_travel = points_travel;
+  machine.shoot_in_parts = parts;
+  begin_room(machine, scene, niu_slots);
+  RoomOutcome out;
+  shoot_best(machine, shots, credits, out);
   gather(machine, out);
   machine.stop();
   return out;

@@ -148,6 +148,73 @@ TEST(Radiosity, LightThroughAPaneIsDirect) {
   EXPECT_EQ(on_floor(with, 1), on_floor(with, 2)) << "no other light comes to the floor";
 }
 
+/// Of each element of a room lit by its lamp alone: flux, and what of it is kept apart by these flags.
+std::vector<std::pair<Flux, Flux>> kept_apart(TestScene scene, std::uint32_t flags, std::uint32_t shots = 5) {
+  scene.apart = flags;
+  std::vector<std::pair<Flux, Flux>> all;
+  for (const auto& [place, list] : radiate(scene, shots, 64, 200).flux) {
+    for (std::size_t e = 1; e + 1 < list.size(); e += 2) all.emplace_back(list[e], list[e + 1]);
+  }
+  return all;
+}
+
+// Light that mirror, glass or a lobe has turned is the rest of the lamp's own: each is kept apart where it is asked
+// for, and where both are, all of it is. The flux itself is the same.
+TEST(Radiosity, TurnedFluxIsKeptApart) {
+  const TestScene scene = room_with_balls(3, {3, 3, 3});
+  const auto direct = kept_apart(scene, protocol::kDirect);
+  const auto turned = kept_apart(scene, protocol::kTurned);
+  const auto both = kept_apart(scene, std::uint32_t{protocol::kDirect} | protocol::kTurned);
+  std::int64_t sum = 0;
+  for (std::size_t e = 0; e < direct.size(); ++e) {
+    const auto& [flux, straight] = direct[e];
+    Flux rest = flux;
+    for (std::size_t c = 0; c < 3; ++c) rest[c] -= straight[c];
+    EXPECT_EQ(turned[e], std::pair(flux, rest)) << e;
+    EXPECT_EQ(both[e], std::pair(flux, flux)) << e;
+    sum += rest[0];
+  }
+  EXPECT_GT(sum, kEmitted / 100);
+}
+
+// Without mirror, glass or lobe nothing is turned, of the lamp's own light or what walls reflect.
+TEST(Radiosity, LightThatGoesStraightIsNotKeptApartAsTurned) {
+  TestScene scene = room_with_balls(3, {3, 3, 3});
+  scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
+  scene.materials[4] = diffuse_material(0.2F);
+  std::int64_t sum = 0;
+  for (const auto& [flux, apart] : kept_apart(scene, protocol::kTurned, 12)) {
+    EXPECT_EQ(apart, Flux{});
+    sum += flux[0];
+  }
+  EXPECT_GT(sum, kEmitted) << "the lamp's own light, and some of it once more";
+}
+
+// What passes a pane below the lamp goes on unbent, and is not kept apart; what the pane throws back to the ceiling is.
+TEST(Radiosity, LightThroughAPaneIsNotTurned) {
+  TestScene scene = room_with_balls(3, {3, 3, 3});
+  scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
+  scene.materials[4] = diffuse_material(0.2F);
+  scene.materials.push_back(pane_material(1.5F, 0.5F));
+  scene.apart = protocol::kTurned;
+  add_wall(scene, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
+  for (std::size_t i = 50; i < scene.polygons.size(); ++i) scene.polygons[i].sides = 0;
+  std::int64_t on_floor = 0;
+  std::int64_t turned = 0;
+  for (const auto& [place, list] : radiate(scene, 5, 64, 200).flux) {
+    const bool floor = place.first < 8 + 3 * 3;  // eight polygons, three of them of four patches
+    for (std::size_t e = 1; e + 1 < list.size(); e += 2) {
+      if (floor) {
+        EXPECT_EQ(list[e + 1], Flux{});
+        on_floor += list[e][0];
+      }
+      turned += list[e + 1][0];
+    }
+  }
+  EXPECT_GT(on_floor, kEmitted / 10);
+  EXPECT_GT(turned, kEmitted / 100);
+}
+
 // Random little scenes on random machines: credits (checked at every grant by FakeMachine::shoot), slots and flux
 // close.
 TEST(Radiosity, EveryRecordEndsAsOneCreditInRandomScenes) {

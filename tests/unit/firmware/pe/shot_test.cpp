@@ -157,7 +157,7 @@ struct PointsOfAPatch {
     scene.polygons.push_back({{{{0, 0, 0.5F}, {1, 0, 0.5F}, {0, 1, 0.5F}}}, 0, 1, 0, 1});
     stores = build_stores(scene, protocol::Stage::radiosity);
     view = stores[0].scene();
-    for (std::size_t e = 0; e < 4; ++e) view.elements[e].unshot = unshot[e];
+    for (std::size_t e = 0; e < 4; ++e) view.elements[e].shots.unshot = unshot[e];
     shot.command.kind = kind;
     shot.flux = {1'000'003, 600'011, 7};
     shot.points = k * k;
@@ -165,7 +165,7 @@ struct PointsOfAPatch {
     pe::begin_points(view, shot);
   }
 
-  protocol::PointRecord next() { return pe::make_point(view, shot); }
+  protocol::PointRecord next() { return pe::make_point(view, shot, 0); }
   static protocol::Weights weights(const protocol::PointRecord& point) {
     return {1.0F - point.origin[0] - point.origin[1], point.origin[0], point.origin[1]};
   }
@@ -218,7 +218,7 @@ TEST(ShotPoints, ReflectedLightLeavesWhereItCame) {
   EXPECT_EQ(by_element[0][0], 1'000'003);
   EXPECT_EQ(by_element[2][1], 600'011);
   // Once shot, it is not shot again; what comes later is.
-  EXPECT_EQ(points.view.elements[2].shot, (protocol::Vec3f{0, 30, 0}));
+  EXPECT_EQ(points.view.elements[2].shots.shot, (protocol::Vec3f{0, 30, 0}));
 }
 
 // So little that it is lost in rounding: it leaves from anywhere, and not a quantum is lost.

@@ -41,6 +41,11 @@ Vec3f plus(const Vec3f& a, const Vec3f& b, float s) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
 
+float area_of(const std::array<Vec3f, 3>& corner) {
+  const glm::vec3 a = pe::to_vector(corner[0]);
+  return 0.5F * glm::length(glm::cross(pe::to_vector(corner[1]) - a, pe::to_vector(corner[2]) - a));
+}
+
 /// Numbers of patches of the whole scene, and where each is kept.
 struct PatchPlace {
   std::uint16_t pe;
@@ -91,6 +96,7 @@ class Builder {
     l.hemicube_size = scene_.hemicube_size;
     l.shot_points = l.emission_points = scene_.points;
     l.points_per_quantum = scene_.points_per_quantum;
+    l.apart = scene_.apart;
     l.pixel_scale = scene_.pixel_scale;
     l.least_weight = scene_.least_weight;
     l.layers = scene_.layers;
@@ -154,6 +160,8 @@ class Builder {
 
   void add_patches(PeStores& out, std::uint16_t pe, std::uint32_t number) {
     const TestPolygon& from = scene_.polygons[number];
+    const float element_area =
+        area_of(from.corner) / static_cast<float>(protocol::triangles_of_level(from.element_level));
     std::uint32_t global = 0;
     for (std::uint32_t p = 0; p < number; ++p) global += static_cast<std::uint32_t>(places_[p].size());
     for (std::uint32_t path = 0; path < places_[number].size(); ++path) {
@@ -164,7 +172,7 @@ class Builder {
                             elements,      {protocol::kNoSide, protocol::kNoSide},        {}};
       for (std::uint32_t e = 0; e < elements; ++e) {
         const std::uint32_t code = protocol::location_code((path << (2U * levels)) | e, from.element_level);
-        out.facets.push_back({number, code, e, 1.0F / static_cast<float>(elements), 1.0F});
+        out.facets.push_back({number, code, e, 1.0F / static_cast<float>(elements), 1.0F, element_area});
       }
       for (std::size_t c = 0; c < 3; ++c) {
         patch.reflectance[c] = static_cast<std::uint32_t>(
@@ -283,10 +291,8 @@ void aim_at(TestScene& scene, std::uint16_t material) {
   for (std::uint32_t p = 0; p < scene.polygons.size(); ++p) {
     if (scene.polygons[p].material != material) continue;
     const auto& corner = scene.polygons[p].corner;
-    const glm::vec3 a = pe::to_vector(corner[0]);
-    const float area = 0.5F * glm::length(glm::cross(pe::to_vector(corner[1]) - a, pe::to_vector(corner[2]) - a));
-    scene.emitters.push_back({corner, scene.materials[material].emission, area / std::numbers::pi_v<float>, 0, p,
-                              scene.materials[material].emits_from_back});
+    scene.emitters.push_back({corner, scene.materials[material].emission, area_of(corner) / std::numbers::pi_v<float>,
+                              0, p, scene.materials[material].emits_from_back});
   }
   const auto count = static_cast<std::uint32_t>(scene.emitters.size());
   for (std::uint32_t i = 0; i < count; ++i) {

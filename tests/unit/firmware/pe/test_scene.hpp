@@ -36,6 +36,7 @@ struct TestScene {
   float points_per_quantum = 1;
   float pixel_scale = 0x1p20F;
   float least_weight = 0;
+  std::uint32_t apart = protocol::kDirect;  ///< as protocol::StageLayout
   std::uint32_t layers = 0;
   bool stop_everywhere = false;  ///< rays stop in every cell, not only where a polygon stands
   bool copy_all = false;         ///< every PE holds all of these cells

@@ -152,7 +152,8 @@ std::vector<protocol::Flux> received(const Mesh& mesh) {
 double most_off(double flux_of_record) {
   const Mesh mesh = floor_and_wall(90);
   const VertexIrradiance shown =
-      make_vertex_irradiance(IrradiancePlan(mesh), received(mesh), std::numbers::pi / kLight, 1, flux_of_record);
+      make_vertex_irradiance(IrradiancePlan(mesh), received(mesh), std::numbers::pi / kLight, 1,
+                             std::vector<double>(flux_of_record > 0 ? mesh.elements : 0, flux_of_record));
   double off = 0;
   for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
     const MeshFacet& facet = mesh.facets[f];

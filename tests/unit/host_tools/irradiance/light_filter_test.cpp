@@ -66,7 +66,8 @@ Shown show(const Light& light, bool chance, double of_record, double least, doub
     }
     received += came;
   }
-  const VertexIrradiance shown = make_vertex_irradiance(IrradiancePlan(mesh), flux, std::numbers::pi, 1, of_record);
+  const std::vector<double> of_records(of_record > 0 ? mesh.elements : 0, of_record);
+  const VertexIrradiance shown = make_vertex_irradiance(IrradiancePlan(mesh), flux, std::numbers::pi, 1, of_records);
   Shown result;
   double count = 0;
   double sum = 0;

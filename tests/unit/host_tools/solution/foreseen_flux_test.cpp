@@ -58,5 +58,52 @@ TEST(ForeseenFlux, IsWhatCameWhereAllIsShotOrNothingWas) {
   EXPECT_EQ(none.foreseen(false), kEmitted);
 }
 
+// Without gathering a picture shows what is foreseen, with the noise of records.
+TEST(PictureLight, IsWhatIsForeseenWhereNothingGathered) {
+  Room room(kEmitted / 2);
+  EXPECT_TRUE(picture_light(room.mesh, room.solution, true).of_record.empty()) << "no records were counted";
+  room.solution.tally.rays = 1000;
+  const PictureLight light = picture_light(room.mesh, room.solution, true);
+  EXPECT_EQ(light.flux, foreseen_flux(room.mesh, room.solution, true));
+  EXPECT_EQ(light.of_record, std::vector<double>(light.flux.size(), flux_of_record(room.solution)));
+}
+
+// With it, the mean of what points found, and what was kept apart; noise is that of rays and of records by what each
+// brought. Nothing is unshot here, so that nothing is added for it.
+TEST(PictureLight, IsWhatPointsFoundAndWhatIsKeptApart) {
+  Room room(2 * kEmitted);
+  Solution& solution = room.solution;
+  solution.tally.rays = 1000;
+  solution.tally.gather_rays = 400;
+  SolvedElement& element = solution.elements[room.element];
+  element.apart = grey(3000);
+  element.gathered = grey(20'000);
+  element.points = 5;
+  const PictureLight light = picture_light(room.mesh, solution, true);
+  EXPECT_EQ(light.flux[room.element], grey(3000 + 20'000 / 5));
+  EXPECT_EQ(picture_light(room.mesh, solution, false).flux, light.flux) << "all of it is in both";
+  element.apart = {};
+  const double of_rays = picture_light(room.mesh, solution, true).of_record[room.element];
+  EXPECT_LT(of_rays, 4000.0 / 400) << "rays look evenly around";
+  element.apart = grey(4000);
+  const double of_both = picture_light(room.mesh, solution, true).of_record[room.element];
+  EXPECT_DOUBLE_EQ(of_both, (of_rays + flux_of_record(solution)) / 2);
+  element.points = 0;
+  EXPECT_EQ(picture_light(room.mesh, solution, true).flux[room.element], grey(4000)) << "who has not gathered";
+}
+
+// What is still unshot would light what rays have met, by the part of light that comes by reflection.
+TEST(PictureLight, ForeseesWhatIsUnshot) {
+  Room room(kEmitted);
+  room.solution.tally.rays = room.solution.tally.gather_rays = 1000;
+  SolvedElement& element = room.solution.elements[room.element];
+  element.apart = {};
+  element.points = 1;
+  // Of all that came so far: emission once, and half of what was shot.
+  element.gathered = grey(kEmitted * 3 / 4);
+  EXPECT_NEAR(static_cast<double>(picture_light(room.mesh, room.solution, true).flux[room.element][0]),
+              static_cast<double>(kEmitted), 10);
+}
+
 }  // namespace
 }  // namespace torolux

@@ -18,7 +18,8 @@ class RadiosityFileTest : public testing::Test {
     solution_.sides.resize(mesh_.patch_sides);
     solution_.elements.resize(mesh_.elements);
     for (std::uint32_t i = 0; i < mesh_.patch_sides; ++i) solution_.sides[i] = {{i + 5, 2, 3}, {i, 1, 0}, {7, 8, i}};
-    for (std::uint32_t i = 0; i < mesh_.elements; ++i) solution_.elements[i] = {{i, i + 1, i + 2}, {1, 2, 3}};
+    for (std::uint32_t i = 0; i < mesh_.elements; ++i)
+      solution_.elements[i] = {{i, i + 1, i + 2}, {1, 2, 3}, {i, 5, 6}, i};
     solution_.tally.escaped = {1, 2, 3};
     solution_.emitted_shot = {4, 5, 6};
     solution_.shots = 99;
@@ -50,7 +51,9 @@ TEST_F(RadiosityFileTest, ComesBackAsItWas) {
   const Solution back = unpack_radiosity(parse_radiosity(bytes, "file"), origin_, mesh_);
   EXPECT_EQ(pack_radiosity(origin_, splits_, back), bytes);
   EXPECT_EQ(back.sides[3].incident, solution_.sides[3].incident);
-  EXPECT_EQ(back.elements[5].direct, solution_.elements[5].direct);
+  EXPECT_EQ(back.elements[5].apart, solution_.elements[5].apart);
+  EXPECT_EQ(back.elements[5].gathered, solution_.elements[5].gathered);
+  EXPECT_EQ(back.elements[5].points, 5U);
   EXPECT_EQ(back.tally.escaped, solution_.tally.escaped);
   EXPECT_EQ(back.shots, 99U);
   EXPECT_EQ(parse_radiosity(bytes, "file").splits, splits_);
@@ -80,6 +83,29 @@ TEST_F(RadiosityFileTest, SplitsOutOfOrderAreRefused) {
   EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("splits"), std::string::npos);
   splits_ = {{5, 1}, {5, 1}};
   EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("splits"), std::string::npos);
+}
+
+TEST_F(RadiosityFileTest, WhatNoElementCanHaveGatheredIsRefused) {
+  solution_.elements[4].points = protocol::kMostGatherPoints + 1;
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("gathered"), std::string::npos);
+  solution_.elements[4].points = 1;
+  solution_.elements[4].gathered[1] = -1;
+  EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("out of range"), std::string::npos);
+}
+
+// Elements that have gathered keep apart what shadow rays do not bring: with the other way of direct light some would
+// be missing.
+TEST_F(RadiosityFileTest, WhatWasGatheredServesOneWayOfDirectLight) {
+  quality_.final_gather = 48;
+  origin_ = radiosity_origin(scene_, quality_, mesh_);
+  const auto bytes = pack_radiosity(origin_, splits_, solution_);
+  EXPECT_EQ(refusal(bytes, origin_), "");
+  Quality quality = quality_;
+  quality.final_gather = 96;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("give --final-gather 48"), std::string::npos);
+  quality = quality_;
+  quality.shadow_rays = !quality.shadow_rays;
+  EXPECT_NE(refusal(bytes, radiosity_origin(scene_, quality, mesh_)).find("--direct"), std::string::npos);
 }
 
 TEST_F(RadiosityFileTest, SaysWhatDiffers) {

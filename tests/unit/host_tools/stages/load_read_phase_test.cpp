@@ -34,7 +34,7 @@ class LoadReadTest : public testing::Test {
 
   /// What a PE answers to `report`.
   static protocol::Tally tally_of(PeNumber pe) {
-    return {{pe, 1, 0}, {3, pe, 0}, {2, 0, 0}, {0, 0, pe * 10}, {7, 7, 7}, {0, 5, 0}, 1000U + pe};
+    return {{pe, 1, 0}, {3, pe, 0}, {2, 0, 0}, {0, 0, pe * 10}, {7, 7, 7}, {0, 5, 0}, 1000U + pe, 10U + pe};
   }
 
   /// The PE's bytes from `address` on.
@@ -55,7 +55,10 @@ class LoadReadTest : public testing::Test {
       std::memcpy(at.data(), &side, sizeof side);
       first[i] = side.first_element;
       for (std::uint32_t e = side.first_element; e < first[i + 1]; ++e) {
-        const protocol::Element element{{pe, i, e - side.first_element}, {}, {}, {}};
+        protocol::Element element{};
+        element.flux = {pe, i, e - side.first_element};
+        element.gathered = {i, pe, 1};
+        element.points = pe;
         std::memcpy(memory(pe, layout.elements.address + e * static_cast<std::uint32_t>(sizeof element)).data(),
                     &element, sizeof element);
       }
@@ -276,8 +279,11 @@ TEST_F(LoadReadTest, SidesAndElementsFindTheirGlobalPlaces) {
         EXPECT_EQ(side.shot[0], placement_.patch_home[p].pe) << "read from its owner";
         EXPECT_EQ(side.emission, patch_emission(scene_, patch, s, units_)) << "this side and no other";
         for (std::uint32_t e = 0; e < patch.elements; ++e) {
-          const auto& flux = solution.elements[patch.first_element[s] + e].flux;
-          ASSERT_EQ(flux, (protocol::Flux{side.shot[0], side.shot[1], e}));
+          const SolvedElement& element = solution.elements[patch.first_element[s] + e];
+          ASSERT_EQ(element.flux, (protocol::Flux{side.shot[0], side.shot[1], e}));
+          ASSERT_EQ(element.points, side.shot[0]);
+          const protocol::Flux gathered{side.shot[1], side.shot[0], 1};
+          ASSERT_EQ(element.gathered, element.points > 0 ? gathered : protocol::Flux{}) << "else it is another's room";
         }
       }
     }
@@ -295,6 +301,7 @@ TEST_F(LoadReadTest, TalliesAreAddedUp) {
   EXPECT_EQ(tally.back_side, (protocol::Flux{42, 42, 42}));
   EXPECT_EQ(tally.sky_rest, (protocol::Flux{0, 30, 0}));
   EXPECT_EQ(tally.rays, 6015U);
+  EXPECT_EQ(tally.gather_rays, 75U);
 }
 
 TEST_F(LoadReadTest, AnswersThatWereNotAskedForAreRefused) {

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+// Proves, with whole PEs and fake NIUs: elements find by final gathering what the surfaces around them give off; the
+// sums are the same bits whatever the machine; and every point of a gathering is counted once, with rays or without.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tests/unit/firmware/pe/radiosity_room.hpp"
+
+namespace torolux::test {
+namespace {
+
+using protocol::Element;
+using protocol::Flux;
+using protocol::kTurned;
+using protocol::MessageKind;
+using protocol::ShotKind;
+using protocol::Stage;
+
+constexpr float kReflectance = 0.6F;
+/// Flux of an area of 1.
+constexpr std::array<double, 3> kEven = {0x1p44, 0x1p42, 0x1p40};
+
+struct Gathered {
+  Flux flux;  ///< incident, by shots
+  Flux found;
+  std::uint32_t points;
+  bool operator==(const Gathered&) const = default;
+};
+/// By global patch and side, of each element.
+using Outcome = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Gathered>>;
+
+std::vector<Gathered> gathered_by(const FakeMachine& machine, std::uint16_t pe, const protocol::Patch& patch,
+                                  std::uint32_t side) {
+  const protocol::StageLayout& layout = machine.stores[pe].layout;
+  const auto elements = machine.store<Element>(pe, layout.elements);
+  const std::uint32_t first = machine.stores[pe].sides[patch.side[side]].first_element;
+  std::vector<Gathered> out;
+  for (std::uint32_t e = 0; e < patch.elements; ++e) {
+    const Element& element = elements[first + e];
+    out.push_back({element.flux, element.gathered, element.points});
+  }
+  return out;
+}
+
+/// The number, which seeds the random numbers, is the same wherever the patch is. Returns how many rays were made.
+std::uint32_t gather_side(FakeMachine& machine, std::uint16_t pe, std::uint32_t patch, std::uint32_t side,
+                          std::uint32_t points, std::uint32_t credits = 100) {
+  const std::uint32_t number = 1000 + 2 * machine.stores[pe].patches[patch].number + side;
+  return machine.shoot(pe, {{points, 0, 0}, patch, side, ShotKind::gathering, number}, credits);
+}
+
+/// All sides look around, with so many points for each element.
+Outcome gather_all(FakeMachine& machine, std::uint32_t points, std::uint32_t credits = 100) {
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
+    const auto& patches = machine.stores[p].patches;
+    for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        if (patches[patch].side[side] == protocol::kNoSide) continue;
+        gather_side(machine, p, patch, side, points * patches[patch].elements, credits);
+      }
+    }
+  }
+  Outcome out;
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
+    for (const protocol::Patch& patch : machine.stores[p].patches) {
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        if (patch.side[side] != protocol::kNoSide) out[{patch.number, side}] = gathered_by(machine, p, patch, side);
+      }
+    }
+  }
+  return out;
+}
+
+std::uint64_t gather_rays(FakeMachine& machine) {
+  std::uint64_t sum = 0;
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) sum += machine.tally(p).gather_rays;
+  return sum;
+}
+
+/// Elements get flux by their area, those of these polygons' sides only.
+template <class IsLit>
+void light_evenly(PeStores& stores, const IsLit& is_lit) {
+  for (const protocol::Patch& patch : stores.patches) {
+    for (const std::uint32_t side : patch.side) {
+      if (side == protocol::kNoSide) continue;
+      protocol::PatchSide& of = stores.sides[side];
+      of.incident = {1, 1, 1};  // not dark
+      for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
+        const protocol::Facet& facet = stores.facets[f];
+        if (!is_lit(facet.polygon)) continue;
+        Element& element = stores.elements[of.first_element + facet.element];
+        for (std::size_t c = 0; c < 3; ++c)
+          element.flux[c] = static_cast<std::int64_t>(kEven[c] * static_cast<double>(facet.lit_area));
+        add_to(of.incident, element.flux);
+      }
+    }
+  }
+}
+
+constexpr auto kAll = [](std::uint32_t) { return true; };
+
+template <class IsLit>
+void begin_evenly(FakeMachine& machine, const TestScene& scene, const IsLit& is_lit, std::uint32_t niu_slots = 64) {
+  machine.load(scene, Stage::radiosity, niu_slots, 1, [&](PeStores& stores) { light_evenly(stores, is_lit); });
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) machine.message(p, MessageKind::begin);
+  machine.run();
+}
+
+/// A closed room, its walls cut into patches and elements of different sizes.
+TestScene closed_room(std::uint32_t pes, std::array<std::uint32_t, 3> cells) {
+  TestScene s;
+  s.pes = pes;
+  s.cells = cells;
+  s.apart = kTurned;
+  s.materials = {diffuse_material(kReflectance)};
+  add_room(s, {0.1F, 0, 0}, {1, 0.75F, 0.5F}, 2, 0);
+  for (std::size_t i = 0; i < s.polygons.size(); ++i) {
+    s.polygons[i].patch_level = i % 3 == 0 ? 1 : 0;
+    s.polygons[i].element_level = static_cast<std::uint8_t>(1 + i % 2);
+  }
+  return s;
+}
+
+/// found / points is so much of the element's own flux times the reflectance.
+void expect_found(const Gathered& element, double part, double tolerance) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double expected = part * static_cast<double>(kReflectance) * static_cast<double>(element.flux[c]);
+    EXPECT_NEAR(static_cast<double>(element.found[c]) / element.points, expected, tolerance * expected);
+  }
+}
+
+// All around is as bright: whatever a ray meets, it finds that, and each element what a closed room of this radiosity
+// sends it, without noise. One PE, and several.
+TEST(FinalGather, FindsWhatAnEvenlyLitRoomGivesOff) {
+  for (const std::uint32_t pes : {1U, 5U}) {
+    FakeMachine machine(pes);
+    begin_evenly(machine, closed_room(pes, {3, 2, 2}), kAll);
+    for (const auto& [place, elements] : gather_all(machine, 3)) {
+      for (const Gathered& element : elements) {
+        EXPECT_EQ(element.points, 3U);
+        expect_found(element, 1, 1e-6);  // of floats, and of half a quantum for each ray
+      }
+    }
+    machine.stop();
+  }
+}
+
+// Directions follow the cosine: of the light of a cube's ceiling, its floor finds what the form factor between them
+// says (0.19982, of parallel unit squares at distance 1).
+TEST(FinalGather, FindsByTheFormFactor) {
+  TestScene scene;
+  scene.apart = kTurned;
+  scene.materials = {diffuse_material(kReflectance)};
+  add_room(scene, {0, 0, 0}, {1, 1, 1}, 1, 0);
+  for (TestPolygon& polygon : scene.polygons) polygon.element_level = 2;
+  FakeMachine machine(1);
+  begin_evenly(machine, scene, [](std::uint32_t polygon) { return polygon == 2 || polygon == 3; });
+  const Outcome all = gather_all(machine, 8);
+  double floor = 0;
+  for (const std::uint32_t patch : {0U, 1U}) {
+    for (const Gathered& e : all.at({patch, 0})) floor += static_cast<double>(e.found[0]) / e.points;
+  }
+  const double expected = 0.19982 * static_cast<double>(kReflectance) * kEven[0];
+  EXPECT_NEAR(floor, expected, 0.01 * expected);  // 32 elements, each of 384 rays that keep apart
+  for (const std::uint32_t patch : {2U, 3U}) {
+    for (const Gathered& e : all.at({patch, 0})) EXPECT_EQ(e.found, Flux{}) << "it does not see itself";
+  }
+}
+
+struct Machine {
+  std::uint32_t pes;
+  std::array<std::uint32_t, 3> cells;
+  std::uint32_t slots, credits;
+  bool stop_everywhere, copy_all, points_travel;
+  std::uint32_t open_batches, parts;
+};
+
+/// A room with mirror, glass and glossy floor, and a pane below the lamp, after some shots.
+Outcome gather_in_room(const Machine& m) {
+  TestScene scene = room_with_balls(m.pes, m.cells);
+  scene.apart = kTurned;
+  scene.stop_everywhere = m.stop_everywhere;
+  scene.copy_all = m.copy_all;
+  scene.open_batches = m.open_batches;
+  scene.materials.push_back(pane_material(1.5F, 0.5F));
+  const std::size_t panes = scene.polygons.size();
+  add_wall(scene, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
+  for (std::size_t i = panes; i < scene.polygons.size(); ++i) scene.polygons[i].sides = 0;
+  FakeMachine machine(m.pes);
+  machine.points_travel = m.points_travel;
+  machine.shoot_in_parts = m.parts;
+  begin_room(machine, scene, m.slots);
+  RoomOutcome shots;
+  shoot_best(machine, 6, m.credits, shots);
+  const Outcome out = gather_all(machine, 2, m.credits);
+  machine.stop();
+  return out;
+}
+
+// Found flux is added up in integers, and rays do not change when they are handed over: the machine makes no
+// difference, to the quantum, nor whether points are dealt whole or in parts.
+TEST(FinalGather, SameSumsWhateverTheMachine) {
+  const Outcome one = gather_in_room({1, {1, 1, 1}, 64, 1'000'000, false, false, true, 64, 1});
+  std::int64_t found = 0;
+  for (const auto& [place, elements] : one) {
+    for (const Gathered& element : elements) found += element.found[0];
+  }
+  EXPECT_GT(found, kEmitted / 100);
+  for (const Machine& m : {Machine{1, {5, 3, 4}, 64, 77, true, true, true, 64, protocol::kPointParts},
+                           Machine{2, {2, 2, 2}, 64, 100, false, false, true, 2, protocol::kPointParts},
+                           Machine{5, {4, 7, 3}, 200, 999, true, false, true, 8, 1},
+                           Machine{12, {6, 6, 6}, 16, 300, false, true, true, 16, protocol::kPointParts},
+                           Machine{7, {3, 9, 5}, 64, 64, false, false, false, 4, 1}}) {
+    EXPECT_EQ(gather_in_room(m), one) << m.pes << " PEs";
+  }
+}
+
+/// One polygon of 16 elements in a patch, in an otherwise dark room.
+struct Wall {
+  TestScene scene;
+  FakeMachine machine{2};
+
+  Wall() {
+    scene = closed_room(2, {2, 2, 2});
+    scene.polygons[0].patch_level = 0;
+    scene.polygons[0].element_level = 2;
+    machine.begin(scene, Stage::radiosity);
+  }
+  std::pair<std::uint16_t, std::uint32_t> place() const {
+    const auto is_first = [](const protocol::Patch& patch) { return patch.number == 0; };
+    const auto& patches = machine.stores[0].patches;
+    const auto found = std::ranges::find_if(patches, is_first);
+    if (found != patches.end()) return {std::uint16_t{0}, static_cast<std::uint32_t>(found - patches.begin())};
+    const auto& others = machine.stores[1].patches;
+    return {std::uint16_t{1}, static_cast<std::uint32_t>(std::ranges::find_if(others, is_first) - others.begin())};
+  }
+  std::vector<Gathered> gather(std::uint32_t points, std::uint32_t number) {
+    const auto [pe, patch] = place();
+    machine.shoot(pe, {{points, 0, 0}, patch, 0, ShotKind::gathering, number});
+    return gathered_by(machine, pe, machine.stores[pe].patches[patch], 0);
+  }
+};
+
+// Points are shared out evenly among elements of the same share: no element is left without where there are enough for
+// all, whatever the random numbers.
+TEST(FinalGather, EveryElementGetsItsPoints) {
+  Wall wall;
+  for (const std::uint32_t points : {1U, 7U, 16U, 17U, 24U, 31U, 32U, 100U, 1000U}) {
+    for (std::uint32_t number = 0; number < 10; ++number) {
+      std::uint32_t sum = 0;
+      for (const Gathered& element : wall.gather(points, number)) {
+        EXPECT_GE(element.points, points / 16) << points;
+        EXPECT_LE(element.points, (points + 15) / 16) << points;
+        sum += element.points;
+      }
+      EXPECT_EQ(sum, points);
+    }
+  }
+}
+
+// Where no light has come none would be found: no ray is made, yet all points are done and counted (shoot() waits for
+// WorkDone to tell of them), dealt whole or in parts.
+TEST(FinalGather, DarkSidesMakeNoRays) {
+  for (const std::uint32_t parts : {1U, protocol::kPointParts}) {
+    Wall wall;
+    wall.machine.shoot_in_parts = parts;
+    const auto [pe, patch] = wall.place();
+    EXPECT_EQ(gather_side(wall.machine, pe, patch, 0, 100), 0U);
+    EXPECT_EQ(gather_rays(wall.machine), 0U);
+    std::uint32_t points = 0;
+    for (const Gathered& element : gathered_by(wall.machine, pe, wall.machine.stores[pe].patches[patch], 0)) {
+      EXPECT_EQ(element.found, Flux{});
+      points += element.points;
+    }
+    EXPECT_EQ(points, 100U);
+    wall.machine.stop();
+  }
+}
+
+// A gathering takes no flux and is no shot: what stores and tally tell of shots stays. A second one of the side begins
+// anew.
+TEST(FinalGather, LeavesTheFluxAlone) {
+  FakeMachine machine(1);
+  begin_evenly(machine, closed_room(1, {1, 1, 1}), kAll);
+  const protocol::StageLayout& layout = machine.stores[0].layout;
+  const auto before = machine.store<protocol::PatchSide>(0, layout.patch_sides);
+  const std::uint32_t rays = gather_side(machine, 0, 0, 0, 8);
+  EXPECT_EQ(rays, 8 * protocol::hemicube_pixels(4));
+  const auto first = gathered_by(machine, 0, machine.stores[0].patches[0], 0);
+  gather_side(machine, 0, 0, 0, 8);
+  EXPECT_EQ(gathered_by(machine, 0, machine.stores[0].patches[0], 0), first);
+  const protocol::Tally tally = machine.tally(0);
+  EXPECT_EQ(tally.rays, 0U);
+  EXPECT_EQ(tally.gather_rays, 2 * rays);
+  EXPECT_EQ(tally.escaped, Flux{});
+  const auto after = machine.store<protocol::PatchSide>(0, layout.patch_sides);
+  for (std::size_t s = 0; s < before.size(); ++s) {
+    EXPECT_EQ(after[s].incident, before[s].incident);
+    EXPECT_EQ(after[s].shot, before[s].shot);
+    EXPECT_EQ(after[s].emission, before[s].emission);
+  }
+}
+
+/// A block in the midst of a room, its outside the backs of its polygons, and a shell of another material around it.
+TestScene block_in_shell(const protocol::Material& shell) {
+  TestScene s;
+  s.pes = 3;
+  s.cells = {3, 2, 3};
+  s.apart = kTurned;
+  s.materials = {diffuse_material(kReflectance), shell};
+  add_room(s, {0, 0, 0}, {1, 1, 1}, 1, 0);
+  add_room(s, {0.4F, 0.4F, 0.4F}, {0.6F, 0.6F, 0.6F}, 1, 0);
+  for (std::size_t i = 12; i < 24; ++i) s.polygons[i].sides = protocol::kBackPresent;
+  add_room(s, {0.3F, 0.3F, 0.3F}, {0.7F, 0.7F, 0.7F}, 1, 1);
+  for (std::size_t i = 24; i < 36; ++i) s.polygons[i].sides = 0;
+  return s;
+}
+
+/// What the block's elements find.
+std::vector<Gathered> gather_from_block(const TestScene& scene) {
+  FakeMachine machine(scene.pes);
+  begin_evenly(machine, scene, kAll);
+  std::vector<Gathered> out;
+  for (const auto& [place, elements] : gather_all(machine, 2)) {
+    if (place.second == 1) out.insert(out.end(), elements.begin(), elements.end());
+  }
+  EXPECT_EQ(out.size(), 12U);
+  EXPECT_GT(gather_rays(machine), 12U * 2 * protocol::hemicube_pixels(4));
+  machine.stop();
+  return out;
+}
+
+// Rays go straight on through panes, and bring what these let pass: of one that neither bends nor reflects, and takes
+// half, half of what there is behind. From backs, too. Each pane counts as one of the layout's bounces.
+TEST(FinalGather, GoesStraightThroughPanes) {
+  TestScene scene = block_in_shell(pane_material(1, 0.5F));
+  for (const Gathered& element : gather_from_block(scene)) expect_found(element, 0.5, 1e-4);
+  scene.bounces = 1;
+  for (const Gathered& element : gather_from_block(scene)) EXPECT_EQ(element.found, Flux{});
+}
+
+// What comes by mirrors and glass is kept apart, so rays end there and bring nothing.
+TEST(FinalGather, EndsAtMirrorsAndGlass) {
+  for (const protocol::Material& shell : {mirror_material(1), glass_material(1)}) {
+    for (const Gathered& element : gather_from_block(block_in_shell(shell))) {
+      EXPECT_EQ(element.found, Flux{});
+      EXPECT_EQ(element.points, 2U);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace torolux::test
