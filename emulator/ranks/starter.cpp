@@ -6,17 +6,14 @@
 
 #include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
-#include <string_view>
 
+#include "emulator/ranks/abstract_address.hpp"
 #include "emulator/ranks/launched.hpp"
 
 namespace torolux::ranks {
@@ -28,14 +25,10 @@ class StarterSocket {
   StarterSocket() {
     const char* const name = std::getenv(kStarterVariable);
     if (name == nullptr || launched_ranks().count == 1) return;
-    const std::string_view text = name;
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (text.size() >= sizeof(address.sun_path)) return;
-    std::memcpy(&address.sun_path[1], text.data(), text.size());  // the first byte is 0: abstract
-    const auto bytes = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + text.size());
+    const auto address = abstract_address(name);
+    if (!address) return;
     socket_ = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
-    if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), bytes) != 0) close();
+    if (::connect(socket_, address->any(), address->bytes) != 0) close();
   }
   StarterSocket(const StarterSocket&) = delete;
   StarterSocket& operator=(const StarterSocket&) = delete;

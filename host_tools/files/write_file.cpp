@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
+#include "host_tools/files/put_in_place.hpp"
 
 namespace torolux {
 namespace {
@@ -41,6 +42,11 @@ class Descriptor {
   int get() const { return descriptor_; }
   /// False, with errno set, where the last bytes could not be written.
   bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
+  /// As close does, which is when some file systems write them; but the file stays open, by another descriptor.
+  bool close_and_keep() {
+    const int other = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+    return other >= 0 && ::close(std::exchange(descriptor_, other)) == 0;
+  }
 
  private:
   int descriptor_;
@@ -61,19 +67,24 @@ class TemporaryFile {
   }
 
   Descriptor& descriptor() { return descriptor_; }
-  /// Closes it, and puts it in the target's place. False, with errno set: that could not be done.
+  /// Puts it in the target's place, whole. False, with errno set: that could not be done.
   bool become(const fs::path& target) {
-    if (name_.empty()) {
-      const fs::path name = unused_name(target);
-      if (!give_name(descriptor_.get(), name)) return false;
-      name_ = name;
-    }
+    if (name_.empty()) return descriptor_.close_and_keep() && take_name(target);
     if (!descriptor_.close() || std::rename(name_.c_str(), target.c_str()) != 0) return false;
     name_.clear();
     return true;
   }
 
  private:
+  /// The target's: at once, where there is none.
+  bool take_name(const fs::path& target) {
+    if (give_name(descriptor_.get(), target)) return true;
+    if (errno != EEXIST) return false;
+    const fs::path name = unused_name(target);
+    const PutInPlace put = put_in_place(path_of(descriptor_.get()), name, target);
+    if (put.named) name_ = name;
+    return put.done;
+  }
   static fs::path unused_name(const fs::path& target) {
     static std::atomic<unsigned> counter = 0;
     return target.parent_path() /

@@ -6,15 +6,13 @@
 #include <sys/epoll.h>
 #include <sys/random.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstddef>
-#include <cstring>
 #include <system_error>
 
+#include "emulator/ranks/abstract_address.hpp"
 #include "emulator/ranks/starter.hpp"
 
 namespace torolux::launch {
@@ -55,12 +53,8 @@ RankLinks::RankLinks()
     : name_(random_name()),
       socket_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)),
       events_(::epoll_create1(EPOLL_CLOEXEC)) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::memcpy(&address.sun_path[1], name_.data(), name_.size());  // the first byte is 0: abstract
-  const auto bytes = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name_.size());
-  if (::bind(socket_, reinterpret_cast<const sockaddr*>(&address), bytes) != 0 || ::listen(socket_, SOMAXCONN) != 0)
-    fail(errno);
+  const ranks::AbstractAddress address = ranks::abstract_address(name_).value();
+  if (::bind(socket_, address.any(), address.bytes) != 0 || ::listen(socket_, SOMAXCONN) != 0) fail(errno);
   watch(events_, socket_);
 }
 

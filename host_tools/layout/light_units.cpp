@@ -35,8 +35,11 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
   if (scene.sky) units.unit_radiance = std::max(units.unit_radiance, greatest_sky_radiance(*scene.sky));
   for (const SkyInlet& inlet : sky_inlets(scene, mesh.space)) emitted = vec::add(emitted, inlet.flux);
   const double greatest = std::max({emitted[0], emitted[1], emitted[2]});
-  if (!(greatest > 0))
-    throw InputError("scene '" + scene.name + "' has no light: no diffuse surface emits (Ke), and there is no sky");
+  if (!(greatest > 0)) {
+    std::string why = "scene '" + scene.name + "' has no light: no diffuse surface emits (Ke), and there is no sky";
+    for (const std::string& note : mesh.notes) why += "\n  " + note;
+    throw InputError(why);
+  }
   units.watts_per_quantum = greatest / kEmittedQuanta;
   // The machine's floats must hold radiances and their reciprocals.
   if (!std::isfinite(greatest) || !(units.watts_per_quantum > 1e-300) || !(units.unit_radiance > 1e-30) ||
@@ -45,6 +48,20 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
                      std::to_string(units.unit_radiance) + " W/(m^2 sr): radiances of 1e-30 to 1e30 are allowed");
   }
   return units;
+}
+
+float pixel_scale(const Mesh& mesh, const LightUnits& units) {
+  // With reflectances below 0.99 a surface shows at most 100 units, 2^47 of the least quanta, far from the 2^63 at
+  // which the frame buffer's integers end. The light of small emitters is weak against their own radiance: more quanta
+  // do no harm there. A sample of a shadow ray brings no more than 2^10 units, of which the sum of many keeps 2^62.
+  constexpr int least = 40;
+  constexpr int most = 52;
+  constexpr int wanted = 20;
+  double area = 0;
+  for (const MeshTriangle& triangle : mesh.triangles) area += triangle.area;
+  const double shown = units.watts_per_quantum * kEmittedQuanta / (std::numbers::pi * area * units.unit_radiance);
+  if (!std::isnormal(shown)) return std::ldexp(1.0F, most);  // so little that doubles lose it
+  return std::ldexp(1.0F, std::clamp(wanted - std::ilogb(shown), least, most));
 }
 
 protocol::Flux patch_emission(const Scene& scene, const MeshPatch& patch, std::uint32_t side, const LightUnits& units) {

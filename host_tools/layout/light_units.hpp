@@ -23,6 +23,10 @@ struct LightUnits {
 /// Throws InputError: nothing emits, or the emitted flux is not a finite number.
 LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_lights);
 
+/// Quanta of a pixel for one unit of radiance, a power of two: so many that surfaces show at least 2^20 of them on
+/// average, however small the emitters are against the scene, as far as 64 bits can hold what the brightest shows.
+float pixel_scale(const Mesh& mesh, const LightUnits& units);
+
 /// Emitted flux of one side (0 front, 1 back) of one patch of the triangle, pi * Ke * area, in quanta, rounded.
 protocol::Flux patch_emission(const Scene& scene, const MeshPatch& patch, std::uint32_t side, const LightUnits& units);
 

@@ -57,6 +57,13 @@ bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return vec::dot(normal, normal) > 1e-30;
 }
 
+/// Whatever its size.
+bool is_no_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const Vec3d ab = vec::subtract(b, a);
+  const Vec3d ac = vec::subtract(c, a);
+  return vec::length(vec::cross(ab, ac)) > 1e-6 * vec::length(ab) * vec::length(ac);
+}
+
 /// Corners turned so that the lowest number comes first: equal for equal triangles of equal winding.
 std::array<std::uint32_t, 3> canonical(std::array<std::uint32_t, 3> corners) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -142,7 +149,11 @@ void SceneBuilder::finish(Scene& scene, const Place& place) {
     const Vec3d& b = positions_[triangle.position[1]];
     const Vec3d& c = positions_[triangle.position[2]];
     if (!has_area(as_float(a, box, longest), as_float(b, box, longest), as_float(c, box, longest))) {
-      notices_.note("a triangle without area is left out", origin);
+      if (const SceneMaterial& lost = materials_[triangle.material]; emits(lost) && is_no_line(a, b, c))
+        notices_.note("a triangle that emits is left out: against the scene it is too small for single precision",
+                      origin, "'" + lost.name + "'");
+      else
+        notices_.note("a triangle without area is left out", origin);
       continue;
     }
     if (again[i]) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -11,6 +12,7 @@
 #include "host_tools/scene/coplanar.hpp"
 #include "host_tools/scene/ray_cast.hpp"
 #include "host_tools/scene/sky.hpp"
+#include "host_tools/scene/small_emitters.hpp"
 #include "host_tools/scene/vec.hpp"
 
 namespace torolux {
@@ -203,6 +205,7 @@ std::vector<std::string> inspect(const Scene& scene) {
   const double size = vec::largest(box.extent());
   inspect_winding(scene, size, found);
   inspect_emitters(scene, size, found);
+  std::ranges::move(small_emitters(scene), std::back_inserter(found));
   inspect_openings(scene, size, found);
   inspect_coplanar(scene, found);
   return found;

@@ -198,11 +198,14 @@ void check_renderable(const Scene& scene) {
       scene.sky || std::any_of(scene.triangles.begin(), scene.triangles.end(), [&scene](const SceneTriangle& triangle) {
         return vec::largest(scene.materials[triangle.material].emission) > 0;
       });
-  if (!lit)
-    throw InputError(
+  if (!lit) {
+    std::string why =
         "scene '" + scene.name +
         "' has no light: no face emits. Give a material Ke, add a [[light]] or a [sky] to scene.toml, or use "
-        "--studio for a room with a lamp");
+        "--studio for a room with a lamp";
+    for (const std::string& line : scene.warnings) why += "\n  " + line;
+    throw InputError(why);
+  }
   if (scene.camera) check_camera(*scene.camera);
 }
 

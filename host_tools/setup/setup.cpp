@@ -19,9 +19,6 @@
 namespace torolux {
 namespace {
 
-/// Quanta of a pixel for one unit of radiance (the scene's greatest emitted one). With reflectances below 0.99 a
-/// surface shows at most 100 units, 2^47 quanta, far from the 2^63 at which the frame buffer's integers end.
-constexpr float kPixelScale = 0x1p40F;
 /// Branches that would add less than this to a sample are not followed; weights are divided by the samples.
 constexpr float kLeastWeight = 1e-4F;
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28U;
@@ -141,7 +138,7 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   setup.parameters.lamp_values = static_cast<std::uint32_t>(lamps.values.size());
   setup.parameters.lamp_chances = static_cast<std::uint32_t>(lamps.chances.size());
   choose_points(scene, setup.mesh, quality, setup.parameters);
-  setup.parameters.pixel_scale = kPixelScale;
+  setup.parameters.pixel_scale = pixel_scale(setup.mesh, setup.units);
   setup.parameters.layers = quality.layers;
   if (quality.shadow_rays) {
     setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());

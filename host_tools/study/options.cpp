@@ -31,26 +31,32 @@ std::string lower(std::string text) {
   return text;
 }
 
+Takes taken_by(const CLI::Option& option) {
+  if (option.get_expected_max() == 0) return Takes::nothing;
+  return option.get_expected_min() == 0 ? Takes::either : Takes::a_value;
+}
+
 }  // namespace
 
-std::vector<std::string> options_of(const std::string& command, const Place& place) {
+std::map<std::string, Takes> options_of(const std::string& command, const Place& place) {
   CLI::App app;
   CommandAction unused;
   add_commands(app, unused);
   const auto found = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == command; });
   if (found.empty() || std::ranges::find(kCommands, command) == kCommands.end())
     refuse(place, no_such_name(command, "no command that is studied", {kCommands.begin(), kCommands.end()}));
-  std::vector<std::string> names;
+  std::map<std::string, Takes> options;
   for (const CLI::Option* option : found.front()->get_options()) {
-    if (option->get_positional()) names.push_back(lower(option->get_name()));
+    if (option->get_positional()) options.emplace(lower(option->get_name()), Takes::a_value);
     for (const std::string& name : option->get_lnames()) {
-      if (std::ranges::find(kNotInPlans, name) == kNotInPlans.end()) names.push_back(name);
+      if (std::ranges::find(kNotInPlans, name) == kNotInPlans.end()) options.emplace(name, taken_by(*option));
     }
   }
   if (found.front()->get_option_no_throw("--set") != nullptr) {
-    for (const std::string& key : machine_description_keys()) names.push_back(std::string(kMachine) + key);
+    for (const std::string& key : machine_description_keys())
+      options.emplace(std::string(kMachine) + key, Takes::either);
   }
-  return names;
+  return options;
 }
 
 std::vector<std::string> words_of(const Plan& plan, std::span<const PlanOption> options) {

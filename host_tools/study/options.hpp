@@ -3,6 +3,8 @@
 // make leaves.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,9 +13,12 @@
 
 namespace torolux::study {
 
-/// Names of a command's options that a plan may set; machine's parameters are named machine.KEY.
+/// How an option stands on a command line: alone, with a value, or either way.
+enum class Takes : std::uint8_t { nothing, a_value, either };
+
+/// By name a command's options that a plan may set; machine's parameters are named machine.KEY.
 /// Throws InputError for a command that is not there or cannot be studied; place: where it is named.
-std::vector<std::string> options_of(const std::string& command, const Place& place);
+std::map<std::string, Takes> options_of(const std::string& command, const Place& place);
 
 /// What follows belongs to the program on the PEs.
 inline constexpr const char* kEndOfOptions = "--";

@@ -3,6 +3,7 @@
 #include "host_tools/study/plan.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "emulator/description/description.hpp"
@@ -88,8 +89,10 @@ class PlanReader {
   }
 
   void check_name(const std::string& name, const Place& place) const {
-    if (std::ranges::find(known_, name) != known_.end()) return;
-    const std::string near = nearest_name(name, known_);
+    if (known_.contains(name)) return;
+    std::vector<std::string> names;
+    for (const auto& [known, takes] : known_) names.push_back(known);
+    const std::string near = nearest_name(name, names);
     refuse(place,
            "`torolux " + plan_.command + "` has no option " + in_quotes(name) + " that a plan may set" +
                (near.empty() ? "; see --help, names are written without dashes" : "; did you mean '" + near + "'?"));
@@ -119,7 +122,19 @@ class PlanReader {
     } else {
       refuse(place, "'" + name + "' must be a text, a number, or true or false");
     }
+    check_taken(result);
     return result;
+  }
+
+  /// A run would take another word for its value, or not know what to do with it.
+  void check_taken(const PlanOption& option) const {
+    const auto known = known_.find(option.name);
+    if (known == known_.end() || option.name == kArguments) return;
+    if (known->second == Takes::nothing && !option.flag)
+      refuse(option.place,
+             "'" + option.name + "' is " + in_quotes(option.value) + "; allowed are true and false, without quotes");
+    if (known->second == Takes::a_value && option.flag && option.value == "true")
+      refuse(option.place, "'" + option.name + "' is true; allowed is a text or a number, or false: without it");
   }
 
   Axis axis(const Leaf& leaf) const {
@@ -218,7 +233,7 @@ class PlanReader {
 
   const toml::table& root_;
   std::string file_;
-  std::vector<std::string> known_;
+  std::map<std::string, Takes> known_;  ///< options of the command
   Plan plan_;
 };
 

@@ -49,6 +49,21 @@ double chance(const std::vector<Emitter>& list, std::size_t i) {
   return std::ldexp(static_cast<double>(list[i].chosen_to) - before, -32);
 }
 
+// A lamp that is no small part of all surfaces; one of 2^-24 of them; one so small that more quanta might not fit.
+TEST(PixelScale, IsFinerWhereEmittersAreSmall) {
+  const auto of = [](double edge) {
+    SceneBuilder builder;
+    builder.quad(builder.material({0.5, 0.5, 0.5}), {0, 0, 0}, {4, 0, 0}, {4, 0, 4}, {0, 0, 4});
+    builder.quad(builder.material({0, 0, 0}, {1, 2, 1}), {2, 3, 2}, {2, 3, 2 + edge}, {2 + edge, 3, 2 + edge},
+                 {2 + edge, 3, 2});
+    const Mesh mesh = make_mesh(builder.scene, {4.0, 4.0, false});
+    return pixel_scale(mesh, light_units(builder.scene, mesh, false));
+  };
+  EXPECT_EQ(of(1), 0x1p40F);
+  EXPECT_EQ(of(4 * 0x1.1p-12), 0x1p44F);
+  EXPECT_EQ(of(1e-6), 0x1p52F);
+}
+
 TEST(Emitters, AreChosenByWhatTheyEmit) {
   const Chosen of = chosen(2, false);
   ASSERT_EQ(of.list.size(), 4U);

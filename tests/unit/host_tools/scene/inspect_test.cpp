@@ -88,6 +88,40 @@ TEST(Inspect, EmittersAgainstAWallOrFacingAway) {
   EXPECT_THAT(inspected(box(0, 10, true, "wall") + box(9.7, 9.8, false, "lamp")), IsEmpty()) << "on all sides";
 }
 
+TEST(Inspect, EmittersTooSmallForTheirScene) {
+  const std::string room = box(0, 10, true, "wall");
+  const auto square = [](const char* from, const char* to) {
+    std::string text = "usemtl lamp\n";
+    for (const auto& [x, z] : {std::pair{from, from}, {to, from}, {to, to}, {from, to}})
+      text += std::string("v ") + x + " 7 " + z + "\n";
+    return text + "f -4 -3 -2 -1\n";
+  };
+  EXPECT_THAT(inspected(room + box(4, 4.0002, false, "lamp") + square("2", "2.0001")), IsEmpty());
+  // 1/200,000 of the scene and 1/100,000 of a body's size: below, a tenth of the light is lost.
+  EXPECT_THAT(inspected(room + square("2", "2.00004")),
+              testing::ElementsAre("emitter 'lamp' around 2.00002,7,2.00002 is 4e-05 across, too small for its scene: "
+                                   "of less than 5e-05, 1/200,000 of it, light is lost, for rays in single precision "
+                                   "pass by; make it larger and its emission less, or the scene smaller"));
+  EXPECT_THAT(inspected(room + box(4, 4.00006, false, "lamp") + box(5, 5.00005, false, "lamp") +
+                        box(6, 6.00007, false, "lamp") + box(7, 7.00006, false, "wall")),
+              testing::ElementsAre(AllOf(HasSubstr("emitter 'lamp' around 5.00002,5.00002,5.00002 is 5e-05 across"),
+                                         HasSubstr("less than 0.0001, 1/100,000 of it"), HasSubstr("(and 2 more)"))));
+}
+
+TEST(Inspect, ASceneWhoseOnlyEmitterHasNoAreaSaysWhyItHasNoLight) {
+  const auto refused = [] {
+    check_renderable(load_texts({{"a.obj",
+                                  "mtllib a.mtl\nv 0 0 0\nv 9 0 0\nv 9 0 9\nf 3 2 1\nusemtl lamp\n"
+                                  "v 2 7 2\nv 2.0000001 7 2\nv 2.0000001 7 2.0000001\nf 4 5 6\n"},
+                                 {"a.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n"}},
+                                "a.obj"));
+  };
+  EXPECT_THAT(refused, testing::ThrowsMessage<InputError>(
+                           AllOf(HasSubstr("has no light"),
+                                 HasSubstr("a.obj:10: a triangle that emits is left out: against the scene it is too "
+                                           "small for single precision: 'lamp'"))));
+}
+
 TEST(Inspect, SurfacesThatAreLeftInOnePlane) {
   const std::string floor = "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nusemtl wall\nf -1 -2 -3 -4\n";
   const std::string beside = "v 4 0 0\nv 6 0 0\nv 6 0 4\nv 4 0 4\nusemtl other\nf -1 -2 -3 -4\n";

@@ -37,6 +37,18 @@ std::string report_refusal(const std::string& base, const std::string& report) {
   return testing_support::message_of<InputError>([&] { check_report(base, report); });
 }
 
+TEST(Plan, WhatIsSetWithoutAValueIsTrueOrFalseAndNothingElse) {
+  EXPECT_EQ(refusal(kBase + "two-sided-lights = 'true'\n"),
+            "plan.toml:4: 'two-sided-lights' is 'true'; allowed are true and false, without quotes");
+  EXPECT_THAT(refusal(kBase + "two-sided-lights = 1\n"), HasSubstr("is '1'; allowed are true and false"));
+  EXPECT_THAT(refusal(kBase + "[vary]\ntwo-sided-lights = [true, 'false']\n"), StartsWith("plan.toml:5: 'two-sided"));
+  EXPECT_EQ(refusal(kBase + "samples = true\n"),
+            "plan.toml:4: 'samples' is true; allowed is a text or a number, or false: without it");
+  EXPECT_NO_THROW(parse_plan(kBase + "samples = false\ndisplay = true\n", "plan.toml"));
+  EXPECT_NO_THROW(parse_plan(kBase + "two-sided-lights = true\nmachine.torus.bubble = 'true'\n", "plan.toml"))
+      << "what a machine allows its run says";
+}
+
 TEST(Plan, NamesOfFiguresThatNoRunHasAreRefusedBeforeTheFirst) {
   EXPECT_EQ(report_refusal(kBase, "x = 'pes'\ny = ['cycles',\n 'hops.meen']\n"),
             "plan.toml:9: [report]: no run has a figure 'hops.meen'; did you mean 'hops.mean'?");
