@@ -29,7 +29,7 @@ Frame frame_about(const glm::vec3& z) {
   return {{1.0F + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
 }
 
-bool gathers(const PointRecord& point) {
+bool is_of_gathering(const PointRecord& point) {
   return point.kind == protocol::RecordKind::gather_point;
 }
 
@@ -51,7 +51,7 @@ bool step_pixel(const Scene& scene, Expansion& expansion) {
 }
 
 bool step(Pe& pe, Expansion& expansion) {
-  if (gathers(expansion.point)) {
+  if (is_of_gathering(expansion.point)) {
     expansion.pixel = expansion.next_pixel++;
     return true;
   }
@@ -87,15 +87,15 @@ bool begin_point(Pe& pe) {
     expansion = {};
     expansion.point = point;
     expansion.number = protocol::point_number(point);
-    if (gathers(point)) {
+    if (is_of_gathering(point)) {
+      if (!(std::bit_cast<protocol::GatherPointRecord>(point).area > 0.0F)) {
+        ++pe.done.points;
+        continue;
+      }
       expansion.frame = frame_about(to_vector(point.normal));
       begin_pixels(pe, expansion);
-      if (std::bit_cast<protocol::GatherPointRecord>(point).area > 0.0F) {
-        expansion.active = next_pixel(pe, expansion);
-        return true;
-      }
-      ++pe.done.points;
-      continue;
+      expansion.active = next_pixel(pe, expansion);
+      return true;
     }
     expansion.key = protocol::point_key(point.key, expansion.number);
     expansion.within = protocol::stratified_pair(expansion.number, point.key);
@@ -166,12 +166,12 @@ void take_point(Pe& pe, Niu& niu, const PointRecord& point) {
   if (part > protocol::kPointParts) {
     niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::point_part), part);
   }
-  const bool enters =
-      gathers(point) || !is_of_sky(point) || (point.polygon < pe.scene.sky_openings.size() && !pe.scene.sky.empty());
+  const bool enters = is_of_gathering(point) || !is_of_sky(point) ||
+                      (point.polygon < pe.scene.sky_openings.size() && !pe.scene.sky.empty());
   if (!enters) {
     niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::opening), point.polygon);
   }
-  if (!gathers(point) && is_of_lamp(point) && !lamp_of(pe.scene, point)) {
+  if (!is_of_gathering(point) && is_of_lamp(point) && !lamp_of(pe.scene, point)) {
     niu.fail(FaultCode::bad_record, static_cast<std::uint32_t>(protocol::RecordField::point_lamp), point.flags);
   }
   points.place[(points.first + points.waiting) % protocol::kPointPlaces] = point;
@@ -182,7 +182,7 @@ void expand_points(Pe& pe, Niu& niu, std::uint32_t most) {
   const PhaseMark<Phase::shoot> mark(niu);
   for (std::uint32_t i = 0; i < most && pe.credits.in_hand > 0; ++i) {
     if (!pe.expansion.active && !begin_point(pe)) return;
-    if (gathers(pe.expansion.point)) {
+    if (is_of_gathering(pe.expansion.point)) {
       create_gather_ray(pe, niu);
     } else {
       create_record(pe, niu);

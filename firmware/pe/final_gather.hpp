@@ -16,8 +16,8 @@ inline bool gathers(const protocol::StageLayout& layout) {
 void note_areas(const Scene& scene);
 /// Before a side's first point: its elements have gathered nothing.
 void begin_gathering(const Scene& scene, const protocol::Shoot& shoot);
-/// Makes a point one of its element, which counts it. Where no record has come to the side, none of its rays would find
-/// light either: such a point's area is 0, and it makes none.
+/// Makes a point one of its element, which counts it. Where no record has come to the side, its rays would hardly
+/// find light either (it faces outside, mostly): such a point's area is 0, and it makes none.
 protocol::GatherPointRecord gathering_point(const Scene& scene, const protocol::Shoot& shoot, std::uint32_t element,
                                             PeNumber home, const protocol::PointRecord& at);
 

@@ -4,6 +4,7 @@
 #include "firmware/pe/shot_points.hpp"
 
 #include <bit>
+#include <span>
 
 #include "firmware/pe/final_gather.hpp"
 #include "firmware/pe/lamps.hpp"
@@ -18,19 +19,18 @@ namespace {
 using protocol::Element;
 using protocol::Facet;
 using protocol::Patch;
-
-float sum_of(const glm::vec3& v) {
-  return (v.x + v.y) + v.z;
-}
+using protocol::PointRecord;
 
 bool is_gathering(const Shot& shot) {
   return shot.command.kind == protocol::ShotKind::gathering;
 }
 
-/// What a facet would send, R G B; emitted light by its area, reflected light by what came to its element. Elements
-/// gather alike.
+float sum_of(const glm::vec3& v) {
+  return (v.x + v.y) + v.z;
+}
+
+/// What a facet would send, R G B; emitted light by its area, reflected light by what came to its element.
 glm::vec3 sent_by(const Scene& scene, const Shot& shot, const Facet& facet) {
-  if (is_gathering(shot)) return {facet.of_element, 0.0F, 0.0F};
   if (shot.by_area) return glm::vec3(facet.of_patch);
   const Patch& patch = scene.patches[shot.command.patch];
   const Element& element =
@@ -85,6 +85,32 @@ glm::vec3 point_of(const protocol::Polygon& polygon, std::uint32_t code, float a
   return point;
 }
 
+/// Of a gathering: elements follow each other in a row, each as long as the next, so that with a point or more for each
+/// none is left out; within one, its facets as far as light comes there. All points lie as far on in their parts of the
+/// row. Moves on to the point's facet; returns how far in it, 0..1.
+float walk_to_element(const Scene& scene, Shot& shot) {
+  const Patch& patch = scene.patches[shot.command.patch];
+  const auto facets = scene.facets.subspan(patch.first_facet, patch.facets);
+  const std::uint32_t shift =
+      protocol::hash_combine(shot.key, static_cast<std::uint32_t>(protocol::Dimension::place)) >> 16U;
+  const std::uint64_t at = ((std::uint64_t{shot.point} << 16U) | shift) * patch.elements;
+  const std::uint64_t part = std::uint64_t{shot.points} << 16U;
+  const auto element = static_cast<std::uint32_t>(at / part);
+  std::uint32_t& facet = shot.walk.facet;
+  while (facet + 1U < patch.facets && facets[facet].element < element) ++facet;
+  std::uint32_t first = facet;
+  while (first > 0 && facets[first - 1U].element == facets[facet].element) --first;
+  float all = 0.0F;
+  for (std::uint32_t f = first; f < patch.facets && facets[f].element == facets[first].element; ++f)
+    all += facets[f].of_element;
+  float until = (static_cast<float>(static_cast<std::uint32_t>(at - element * part)) / static_cast<float>(part)) * all;
+  for (facet = first; facet + 1U < patch.facets && facets[facet + 1U].element == facets[first].element; ++facet) {
+    if (until < facets[facet].of_element) break;
+    until -= facets[facet].of_element;
+  }
+  return until < facets[facet].of_element ? until / facets[facet].of_element : 1.0F;
+}
+
 /// The flux of all points up to the current one, by how much of each channel the facets up to there send.
 protocol::Flux given_until(const Scene& scene, const Shot& shot, float into) {
   const Patch& patch = scene.patches[shot.command.patch];
@@ -103,38 +129,12 @@ protocol::Flux given_until(const Scene& scene, const Shot& shot, float into) {
   return given;
 }
 
-}  // namespace
-
-void begin_points(const Scene& scene, Shot& shot) {
-  shot.walk = {};
-  shot.given = {};
-  shot.by_area = shot.command.kind == protocol::ShotKind::emitted;
-  shot.all = sent_by_all(scene, shot);
-  if (shot.command.kind == protocol::ShotKind::reflected) count_as_shot(scene, shot);
-  if (sum_of(shot.all) > 0.0F) return;
-  shot.by_area = true;  // so little that rounding hid where it came
-  shot.all = sent_by_all(scene, shot);
-}
-
-protocol::PointRecord make_point(const Scene& scene, Shot& shot, protocol::PeNumber home) {
-  const float part = sum_of(shot.all) / static_cast<float>(shot.points);
-  const auto begin = static_cast<float>(shot.point);
-  // Of a gathering all as far on in their parts: so no element is left out.
-  const std::uint32_t key = is_gathering(shot) ? shot.key : protocol::hash_combine(shot.key, shot.point);
-  const float at = begin + protocol::uniform(key, protocol::Dimension::place);
-  const float along = walk_to(scene, shot, at * part, shot.walk);
-  const Facet& facet = scene.facets[scene.patches[shot.command.patch].first_facet + shot.walk.facet];
+/// All of the shot's next point but its flux.
+PointRecord point_on(const Scene& scene, const Shot& shot, const Facet& facet, float along) {
   const protocol::Polygon& polygon = scene.polygons[facet.polygon];
   const glm::vec3 origin = point_of(polygon, facet.code, along);
   const glm::vec3 front = unit_normal(polygon);
-
-  const bool last = shot.point + 1U == shot.points;
-  const float into = walk_to(scene, shot, (begin + 1.0F) * part, shot.walk);
-  const protocol::Flux given = last ? shot.flux : given_until(scene, shot, into);
-  protocol::PointRecord point{};
-  for (std::size_t c = 0; c < 3; ++c) point.flux[c] = given[c] - shot.given[c];
-  shot.given = given;
-
+  PointRecord point{};
   point.origin = to_array(origin);
   point.normal = to_array(shot.command.side == 0 ? front : -front);
   point.place = cell_of(scene.layout, origin);
@@ -143,13 +143,50 @@ protocol::PointRecord make_point(const Scene& scene, Shot& shot, protocol::PeNum
   point.kind = protocol::RecordKind::point;
   point.number_low = static_cast<std::uint8_t>(shot.point);
   point.number_high = static_cast<std::uint8_t>(shot.point >> 8U);
-  point.flags = shot.command.kind == protocol::ShotKind::emitted ? protocol::kDirect : std::uint8_t{0};
+  if (shot.command.kind != protocol::ShotKind::emitted) return point;
+  point.flags = protocol::kDirect;
   const std::uint32_t lamp = scene.materials[polygon.material].lamp;
-  if (shot.command.kind == protocol::ShotKind::emitted && lamp != protocol::kNoLamp)
-    name_lamp(lamp, shot.command.side, point);
+  if (lamp != protocol::kNoLamp) name_lamp(lamp, shot.command.side, point);
+  return point;
+}
+
+}  // namespace
+
+void begin_points(const Scene& scene, Shot& shot) {
+  shot.walk = {};
+  shot.given = {};
+  shot.by_area = shot.command.kind == protocol::ShotKind::emitted;
+  if (is_gathering(shot)) return;
+  shot.all = sent_by_all(scene, shot);
+  if (!shot.by_area) count_as_shot(scene, shot);
+  if (sum_of(shot.all) > 0.0F) return;
+  shot.by_area = true;  // so little that rounding hid where it came
+  shot.all = sent_by_all(scene, shot);
+}
+
+protocol::PointRecord make_point(const Scene& scene, Shot& shot, protocol::PeNumber home) {
+  const std::span<const Facet> facets = scene.facets.subspan(scene.patches[shot.command.patch].first_facet);
+  if (is_gathering(shot)) {
+    const float along = walk_to_element(scene, shot);
+    const Facet& facet = facets[shot.walk.facet];
+    const PointRecord point = point_on(scene, shot, facet, along);
+    ++shot.point;
+    return std::bit_cast<PointRecord>(gathering_point(scene, shot.command, facet.element, home, point));
+  }
+  const float part = sum_of(shot.all) / static_cast<float>(shot.points);
+  const auto begin = static_cast<float>(shot.point);
+  const std::uint32_t key = protocol::hash_combine(shot.key, shot.point);
+  const float at = begin + protocol::uniform(key, protocol::Dimension::place);
+  const float along = walk_to(scene, shot, at * part, shot.walk);
+  PointRecord point = point_on(scene, shot, facets[shot.walk.facet], along);
+
+  const bool last = shot.point + 1U == shot.points;
+  const float into = walk_to(scene, shot, (begin + 1.0F) * part, shot.walk);
+  const protocol::Flux given = last ? shot.flux : given_until(scene, shot, into);
+  for (std::size_t c = 0; c < 3; ++c) point.flux[c] = given[c] - shot.given[c];
+  shot.given = given;
   ++shot.point;
-  if (!is_gathering(shot)) return point;
-  return std::bit_cast<protocol::PointRecord>(gathering_point(scene, shot.command, facet.element, home, point));
+  return point;
 }
 
 }  // namespace torolux::pe

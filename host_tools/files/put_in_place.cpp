@@ -23,6 +23,7 @@ struct Calls {
   const char* target;
   PutInPlace result;
   int error;
+  bool made;
 };
 
 /// In memory that is ours: nothing but these calls.
@@ -32,10 +33,11 @@ int make_calls(void* argument) {
   const bool done = named && std::rename(calls.name, calls.target) == 0;
   calls.error = done ? 0 : errno;
   calls.result = {done, named && !done};
+  calls.made = true;
   return 0;
 }
 
-/// False: there can be no such process.
+/// False: there can be no such process, or it does not share our memory.
 bool make_calls_elsewhere(Calls& calls) {
   alignas(16) std::array<std::byte, 1U << 16U> stack;
   // A handler must not run twice, in memory that two processes share.
@@ -47,14 +49,14 @@ bool make_calls_elsewhere(Calls& calls) {
   while (process >= 0 && ::waitpid(process, nullptr, __WCLONE) < 0 && errno == EINTR) {
   }
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return process >= 0;
+  return process >= 0 && calls.made;
 }
 
 }  // namespace
 
 PutInPlace put_in_place(const std::filesystem::path& path, const std::filesystem::path& name,
                         const std::filesystem::path& target) {
-  Calls calls{path.c_str(), name.c_str(), target.c_str(), {}, EINTR};
+  Calls calls{path.c_str(), name.c_str(), target.c_str(), {}, EINTR, false};
   if (!make_calls_elsewhere(calls)) make_calls(&calls);
   errno = calls.error;
   return calls.result;

@@ -90,13 +90,17 @@ struct Load {
   }
 };
 
-/// Some light falls on a side of a patch.
-bool is_lit(const RenderSetup& setup, const LightSample& light, std::uint32_t patch, std::uint32_t side) {
+/// Some light may fall on a side of a patch: it does, or what falls on the other side is not known either, as no path
+/// of the sample met the patch.
+bool may_be_lit(const RenderSetup& setup, const LightSample& light, std::uint32_t patch, std::uint32_t side) {
   const MeshPatch& of = setup.mesh.patches[patch];
   const auto facets = std::span(setup.mesh.facets).subspan(of.first_facet, of.facets);
-  return std::ranges::any_of(facets, [&](const MeshFacet& facet) {
-    return light.emitted.hits[facet.triangle][side] + light.reflected.hits[facet.triangle][side] > 0;
-  });
+  const auto falls_on = [&](std::uint32_t one) {
+    return std::ranges::any_of(facets, [&](const MeshFacet& facet) {
+      return light.emitted.hits[facet.triangle][one] + light.reflected.hits[facet.triangle][one] > 0;
+    });
+  };
+  return falls_on(side) || !falls_on(1 - side);
 }
 
 /// One side of a patch as a source of light. Of all emitted light the same share falls on it as of the sample's, and
@@ -147,9 +151,9 @@ class Rounds {
     double emitted = 0;
     for (const Source& source : sources_) emitted += source.unshot;
     greatest_channel_ = kEmittedQuanta / emitted;
-    // Rays go the ways of reflected light, backwards.
+    // Rays go the ways of reflected light, backwards; and their answers home.
     for (const FinalGather& of : settings_.gatherings) {
-      const double rays = is_lit(setup, light, of.number, of.side) ? of.points : 0;
+      const double rays = may_be_lit(setup, light, of.number, of.side) ? of.points : 0;
       gather_rays_ += rays * protocol::hemicube_pixels(setup.parameters.hemicube);
     }
   }
@@ -166,7 +170,7 @@ class Rounds {
     gathering.anywhere = gather_rays_ * kCyclesToMake;
     gathering.add(kinds_.front().load, gather_rays_);
     add(gathering, gather_rays_, prediction);
-    prediction.packets += gather_rays_ * kinds_.front().packets;
+    prediction.packets += 2 * gather_rays_ * kinds_.front().packets;
   }
 
  private:

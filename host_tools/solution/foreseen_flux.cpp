@@ -2,6 +2,8 @@
 // A geometric series for each channel, over the whole scene: what is unshot, times what becomes of each quantum.
 #include "host_tools/solution/foreseen_flux.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace torolux {
@@ -46,9 +48,36 @@ std::array<double, 3> parts_to_come(const Mesh& mesh, const Solution& solution) 
   return parts;
 }
 
+/// Where light from emitters and reflected light cannot be told apart: what is to come of both together beside what
+/// came of both.
+std::array<double, 3> foreseen_part(const Mesh& mesh, const Solution& solution) {
+  const std::array<double, 3> parts = parts_to_come(mesh, solution);
+  const Flux entered = sky_entered(solution);
+  std::array<double, 3> foreseen{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto reflected = static_cast<double>(solution.reflected_shot[c]);
+    const double all = reflected + static_cast<double>(solution.emitted_shot[c] + entered[c]);
+    foreseen[c] = all > 0 ? 1 + parts[c] * reflected / all : 1;
+  }
+  return foreseen;
+}
+
+/// No more than a flux can be.
+std::int64_t quanta(double value) {
+  return std::llround(std::min(value, 0x1p60));
+}
+
+std::vector<Flux> times(std::vector<Flux> flux, const std::array<double, 3>& factor) {
+  for (Flux& of : flux) {
+    for (std::size_t c = 0; c < 3; ++c) of[c] = quanta(static_cast<double>(of[c]) * factor[c]);
+  }
+  return flux;
+}
+
 }  // namespace
 
 std::vector<Flux> foreseen_flux(const Mesh& mesh, const Solution& solution, bool without_direct) {
+  if (has_gathered(solution)) return times(incident_flux(solution, false), foreseen_part(mesh, solution));
   const std::array<double, 3> parts = parts_to_come(mesh, solution);
   std::vector<Flux> flux = incident_flux(solution, without_direct);
   for (std::size_t e = 0; e < flux.size(); ++e) {
@@ -66,15 +95,8 @@ PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool with
     if (of_record > 0) light.of_record.assign(light.flux.size(), of_record);
     return light;
   }
-  // Of what lights the surfaces that rays have met, this part came by reflection, and more of that is to come.
-  const std::array<double, 3> parts = parts_to_come(mesh, solution);
-  const Flux entered = sky_entered(solution);
-  std::array<double, 3> foreseen{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto reflected = static_cast<double>(solution.reflected_shot[c]);
-    const double all = reflected + static_cast<double>(solution.emitted_shot[c] + entered[c]);
-    foreseen[c] = all > 0 ? 1 + parts[c] * reflected / all : 1;
-  }
+  // Of what lights the surfaces that rays have met.
+  const std::array<double, 3> foreseen = foreseen_part(mesh, solution);
   PictureLight light;
   light.flux.reserve(solution.elements.size());
   light.of_record.reserve(solution.elements.size());
@@ -85,7 +107,7 @@ PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool with
   for (const SolvedElement& element : solution.elements) {
     Flux& sum = light.flux.emplace_back(element.apart);
     for (std::size_t c = 0; c < 3 && element.points > 0; ++c)
-      sum[c] += std::llround(static_cast<double>(element.gathered[c]) / element.points * foreseen[c]);
+      sum[c] += quanta(static_cast<double>(element.gathered[c]) / element.points * foreseen[c]);
     const double apart = sum_of(element.apart);
     const double all = sum_of(sum);
     light.of_record.push_back(all > 0 ? (apart * of_record + (all - apart) * of_ray) / all : of_ray);

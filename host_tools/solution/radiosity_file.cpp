@@ -102,14 +102,13 @@ void check_flux(const protocol::Flux& flux, const std::string& name) {
   }
 }
 
-/// Of all points of an element.
-constexpr std::int64_t kMostGathered = std::int64_t{1} << 62U;
-
 void check_gathered(const SolvedElement& element, const std::string& name) {
   if (element.points > protocol::kMostGatherPoints || element.unused != 0)
     throw InputError(name + ": damaged: an element has gathered from more points than it can");
   for (const std::int64_t value : element.gathered) {
-    if (value < 0 || value > kMostGathered) throw InputError(name + ": damaged: a flux is out of range");
+    // Of each of its points no more than a flux.
+    const bool fits = value >= 0 && (element.points > 0 ? value / element.points <= kMostFlux : value == 0);
+    if (!fits) throw InputError(name + ": damaged: a flux is out of range");
   }
 }
 

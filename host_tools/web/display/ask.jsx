@@ -96,7 +96,9 @@ function Element({ of }) {
         ["owner", `PE ${of.owner}; subspace ${of.subspace.join(", ")}`],
         ["in ray tracing", of.keeper === null ? "at every PE that has its polygon" : `PE ${of.keeper}`],
         ["incident [W], R G B", triple(of.incident_w)],
-        ["of it, from emitters", triple(of.direct_w)],
+        ...(of.direct_w === null
+          ? [["gathered by its rays", triple(of.gathered_w)], ["of the incident, kept", triple(of.apart_w)]]
+          : [["of it, from emitters", triple(of.direct_w)]]),
         ["reflectance", triple(of.reflectance)],
         ["radiosity [W/m\u00b2]", triple(of.radiosity)],
       ]} />

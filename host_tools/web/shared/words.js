@@ -45,6 +45,7 @@ export const kRecordKinds = {
   deposit: "flux for an element",
   ray: "rays",
   shadow_ray: "shadow rays",
+  gather: "final gathering",
 };
 
 export const kBusKinds = {
