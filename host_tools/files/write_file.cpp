@@ -18,7 +18,6 @@
 #include <utility>
 
 #include "emulator/errors.hpp"
-#include "host_tools/files/put_in_place.hpp"
 
 namespace torolux {
 namespace {
@@ -76,14 +75,17 @@ class TemporaryFile {
   }
 
  private:
-  /// The target's: at once, where there is none.
+  /// The target's: at once, where there is none. No call puts a file without a name in another one's place; who is
+  /// killed between the two that do, a few microseconds, leaves the name of the first.
   bool take_name(const fs::path& target) {
     if (give_name(descriptor_.get(), target)) return true;
     if (errno != EEXIST) return false;
     const fs::path name = unused_name(target);
-    const PutInPlace put = put_in_place(path_of(descriptor_.get()), name, target);
-    if (put.named) name_ = name;
-    return put.done;
+    if (!give_name(descriptor_.get(), name)) return false;
+    name_ = name;
+    if (std::rename(name_.c_str(), target.c_str()) != 0) return false;
+    name_.clear();
+    return true;
   }
   static fs::path unused_name(const fs::path& target) {
     static std::atomic<unsigned> counter = 0;

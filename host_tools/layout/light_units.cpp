@@ -53,10 +53,10 @@ LightUnits light_units(const Scene& scene, const Mesh& mesh, bool two_sided_ligh
 float pixel_scale(const Mesh& mesh, const LightUnits& units) {
   // With reflectances below 0.99 a surface shows at most 100 units, 2^47 of the least quanta, far from the 2^63 at
   // which the frame buffer's integers end. The light of small emitters is weak against their own radiance: more quanta
-  // do no harm there. A sample of a shadow ray brings no more than 2^10 units, and no sample adds more than
-  // 2^56 quanta (to_quanta).
+  // do no harm there. A sample adds 2^56 quanta at most (to_quanta): 16 units of the finest, more than any
+  // surface shows that a lamp lights.
   constexpr int least = 40;
-  constexpr int most = 46;
+  constexpr int most = 52;
   constexpr int wanted = 20;
   double area = 0;
   for (const MeshTriangle& triangle : mesh.triangles) area += triangle.area;

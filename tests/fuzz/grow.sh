@@ -8,7 +8,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 name=$1 seconds=${2-60}
 fuzzer=$here/../../build/sanitize/bin/${name}_fuzzer
 [[ -x $fuzzer ]] || { echo "grow.sh: there is no $fuzzer: build the preset sanitize" >&2; exit 2; }
-readonly most_bytes=4096  # of one input: longer ones find little and make a slow corpus
+readonly most_bytes=8192  # of one input: longer ones find little and make a slow corpus
 
 corpus=$here/corpus/$name grown=$here/grown/$name
 mkdir -p "$corpus" "$grown"

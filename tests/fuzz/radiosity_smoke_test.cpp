@@ -64,7 +64,7 @@ TEST(FuzzSmoke, Radiosity) {
   const RadiosityFuzz fuzz;
   const std::vector<std::byte> valid = fuzz.valid_file();
   ASSERT_TRUE(fuzz.read(valid));
-  ASSERT_LT(valid.size(), 4096U);
+  ASSERT_LT(valid.size(), 8192U);
   Changes changes(valid);
   int taken = 0;
   constexpr int kCount = 10'000;

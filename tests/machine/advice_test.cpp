@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
                     TooSmall{"elements", "cornell_box", "--pe-memory 544K", {"--pe-memory", "--pes", "--elements"}},
                     TooSmall{"one_pe",
                              "two_mirrors",
-                             "--pe-memory 1M --pes 1x1 --elements 0.1",
+                             "--pe-memory 1M --pes 1x1 --elements 0.12",
                              {"--pe-memory", "--pes", "--elements"}},
                     TooSmall{"patches",
                              "cornell_box",

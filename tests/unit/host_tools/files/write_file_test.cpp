@@ -140,39 +140,6 @@ TEST(WriteFile, WhoIsKilledWhileItClosesLeavesTheOldFileAlone) {
   EXPECT_EQ(folder.files(), 1U);
 }
 
-// Where its calls were those of the one that is killed, 4 to 37 of 1,000 left a second file.
-TEST(WriteFile, WhoIsKilledWhileItReplacesAFileLeavesOneOrTheOther) {
-  const TemporaryFolder folder;
-  if (!has_files_without_a_name(folder)) GTEST_SKIP();
-  const fs::path file = folder.path() / "a";
-  const std::string text(1U << 16U, 'n');
-  write_file(file, text);
-  // What puts it in place goes on without the child, for its two calls, and is ours then.
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0);
-  for (useconds_t kill = 0; kill < 200; ++kill) {
-    const pid_t child = ::fork();
-    while (child == 0) write_file(file, text);
-    ::usleep(200 + kill * 10);
-    ::kill(child, SIGKILL);
-    while (::waitpid(-1, nullptr, __WALL) > 0) {
-    }
-    ASSERT_EQ(folder.files(), 1U) << kill;
-    EXPECT_EQ(read_file(file, kMost).size(), text.size());
-  }
-  ::prctl(PR_SET_CHILD_SUBREAPER, 0, 0, 0, 0);
-}
-
-// A program may ignore its children's ends.
-TEST(WriteFile, LeavesNoProcessBehind) {
-  const TemporaryFolder folder;
-  const auto before = std::signal(SIGCHLD, SIG_IGN);
-  for (const char* text : {"first", "second", "third"}) write_file(folder.path() / "a", text);
-  EXPECT_EQ(::waitpid(-1, nullptr, __WALL | WNOHANG), -1);
-  EXPECT_EQ(errno, ECHILD);
-  std::signal(SIGCHLD, before);
-  EXPECT_EQ(read_file(folder.path() / "a", kMost), bytes_of("third"));
-}
-
 TEST(WriteFile, WhereLinksAreRefusedItIsWrittenToo) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "a";

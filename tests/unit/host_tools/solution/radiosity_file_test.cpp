@@ -19,7 +19,7 @@ class RadiosityFileTest : public testing::Test {
     solution_.elements.resize(mesh_.elements);
     for (std::uint32_t i = 0; i < mesh_.patch_sides; ++i) solution_.sides[i] = {{i + 5, 2, 3}, {i, 1, 0}, {7, 8, i}};
     for (std::uint32_t i = 0; i < mesh_.elements; ++i)
-      solution_.elements[i] = {{i, i + 1, i + 2}, {1, 2, 3}, {i, 5, 6}, i};
+      solution_.elements[i] = {{i, i + 1, i + 2}, {1, 2, 3}, {i, 5, 6}, i + 1};
     solution_.tally.escaped = {1, 2, 3};
     solution_.emitted_shot = {4, 5, 6};
     solution_.shots = 99;
@@ -53,7 +53,7 @@ TEST_F(RadiosityFileTest, ComesBackAsItWas) {
   EXPECT_EQ(back.sides[3].incident, solution_.sides[3].incident);
   EXPECT_EQ(back.elements[5].apart, solution_.elements[5].apart);
   EXPECT_EQ(back.elements[5].gathered, solution_.elements[5].gathered);
-  EXPECT_EQ(back.elements[5].points, 5U);
+  EXPECT_EQ(back.elements[5].points, 6U);
   EXPECT_EQ(back.tally.escaped, solution_.tally.escaped);
   EXPECT_EQ(back.shots, 99U);
   EXPECT_EQ(parse_radiosity(bytes, "file").splits, splits_);
@@ -89,7 +89,12 @@ TEST_F(RadiosityFileTest, WhatNoElementCanHaveGatheredIsRefused) {
   solution_.elements[4].points = protocol::kMostGatherPoints + 1;
   EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("gathered"), std::string::npos);
   solution_.elements[4].points = 1;
-  solution_.elements[4].gathered[1] = -1;
+  for (const std::int64_t value : {std::int64_t{-1}, std::int64_t{1} << 58U}) {
+    solution_.elements[4].gathered[1] = value;
+    EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("out of range"), std::string::npos);
+  }
+  solution_.elements[4].gathered = {0, 1, 0};
+  solution_.elements[4].points = 0;
   EXPECT_NE(refusal(pack_radiosity(origin_, splits_, solution_), origin_).find("out of range"), std::string::npos);
 }
 
