@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "tests/physics/same_picture.hpp"
@@ -58,21 +57,6 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& room) {
       return std::string(room.param.scene) + (room.param.shadow_rays ? "_shadow_rays" : "_radiosity");
     });
-
-struct Solved {
-  std::vector<std::byte> picture;
-  std::string radiosities, figures;
-};
-
-Solved solve(RenderCase render_case) {
-  const testing_support::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "radiosities";
-  render_case.files.save_radiosity = file;
-  const RenderResult result = run_case(render_case);
-  expect_all_home(result);
-  std::ifstream stream(file, std::ios::binary);
-  return {bytes_of(result.picture), {std::istreambuf_iterator<char>(stream), {}}, exact_figures(result.figures)};
-}
 
 RenderCase small_gathering(const char* scene) {
   RenderCase cornell = small_cornell(scene);

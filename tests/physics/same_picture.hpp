@@ -5,9 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include "tests/support/render_support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace torolux::test {
 
@@ -34,6 +39,22 @@ inline void expect_all_home(const RenderResult& result) {
   }
   EXPECT_EQ(sent, delivered);
   EXPECT_LT(energy_error(result.figures.energy), 1e-5);
+}
+
+struct Solved {
+  std::vector<std::byte> picture;
+  std::string radiosities;  ///< a file of them: the flux of all elements and sides
+  std::string figures;      ///< exact_figures
+};
+
+inline Solved solve(RenderCase render_case) {
+  const testing_support::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "radiosities";
+  render_case.files.save_radiosity = file;
+  const RenderResult result = run_case(render_case);
+  expect_all_home(result);
+  std::ifstream stream(file, std::ios::binary);
+  return {bytes_of(result.picture), {std::istreambuf_iterator<char>(stream), {}}, exact_figures(result.figures)};
 }
 
 /// The picture that every other machine must make too; with the scene that has mirror and glass.

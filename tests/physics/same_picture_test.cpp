@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "tests/physics/same_picture.hpp"
@@ -114,21 +112,6 @@ Sharing sharing(const char* name, Scheme scheme, Change change) {
   take_scheme(result.machine, scheme);
   change(result.machine);
   return result;
-}
-
-struct Solved {
-  std::vector<std::byte> picture;
-  std::string radiosities;  ///< a file of them: the flux of all elements and sides
-};
-
-Solved solve(RenderCase render_case) {
-  const testing_support::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "radiosities";
-  render_case.files.save_radiosity = file;
-  const RenderResult result = run_case(render_case);
-  expect_all_home(result);
-  std::ifstream stream(file, std::ios::binary);
-  return {bytes_of(result.picture), {std::istreambuf_iterator<char>(stream), {}}};
 }
 
 class Shared : public testing::TestWithParam<Sharing> {};
