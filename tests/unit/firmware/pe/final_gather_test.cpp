@@ -197,7 +197,7 @@ Outcome gather_in_room(const Machine& m) {
   begin_room(machine, scene, m.slots);
   RoomOutcome shots;
   shoot_best(machine, 6, m.credits, shots);
-  const Outcome out = gather_all(machine, 2, m.credits);
+  Outcome out = gather_all(machine, 2, m.credits);
   machine.stop();
   return out;
 }

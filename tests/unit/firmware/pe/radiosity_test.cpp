@@ -13,9 +13,6 @@ namespace torolux::test {
 namespace {
 
 using protocol::Flux;
-using protocol::MessageKind;
-using protocol::ShotKind;
-using protocol::Stage;
 
 /// Everything that shots carried or glossy lobes sent on has landed somewhere. R + G + B.
 void expect_balance(const RoomOutcome& out) {
