@@ -124,9 +124,11 @@ void follow_gather_ray(Pe& pe, Niu& niu, Slot slot) {
       pe.outbox.put(niu, pe.slots, way.next, slot);
       return;
     }
-    const protocol::MaterialKind kind = way.end == WayEnd::hit
-                                            ? pe.scene.materials[pe.scene.polygons[way.hit.polygon].material].kind
-                                            : protocol::MaterialKind::mirror;
+    if (way.end == WayEnd::escaped) {
+      end_record(pe, niu, slot);
+      return;
+    }
+    const protocol::MaterialKind kind = pe.scene.materials[pe.scene.polygons[way.hit.polygon].material].kind;
     if (kind == protocol::MaterialKind::pane && pass_pane(pe, record, way.hit)) continue;
     if (protocol::is_specular(kind)) {
       end_record(pe, niu, slot);

@@ -68,21 +68,20 @@ class TemporaryFile {
   Descriptor& descriptor() { return descriptor_; }
   /// Puts it in the target's place, whole. False, with errno set: that could not be done.
   bool become(const fs::path& target) {
-    if (name_.empty()) return descriptor_.close_and_keep() && take_name(target);
-    if (!descriptor_.close() || std::rename(name_.c_str(), target.c_str()) != 0) return false;
-    name_.clear();
-    return true;
-  }
-
- private:
-  /// The target's: at once, where there is none. No call puts a file without a name in another one's place; who is
-  /// killed between the two that do, a few microseconds, leaves the name of the first.
-  bool take_name(const fs::path& target) {
+    if (!name_.empty()) return descriptor_.close() && rename_to(target);
+    if (!descriptor_.close_and_keep()) return false;
     if (give_name(descriptor_.get(), target)) return true;
     if (errno != EEXIST) return false;
+    // No call puts a file without a name in another one's place; who is killed between the two that do, a few
+    // microseconds, leaves the name of the first.
     const fs::path name = unused_name(target);
     if (!give_name(descriptor_.get(), name)) return false;
     name_ = name;
+    return rename_to(target);
+  }
+
+ private:
+  bool rename_to(const fs::path& target) {
     if (std::rename(name_.c_str(), target.c_str()) != 0) return false;
     name_.clear();
     return true;

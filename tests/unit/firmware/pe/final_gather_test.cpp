@@ -187,10 +187,7 @@ Outcome gather_in_room(const Machine& m) {
   scene.stop_everywhere = m.stop_everywhere;
   scene.copy_all = m.copy_all;
   scene.open_batches = m.open_batches;
-  scene.materials.push_back(pane_material(1.5F, 0.5F));
-  const std::size_t panes = scene.polygons.size();
-  add_wall(scene, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
-  for (std::size_t i = panes; i < scene.polygons.size(); ++i) scene.polygons[i].sides = 0;
+  add_pane(scene);
   FakeMachine machine(m.pes);
   machine.points_travel = m.points_travel;
   machine.shoot_in_parts = m.parts;

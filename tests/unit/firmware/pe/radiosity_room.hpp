@@ -40,6 +40,22 @@ inline TestScene room_with_balls(std::uint32_t pes, std::array<std::uint32_t, 3>
   return s;
 }
 
+/// The same without mirror, glass and gloss.
+inline TestScene diffuse_room(std::uint32_t pes, std::array<std::uint32_t, 3> cells) {
+  TestScene scene = room_with_balls(pes, cells);
+  scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // the balls
+  scene.materials[4] = diffuse_material(0.2F);
+  return scene;
+}
+
+/// Of either room, right under the lamp.
+inline void add_pane(TestScene& scene) {
+  scene.materials.push_back(pane_material(1.5F, 0.5F));
+  const std::size_t panes = scene.polygons.size();
+  add_wall(scene, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
+  for (std::size_t i = panes; i < scene.polygons.size(); ++i) scene.polygons[i].sides = 0;
+}
+
 /// Sets all emission of the lamp, unevenly by channel.
 inline void light_lamp(PeStores& stores) {
   for (const protocol::Patch& patch : stores.patches) {

@@ -112,9 +112,7 @@ TEST(Radiosity, DirectFluxIsKeptApart) {
   }
   EXPECT_GT(direct, all / 2);
   EXPECT_LT(direct, all);
-  scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
-  scene.materials[4] = diffuse_material(0.2F);
-  const RoomOutcome bare = radiate(scene, 5, 64, 200);
+  const RoomOutcome bare = radiate(diffuse_room(3, {3, 3, 3}), 5, 64, 200);
   for (const auto& [place, list] : bare.flux) {
     for (std::size_t e = 1; e + 1 < list.size(); e += 2) EXPECT_EQ(list[e], list[e + 1]);
   }
@@ -122,13 +120,9 @@ TEST(Radiosity, DirectFluxIsKeptApart) {
 
 // A pane right under the lamp lets the lamp's own light through, as shadow rays will find it.
 TEST(Radiosity, LightThroughAPaneIsDirect) {
-  TestScene bare = room_with_balls(3, {3, 3, 3});
-  bare.polygons.erase(bare.polygons.begin() + 50, bare.polygons.end());  // without the balls
-  bare.materials[4] = diffuse_material(0.2F);
+  const TestScene bare = diffuse_room(3, {3, 3, 3});
   TestScene glazed = bare;
-  glazed.materials.push_back(pane_material(1.5F, 0.5F));
-  add_wall(glazed, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
-  for (std::size_t i = 50; i < glazed.polygons.size(); ++i) glazed.polygons[i].sides = 0;
+  add_pane(glazed);
   const auto on_floor = [](const RoomOutcome& outcome, std::size_t which) {
     double sum = 0;
     for (const auto& [place, list] : outcome.flux) {
@@ -176,9 +170,7 @@ TEST(Radiosity, TurnedFluxIsKeptApart) {
 
 // Without mirror, glass or lobe nothing is turned, of the lamp's own light or what walls reflect.
 TEST(Radiosity, LightThatGoesStraightIsNotKeptApartAsTurned) {
-  TestScene scene = room_with_balls(3, {3, 3, 3});
-  scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
-  scene.materials[4] = diffuse_material(0.2F);
+  const TestScene scene = diffuse_room(3, {3, 3, 3});
   std::int64_t sum = 0;
   for (const auto& [flux, apart] : kept_apart(scene, protocol::kTurned, 12)) {
     EXPECT_EQ(apart, Flux{});
@@ -189,13 +181,9 @@ TEST(Radiosity, LightThatGoesStraightIsNotKeptApartAsTurned) {
 
 // What passes a pane below the lamp goes on unbent, and is not kept apart; what the pane throws back to the ceiling is.
 TEST(Radiosity, LightThroughAPaneIsNotTurned) {
-  TestScene scene = room_with_balls(3, {3, 3, 3});
-  scene.polygons.erase(scene.polygons.begin() + 50, scene.polygons.end());  // without the balls
-  scene.materials[4] = diffuse_material(0.2F);
-  scene.materials.push_back(pane_material(1.5F, 0.5F));
+  TestScene scene = diffuse_room(3, {3, 3, 3});
   scene.apart = protocol::kTurned;
-  add_wall(scene, {0, 0, 0.9F}, {0, 1, 0}, {1, 0, 0}, 1, 5);
-  for (std::size_t i = 50; i < scene.polygons.size(); ++i) scene.polygons[i].sides = 0;
+  add_pane(scene);
   std::int64_t on_floor = 0;
   std::int64_t turned = 0;
   for (const auto& [place, list] : radiate(scene, 5, 64, 200).flux) {
