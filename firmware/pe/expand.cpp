@@ -33,6 +33,10 @@ bool is_of_gathering(const PointRecord& point) {
   return point.kind == protocol::RecordKind::gather_point;
 }
 
+bool is_kept_apart(const PointRecord& point) {
+  return (point.flags & (std::uint32_t{protocol::kApart} | protocol::kLamp)) == protocol::kApart;
+}
+
 bool is_of_sky(const PointRecord& point) {
   return (point.flags & protocol::kSky) != 0;
 }
@@ -146,7 +150,8 @@ void create_record(Pe& pe, Niu& niu) {
   record.key = protocol::record_key(expansion.key, shift);
   record.kind = protocol::RecordKind::light;
   record.bounce = 0;
-  record.flags = static_cast<std::uint8_t>(protocol::kFirst | (expansion.point.flags & protocol::kDirect));
+  record.flags = static_cast<std::uint8_t>(protocol::kFirst | (expansion.point.flags & protocol::kDirect) |
+                                           (is_kept_apart(expansion.point) ? protocol::kTurned : 0U));
   record.visited = 0;
   --pe.credits.in_hand;
   ++pe.tally.rays;

@@ -48,13 +48,21 @@ void add_to_gathered(Pe& pe, std::uint32_t element, const protocol::Flux& flux) 
     sum[c] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum[c]) + static_cast<std::uint64_t>(flux[c]));
 }
 
+/// Of what has come to the side, the part that no shot kept apart has brought to elements.
+float left_to_gather(const protocol::PatchSide& side, std::size_t c) {
+  if (!(side.shot_apart[c] > 0.0F)) return 1.0F;
+  return std::max(1.0F - side.shot_apart[c] / static_cast<float>(side.incident[c]), 0.0F);
+}
+
 /// What an element's answer brings to the ray's: radiosity times the ray's weight.
-protocol::Flux answer_of(const Scene& scene, std::uint32_t patch, const Element& element, const GatherRecord& ray) {
+protocol::Flux answer_of(const Scene& scene, const protocol::Patch& patch, const protocol::PatchSide& side,
+                         const Element& element, const GatherRecord& ray) {
   protocol::Flux flux{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const float reflectance = static_cast<float>(scene.patches[patch].reflectance[c]) * 0x1p-32F;
-    const float radiosity = static_cast<float>(element.flux[c]) * reflectance * element.inverse_area;
-    flux[c] = to_quanta(radiosity * ray.weight[c]);
+    const float reflectance = static_cast<float>(patch.reflectance[c]) * 0x1p-32F;
+    const float reflected = static_cast<float>(element.flux[c]) * reflectance * element.inverse_area;
+    const float emitted = scene.layout.gathers_emission != 0 ? side.emits[c] : 0.0F;
+    flux[c] = to_quanta((emitted + reflected * left_to_gather(side, c)) * ray.weight[c]);
   }
   return flux;
 }
@@ -62,8 +70,10 @@ protocol::Flux answer_of(const Scene& scene, std::uint32_t patch, const Element&
 /// The ray has come to the owner of the element that it met. Ends it, or sends the answer home.
 void answer(Pe& pe, Niu& niu, Slot slot, std::uint32_t patch, std::uint32_t side, std::uint32_t element) {
   const auto& ray = pe.slots.at<GatherRecord>(slot);
-  const std::uint32_t first = pe.scene.patch_sides[pe.scene.patches[patch].side[side]].first_element;
-  const protocol::Flux flux = answer_of(pe.scene, patch, pe.scene.elements[first + element], ray);
+  const protocol::Patch& met = pe.scene.patches[patch];
+  const protocol::PatchSide& of_side = pe.scene.patch_sides[met.side[side]];
+  const protocol::Flux flux =
+      answer_of(pe.scene, met, of_side, pe.scene.elements[of_side.first_element + element], ray);
   if (ray.home == niu.pe()) {
     add_to_gathered(pe, ray.element, flux);
     end_record(pe, niu, slot);

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "firmware/pe/pe.hpp"
+#include "firmware/pe/final_gather.hpp"
 #include "firmware/protocol/fault_fields.hpp"
 #include "firmware/protocol/store_names.hpp"
 
@@ -61,6 +61,9 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
   const bool apart = l.apart == protocol::kDirect || l.apart == protocol::kTurned ||
                      l.apart == (std::uint32_t{protocol::kDirect} | protocol::kTurned);
   require(niu, apart, LayoutField::apart, l.apart);
+  if (!gathers(l)) return;
+  require(niu, finite_positive(l.dense_shot), LayoutField::dense_shot, bits(l.dense_shot));
+  require(niu, finite_positive(l.mean_radiosity), LayoutField::mean_radiosity, bits(l.mean_radiosity));
 }
 
 /// What tells a sample's place in the picture, whoever makes its ray.

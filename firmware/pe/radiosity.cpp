@@ -136,7 +136,7 @@ void handle_radiosity_record(Pe& pe, Niu& niu, Slot slot) {
     niu.release(slot);
     return;
   }
-  if (record.kind >= RecordKind::gather && record.kind <= RecordKind::answer) {
+  if (protocol::is_of_gathering(record.kind)) {
     handle_gather_record(pe, niu, slot);
     return;
   }

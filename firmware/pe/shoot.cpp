@@ -55,6 +55,31 @@ Flux withdraw(Pe& pe, Niu& niu, const Shoot& shoot) {
   return flux;
 }
 
+/// How noisy a side's light is by gathering rays against as many records: they differ by how much brighter it is than
+/// what is around it. 0: no brighter; 1: by far.
+float noise_of_rays(const Scene& scene, const Patch& patch, const protocol::PatchSide& side, float area) {
+  float radiosity = 0.0F;
+  for (std::size_t c = 0; c < 3; ++c)
+    radiosity += static_cast<float>(protocol::scale_down(side.incident[c], patch.reflectance[c]));
+  const float mean = scene.layout.mean_radiosity * area;
+  if (!(radiosity > mean)) return 0.0F;
+  const float brighter = 1.0F - mean / radiosity;
+  return brighter * brighter;
+}
+
+/// Whether final gathering leaves the shot to its records; then what is withdrawn counts as kept apart.
+bool keep_apart(const Scene& scene, const Shoot& shoot, std::uint32_t points) {
+  if (shoot.kind != ShotKind::reflected || !gathers(scene.layout)) return false;
+  const Patch& patch = scene.patches[shoot.patch];
+  protocol::PatchSide& side = scene.patch_sides[patch.side[shoot.side]];
+  float area = 0.0F;
+  for (const protocol::Facet& facet : scene.facets.subspan(patch.first_facet, patch.facets)) area += facet.lit_area;
+  const auto records = static_cast<float>(points * protocol::hemicube_pixels(scene.hemicube_grid.n));
+  if (!(records * noise_of_rays(scene, patch, side, area) > scene.layout.dense_shot * area)) return false;
+  for (std::size_t c = 0; c < 3; ++c) side.shot_apart[c] += static_cast<float>(shoot.amount[c]);
+  return true;
+}
+
 /// To another PE at once: it may be waiting for work.
 void send_point(Pe& pe, Niu& niu, PeNumber destination, const protocol::PointRecord& point) {
   if (destination == niu.pe()) {
@@ -85,6 +110,7 @@ void begin_shot(Pe& pe, Niu& niu, const Shoot& shoot) {
     shot.points = protocol::points_of_shot(shoot.kind, shot.flux, layout.points_per_quantum, layout.shot_points,
                                            layout.emission_points);
   }
+  shot.apart = keep_apart(pe.scene, shoot, shot.points);
   shot.key = protocol::shot_key(pe.scene.layout.seed, pe.scene.patches[shot.command.patch].number, shot.command);
   shot.active = true;
   shot.point = 0;

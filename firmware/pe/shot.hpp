@@ -31,6 +31,7 @@ struct Shot {
   std::uint32_t key = 0;     ///< of its random numbers
   std::uint32_t point = 0;   ///< the next one
   bool by_area = false;      ///< facets send by their area alone
+  bool apart = false;        ///< final gathering leaves its light to its records
   glm::vec3 all{};           ///< what all of them would send
   FacetWalk walk{};          ///< at the end of the last point's part: each has an equal part of what facets send
   protocol::Flux given{};    ///< of the flux, to the points before

@@ -143,6 +143,7 @@ PointRecord point_on(const Scene& scene, const Shot& shot, const Facet& facet, f
   point.kind = protocol::RecordKind::point;
   point.number_low = static_cast<std::uint8_t>(shot.point);
   point.number_high = static_cast<std::uint8_t>(shot.point >> 8U);
+  point.flags = shot.apart ? protocol::kApart : std::uint8_t{0};
   if (shot.command.kind != protocol::ShotKind::emitted) return point;
   point.flags = protocol::kDirect;
   const std::uint32_t lamp = scene.materials[polygon.material].lamp;

@@ -210,6 +210,8 @@ enum class LayoutField : std::uint32_t {
   filter_bits,
   picture_edge,
   apart,
+  dense_shot,
+  mean_radiosity,
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(LayoutField::count)> kLayoutFieldWords = {
@@ -259,6 +261,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(LayoutFie
     "bits of the filter's places = %: at least 1 and at most %",
     "edge of the picture = %: at least 1 and at most %",
     "flux that elements keep apart: flags %",
+    "records of a dense shot: bits %, of no finite number above 0",
+    "mean radiosity: bits %, of no finite number above 0",
 };
 
 /// "" for a number that is none of the list's.

@@ -8,7 +8,7 @@
 namespace torolux::protocol {
 
 /// Raised whenever a struct or a rule in this folder changes. The NIU window carries it; both sides check.
-inline constexpr std::uint32_t kProtocolVersion = 22;
+inline constexpr std::uint32_t kProtocolVersion = 23;
 
 /// First byte of a PE's local memory, and the address at which every image starts (`_start`).
 inline constexpr std::uint32_t kLocalMemoryBase = 0x8000'0000U;

@@ -34,6 +34,10 @@ enum class RecordKind : std::uint8_t {
   answer,        ///< flux on its way back to the element that asked
 };
 
+constexpr bool is_of_gathering(RecordKind kind) {
+  return kind >= RecordKind::gather_point && kind <= RecordKind::answer;
+}
+
 /// Bits of `flags`.
 inline constexpr std::uint8_t kDirect = 1;    ///< straight from an emitter, no specular event yet
 inline constexpr std::uint8_t kFirst = 2;     ///< still in the subspace where the path segment began
@@ -41,7 +45,7 @@ inline constexpr std::uint8_t kBackSide = 4;  ///< deposit: on the back of the e
 inline constexpr std::uint8_t kShadow = 8;    ///< ray tracing: on its way from a diffuse surface to an emitter
 inline constexpr std::uint8_t kGoesOn = 64;   ///< deposit: at the owner it goes on along its origin and direction
 inline constexpr std::uint8_t kTurned =
-    128;  ///< radiosity: by mirror, glass or lobe, where final gathering cannot look
+    128;  ///< radiosity: by mirror, glass or lobe, where final gathering cannot look, or of a shot kept apart
 /// light, without kFirst: the axis (0..2) of the face through which it entered its subspace. The interval of the
 /// subspace begins at exactly that plane, so the next PE must know which one it was.
 inline constexpr std::uint32_t kEntryAxisShift = 4;
@@ -53,6 +57,8 @@ inline constexpr std::uint8_t kPartMask = 0xF0;
 inline constexpr std::uint32_t kPointParts = 8;
 /// Of a point: it is of sky and sun, through an opening (sky.hpp).
 inline constexpr std::uint8_t kSky = 2;
+/// Of a point of reflected light: final gathering leaves its shot's light to records (StageLayout::dense_shot).
+inline constexpr std::uint8_t kApart = 4;
 /// Of a point of emitted light: a measured lamp's (lamp.hpp); with kBackSide, of its back.
 inline constexpr std::uint8_t kLamp = 8;
 

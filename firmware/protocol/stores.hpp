@@ -128,9 +128,11 @@ struct PatchSide {
   Flux shot;                    ///< the part of `incident` that has been turned into shots
   Flux emission;                ///< emitted flux that has not been shot
   std::uint32_t first_element;  ///< index into the elements; Patch::elements of them
+  Vec3f shot_apart;             ///< the part of `shot` that final gathering is not to find once more, rounded
+  Vec3f emits;                  ///< radiosity [quanta per normalised area]
   std::uint32_t unused;
 };
-static_assert(sizeof(PatchSide) == 80);
+static_assert(sizeof(PatchSide) == 104);
 
 /// What of an element's flux has left it.
 struct ElementShots {
@@ -287,6 +289,11 @@ struct StageLayout {
   float points_per_quantum;       ///< of reflected light, by the greatest channel of what is shot
   std::uint32_t apart;  ///< what Element::apart has, by records' flags. kDirect: straight from emitters, so that shadow
                         ///< rays can take its place. kTurned (or both): what final gathering does not find
+  float dense_shot;  ///< final gathering: a very bright side's shot of more records per normalised area is kept apart,
+                     ///< too: rays would find what is so small and bright by luck
+  float mean_radiosity;  ///< of reflected light, about [quanta, R + G + B, per normalised area]: what is not brighter
+                         ///< is never kept apart so
+  std::uint32_t gathers_emission;  ///< 1: rays of final gathering find what emitters emit, too; 0: that comes otherwise
   // Ray tracing stage.
   Store irradiance;      ///< CornerIrradiance[]
   Store kept;            ///< KeptSurface[]
@@ -301,6 +308,6 @@ struct StageLayout {
   float least_weight;  ///< a ray whose weights are all below dies
   std::uint32_t layers;  ///< planes of the frame buffer besides the colours, as bits (plane_bit)
 };
-static_assert(sizeof(StageLayout) == 504);
+static_assert(sizeof(StageLayout) == 516);
 
 }  // namespace torolux::protocol

@@ -10,14 +10,14 @@
 #include "host_tools/cli/path_frames.hpp"
 #include "host_tools/cli/table_options.hpp"
 #include "host_tools/scene/load_scene.hpp"
-#include "host_tools/scene/vec.hpp"
+#include "host_tools/scene/surface_shares.hpp"
 
 namespace torolux {
 namespace {
 
-/// Of the scene's surface, beyond which presets choose no shadow rays: large emitters cast no sharp shadows, and what
-/// lies near to them gets very unequal shares from rays to points that are spread over them evenly.
-constexpr double kMostEmittingShare = 0.125;
+/// Of the scene's surface, beyond which presets choose no final gathering: light that mirrors, glass and lobes have
+/// turned is left to records, of which there are fewer with it.
+constexpr double kMostTurningShare = 0.01;
 
 /// Runs `take` on a text of the scene; what it refuses is the scene's fault.
 template <class Take>
@@ -61,19 +61,11 @@ Preset preset_of(const SceneDefaults& defaults) {
   return preset;
 }
 
-/// Share of the scene's surface.
-double emitting_share(const Scene& scene) {
-  double all = 0;
-  double emitting = 0;
-  for (const SceneTriangle& triangle : scene.triangles) {
-    const auto& [a, b, c] = triangle.position;
-    const Vec3d& corner = scene.positions[a];
-    const double area =
-        vec::length(vec::cross(vec::subtract(scene.positions[b], corner), vec::subtract(scene.positions[c], corner)));
-    all += area;
-    if (emits(scene.materials[triangle.material])) emitting += area;
-  }
-  return emitting / all;
+/// Whether presets have final gathering: where hardly any surface turns light, unless they are told not to.
+bool presets_gather(const GivenSettings& scenes, const GivenSettings& users, const Scene& scene) {
+  const auto given = users.get(&Quality::final_gather);
+  const auto wanted = given ? given : scenes.get(&Quality::final_gather);
+  return wanted != 0U && turning_share(scene) <= kMostTurningShare;
 }
 
 /// A preset makes the scene's own lengths shorter or longer; one that is given holds.
@@ -113,13 +105,14 @@ void take_machine(const SceneDefaults& defaults, const GivenSettings& given, Mac
 /// that is in force.
 std::string resolve_settings(const RenderOptions& options, const Scene& scene, AllSettings& settings) {
   const SceneDefaults& defaults = scene.defaults;
-  const Preset scenes_preset = preset_of(defaults);
+  const bool gather = presets_gather(defaults.given, options.given, scene);
+  const auto as_chosen = [gather](const Preset& preset) { return gather ? with_final_gathering(preset) : preset; };
+  const Preset scenes_preset = as_chosen(preset_of(defaults));
   apply(scenes_preset, settings.quality);
   defaults.given.apply_to(settings);
-  if (options.preset) change_preset(scenes_preset, *options.preset, settings.quality);
+  if (options.preset) change_preset(scenes_preset, as_chosen(*options.preset), settings.quality);
   bool& shadow_rays = settings.quality.shadow_rays;
-  if (shadow_rays && !defaults.given.has(&Quality::shadow_rays) && emitting_share(scene) > kMostEmittingShare)
-    shadow_rays = false;
+  if (shadow_rays && !defaults.given.has(&Quality::shadow_rays) && has_large_emitters(scene)) shadow_rays = false;
   settings.machine.description = resolve_description(options);
   take_scheme(settings.machine, options.given.values().machine.scheme);
   take_machine(defaults, options.given, settings.machine);

@@ -307,6 +307,10 @@ class ImageWriter {
         if (from.side[side] == protocol::kNoSide) continue;
         protocol::PatchSide patch_side{};
         patch_side.emission = patch_emission(scene_, from, side, units_);
+        for (std::size_t c = 0; c < 3; ++c) {
+          patch_side.emits[c] = static_cast<float>(static_cast<double>(patch_side.emission[c]) /
+                                                   (from.area * mesh_.space.scale * mesh_.space.scale));
+        }
         patch_side.first_element = elements;
         elements += from.elements;
         patch.side[side] = sides;

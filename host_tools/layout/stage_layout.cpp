@@ -229,6 +229,9 @@ PeLayout lay_out(const Mesh& mesh, const Placement& placement, protocol::PeNumbe
     layout.emission_points = parameters.emission_points;
     layout.points_per_quantum = parameters.points_per_quantum;
     layout.apart = parameters.apart;
+    layout.dense_shot = parameters.dense_shot;
+    layout.mean_radiosity = parameters.mean_radiosity;
+    layout.gathers_emission = parameters.gathers_emission;
   } else {
     layout.pixel_scale = parameters.pixel_scale;
     layout.least_weight = parameters.least_weight;

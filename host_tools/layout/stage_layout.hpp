@@ -22,7 +22,9 @@ struct StageParameters {
   std::uint32_t shot_points = 0;
   std::uint32_t emission_points = 0;
   float points_per_quantum = 0;
-  std::uint32_t apart = 0;  ///< as protocol::StageLayout
+  std::uint32_t apart = 0;                   ///< as protocol::StageLayout
+  float dense_shot = 0, mean_radiosity = 0;  ///< likewise
+  std::uint32_t gathers_emission = 0;        ///< likewise
   float pixel_scale = 0;
   float least_weight = 0;
   std::uint32_t emitters = 0;                       ///< that shadow rays aim at; 0: no shadow rays

@@ -24,7 +24,7 @@ class Course {
  private:
   // In units of one record of the radiosity stage.
   double of_draft_, of_radiosity_, of_rays_;
-  double all_;
+  double of_drafts_;  ///< all of them
   unsigned drafts_left_;
   bool is_draft_ = false;
   unsigned machines_ = 0;

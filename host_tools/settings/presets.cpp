@@ -36,6 +36,13 @@ std::optional<Preset> preset_named(std::string_view name) {
   return found == kPresets.end() ? std::nullopt : std::optional(*found);
 }
 
+Preset with_final_gathering(Preset preset) {
+  preset.quality.shot_points = preset.gathering.shot_points;
+  preset.quality.emission_records = preset.gathering.emission_records;
+  preset.quality.final_gather = preset.gathering.final_gather;
+  return preset;
+}
+
 void apply(const Preset& preset, Quality& quality) {
   const AllSettings from{preset.quality, {}, {}};
   AllSettings to{quality, {}, {}};

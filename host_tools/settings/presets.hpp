@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -10,10 +11,16 @@
 
 namespace torolux {
 
+/// Where elements look for light themselves, shots send fewer records.
+struct FinalGathering {
+  std::uint32_t shot_points, emission_records, final_gather;  ///< as Quality
+};
+
 struct Preset {
   std::string_view name;
   std::string_view what;
   Quality quality;  ///< of it the options that are in_presets; factors multiply what the scene says or is chosen for it
+  FinalGathering gathering;  ///< in their place in `quality`, where hardly any surface turns light
 };
 
 /// `normal` is what Quality has built in.
@@ -25,8 +32,9 @@ inline constexpr std::array<Preset, 3> kPresets{{
       .element_factor = 2,
       .shot_points = 6,
       .emission_records = 500'000,
-      .unshot = 0.02}},
-    {"normal", "the default", {}},
+      .unshot = 0.02},
+     {4, 125'000, 96}},
+    {"normal", "the default", {}, {8, 1'000'000, 512}},
     {"fine",
      "minutes: little noise, light followed into corners",
      {.samples = 128,
@@ -36,11 +44,14 @@ inline constexpr std::array<Preset, 3> kPresets{{
       .hemicube = 6,
       .shot_points = 20,
       .emission_records = 16'000'000,
-      .unshot = 0.0005}},
+      .unshot = 0.0005},
+     {10, 4'000'000, 1024}},
 }};
 
 /// Absent: there is none of this name.
 std::optional<Preset> preset_named(std::string_view name);
+
+Preset with_final_gathering(Preset preset);
 
 /// Sets all that a preset decides.
 void apply(const Preset& preset, Quality& quality);

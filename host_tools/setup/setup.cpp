@@ -13,6 +13,7 @@
 #include "host_tools/camera/pixel_samples.hpp"
 #include "host_tools/layout/lamp_tables.hpp"
 #include "host_tools/layout/sky_tables.hpp"
+#include "host_tools/scene/surface_shares.hpp"
 #include "host_tools/settings/options.hpp"
 #include "host_tools/setup/placements.hpp"
 
@@ -67,11 +68,44 @@ void choose_points(const Scene& scene, const Mesh& mesh, const Quality& quality,
   parameters.points_per_quantum = static_cast<float>(points / (kFaintestRecord * kEmittedQuanta));
 }
 
-/// Gathering rays find what surfaces reflect, straight or through panes. Emitted light they do not look for: it comes
-/// by shadow rays, or is kept as shots brought it.
-std::uint32_t apart_flags(const Quality& quality, const StageParameters& parameters) {
-  if (quality.final_gather == 0) return protocol::kDirect;
-  return parameters.emitters > 0 ? protocol::kTurned : std::uint32_t{protocol::kTurned} | protocol::kDirect;
+/// Gathering rays find what surfaces reflect, straight or through panes. Emitted light they look for only where
+/// emitters are large, and there are no shadow rays; else it comes by those, or is kept as shots brought it.
+void choose_apart(const Scene& scene, bool gathers, StageParameters& parameters) {
+  parameters.apart = protocol::kDirect;
+  if (!gathers) return;
+  const bool lamps_or_sky = parameters.lamps > 0 || parameters.sky_entries > 0;  // rays meet them by no one radiance
+  parameters.gathers_emission = parameters.emitters == 0 && !lamps_or_sky && has_large_emitters(scene) ? 1 : 0;
+  parameters.apart = protocol::kTurned;
+  if (parameters.emitters == 0 && parameters.gathers_emission == 0) parameters.apart |= protocol::kDirect;
+}
+
+double sum_of(const protocol::Flux& flux) {
+  return static_cast<double>(flux[0]) + static_cast<double>(flux[1]) + static_cast<double>(flux[2]);
+}
+
+/// dense_shot: more records on an element's area than that has rays (docs/decisions/final_gather.md). mean_radiosity:
+/// estimated as if no light escaped and all surfaces were lit alike, the ambient term of progressive refinement
+/// (M. Cohen et al., "A progressive refinement approach to fast radiosity image generation", SIGGRAPH 1988).
+void choose_dense_shots(const Scene& scene, std::uint32_t gather_rays, RenderSetup& setup) {
+  const Mesh& mesh = setup.mesh;
+  double emitted = 0;
+  for (const SkyInlet& inlet : sky_inlets(scene, mesh.space)) {
+    for (const double flux : inlet.flux) emitted += flux / setup.units.watts_per_quantum;
+  }
+  double area = 0;
+  double reflecting = 0;
+  for (const MeshPatch& patch : mesh.patches) {
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (patch.side[side] == protocol::kNoSide) continue;
+      emitted += sum_of(patch_emission(scene, patch, side, setup.units));
+      area += patch.area;
+      reflecting += patch.area * patch.mean_reflectance();
+    }
+  }
+  const double normalised = area * mesh.space.scale * mesh.space.scale;
+  const double absorbing = std::max(area - reflecting, area * 0.01);
+  setup.parameters.dense_shot = static_cast<float>(static_cast<double>(gather_rays) * mesh.elements / normalised);
+  setup.parameters.mean_radiosity = static_cast<float>(std::max(emitted * reflecting / absorbing / normalised, 1.0));
 }
 
 /// The map of the cells that each PE has is told before they are filled.
@@ -143,7 +177,8 @@ RenderSetup make_setup(const Scene& scene, const Camera& camera, const Quality& 
   if (quality.shadow_rays) {
     setup.parameters.emitters = static_cast<std::uint32_t>(emitters(scene, setup.mesh, setup.units).size());
   }
-  setup.parameters.apart = apart_flags(quality, setup.parameters);
+  choose_apart(scene, quality.final_gather > 0, setup.parameters);
+  if (quality.final_gather > 0) choose_dense_shots(scene, quality.final_gather, setup);
   setup.parameters.least_weight = kLeastWeight / static_cast<float>(quality.sample_places());
   const MachineDescription::Records& records = machine.description.records;
   setup.map = {image.stores_begin, records.niu_slots, records.credits_per_pe, records.gather_cycles,

@@ -14,11 +14,15 @@ using protocol::RayRecord;
 using protocol::RecordKind;
 
 constexpr std::array<std::string_view, 6> kNames = {"light", "point", "deposit", "ray", "shadow_ray", "gather"};
-/// Of the kinds of final gathering, and of no other.
+/// A bit that the kinds of final gathering have, and no other.
 constexpr std::uint8_t kOfGathering = 4;
-static_assert((static_cast<std::uint8_t>(RecordKind::shade) & kOfGathering) == 0 &&
-              (static_cast<std::uint8_t>(RecordKind::gather_point) & kOfGathering) != 0 &&
-              (static_cast<std::uint8_t>(RecordKind::answer) & kOfGathering) != 0);
+constexpr bool tells_gathering() {
+  for (std::uint8_t kind = 0; kind <= static_cast<std::uint8_t>(RecordKind::answer); ++kind) {
+    if (protocol::is_of_gathering(RecordKind{kind}) != ((kind & kOfGathering) != 0)) return false;
+  }
+  return true;
+}
+static_assert(tells_gathering());
 constexpr std::array<KindRule, 6> kRules = {{
     {sizeof(RadiosityRecord), offsetof(RadiosityRecord, kind), 0xFF, static_cast<std::uint8_t>(RecordKind::deposit), 2},
     {sizeof(RadiosityRecord), offsetof(RadiosityRecord, kind), 0xFF, static_cast<std::uint8_t>(RecordKind::point), 1},

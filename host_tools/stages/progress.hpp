@@ -20,6 +20,7 @@ struct RenderProgress {
   Cycles virtual_time;
   double overall = 0;                      ///< of all stages together, drafts' included, 0..1; rough
   const RunningRender* running = nullptr;  ///< for whoever looks closer; valid during the call
+  double radiosity_records = 0;            ///< as long as which the radiosity stage takes, roughly; 0: not known
 };
 
 }  // namespace torolux

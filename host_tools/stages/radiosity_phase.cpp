@@ -196,6 +196,13 @@ void RadiosityPhase::gather_or_end(HostPort& port) {
   begin_dealing(port);
 }
 
+double RadiosityPhase::gathered() const {
+  if (!gathers_ || settings_.gatherings.empty()) return 0;
+  double points = 0;
+  for (const FinalGather& of : settings_.gatherings) points += of.points;
+  return 1 - static_cast<double>(points_left_) / points;
+}
+
 void RadiosityPhase::begin_dealing(HostPort& port) {
   state_ = State::shooting;
   rounds_.back().pes = static_cast<std::uint32_t>(owners_.size());

@@ -29,6 +29,7 @@ class RadiosityPhase : public Phase {
   std::uint64_t shots() const { return shots_; }
   const std::vector<RoundFigures>& rounds() const { return rounds_; }  ///< the present one, not ended, included
   std::uint64_t credits_home() const { return credits_.home(); }
+  double gathered() const;                                  ///< part of final gathering that is dealt, 0..1
   std::int64_t unshot() const { return selected_unshot_; }  ///< [quanta, R + G + B], at the last selection
   const protocol::Flux& emitted_shot() const { return emitted_shot_; }
   const protocol::Flux& reflected_shot() const { return reflected_shot_; }

@@ -62,7 +62,16 @@ std::vector<FinalGather> gatherings(const RenderSetup& setup, std::uint32_t rays
   return all;
 }
 
+/// A ray with its share of a point and its answer takes as long as so many records (docs/decisions/final_gather.md).
+constexpr double kRecordsOfRay = 4.0 / 3;
+/// Records of all shots for each of emission. Seen in the Cornell box: 4.3.
+constexpr double kRecordsOfEmission = 4;
+
 }  // namespace
+
+double foretold_shot_records(const Quality& quality) {
+  return kRecordsOfEmission * quality.emission_records;
+}
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality) {
   const Mesh& mesh = setup.mesh;
@@ -87,6 +96,9 @@ RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setu
   settings.points_per_quantum = setup.parameters.points_per_quantum;
   settings.points_travel = setup.points_travel;
   settings.gatherings = gatherings(setup, quality.final_gather);
+  settings.shot_records = foretold_shot_records(quality);
+  for (const FinalGather& of : settings.gatherings)
+    settings.gather_records += kRecordsOfRay * of.points * protocol::hemicube_pixels(setup.parameters.hemicube);
   settings.sky = sky_shots(scene, setup);
   for (const SkyShot& shot : settings.sky) emitted += static_cast<double>(shot.enters);
   settings.emitted = emitted;

@@ -41,8 +41,13 @@ struct RadiositySettings {
   std::uint32_t shot_points = 1, emission_points = 1;          ///< as in protocol::StageLayout
   float points_per_quantum = 1;
   std::vector<FinalGather> gatherings;  ///< by global side; empty: no final gathering
+  double shot_records = 0;              ///< that all shots will make, roughly
+  double gather_records = 0;            ///< that would take as long as all rays of final gathering
   bool points_travel = true;            ///< to whoever has little work; else each is expanded by the patch's owner
 };
+
+/// That all shots of a stage make, roughly; a draft makes fewer.
+double foretold_shot_records(const Quality& quality);
 
 RadiositySettings radiosity_settings(const Scene& scene, const RenderSetup& setup, const Quality& quality);
 

@@ -247,6 +247,7 @@ RenderProgress RenderProgram::progress(Cycles now) const {
   progress.virtual_time = now;
   progress.credits_total = job_.setup.credits;
   progress.credits_home = credits_home();
+  progress.radiosity_records = std::max(1.0, job_.radiosity.shot_records + job_.radiosity.gather_records);
   // `enough_unshot` is the user's fraction of what was emitted; before the first selection nothing is shot.
   progress.unshot_fraction = 1;
   if (step_ == Step::load_radiosity || step_ == Step::load_ray_tracing) {
@@ -259,7 +260,9 @@ RenderProgress RenderProgram::progress(Cycles now) const {
     if (radiosity.shots() > 0) progress.unshot_fraction = static_cast<double>(radiosity.unshot()) / start;
     const double now_unshot = std::clamp(progress.unshot_fraction * start, target, start);
     // Unshot flux falls about exponentially.
-    progress.fraction = start > target ? std::log(start / now_unshot) / std::log(start / target) : 0;
+    const double shot = start > target ? std::log(start / now_unshot) / std::log(start / target) : 0;
+    const double gathered = radiosity.gathered() * job_.radiosity.gather_records;
+    progress.fraction = (shot * job_.radiosity.shot_records + gathered) / progress.radiosity_records;
   } else if (step_ == Step::ray_tracing) {
     const auto& rays = static_cast<const RayPhase&>(*phase_);
     progress.stage = RenderStage::ray_tracing;

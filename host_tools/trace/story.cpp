@@ -147,10 +147,7 @@ void Story::look_through(Cycles time, const RecordPacket& packet, bool comes) {
       if (of_pixel) meets_ray(time, packet, read<protocol::RayRecord>(packet.records, first), comes);
     } else if (!of_pixel && packet.record_bytes == sizeof(protocol::RadiosityRecord)) {
       const auto light = read<protocol::RadiosityRecord>(packet.records, first);
-      if (light.kind == RecordKind::gather_point || light.kind == RecordKind::gather ||
-          light.kind == RecordKind::question || light.kind == RecordKind::answer) {
-        continue;  // no light, but what looks for it
-      }
+      if (protocol::is_of_gathering(light.kind)) continue;  // no light, but what looks for it
       if (light.kind == RecordKind::point) {
         meets_point(time, packet, read<protocol::PointRecord>(packet.records, first), comes);
       } else {

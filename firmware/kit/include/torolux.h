@@ -131,7 +131,7 @@ void torolux_fail(const char* why) __attribute__((noreturn));
 /* ---- For assembler, and for drivers of one's own ---- */
 
 /** Of the NIU window: a start of one's own compares it with what stands at TOROLUX_WINDOW_PROTOCOL_VERSION. */
-#define TOROLUX_PROTOCOL_VERSION 22
+#define TOROLUX_PROTOCOL_VERSION 23
 
 /** HINTs are the 4-byte instruction `slti x0, x0, number`, executed again while the word at TOROLUX_WINDOW_RETRY is not
  * 0. Their arguments and results lie in the NIU window; which, Hint (firmware/protocol/hints.hpp) says. */

@@ -150,25 +150,56 @@ TEST(FinalGather, FindsWhatAnEvenlyLitRoomGivesOff) {
   }
 }
 
-// Directions follow the cosine: of the light of a cube's ceiling, its floor finds what the form factor between them
-// says (0.19982, of parallel unit squares at distance 1).
-TEST(FinalGather, FindsByTheFormFactor) {
+/// An evenly bright ceiling, polygons 2 and 3 of a unit cube's.
+TestScene cube() {
   TestScene scene;
   scene.apart = kTurned;
   scene.materials = {diffuse_material(kReflectance)};
   add_room(scene, {0, 0, 0}, {1, 1, 1}, 1, 0);
   for (TestPolygon& polygon : scene.polygons) polygon.element_level = 2;
-  FakeMachine machine(1);
-  begin_evenly(machine, scene, [](std::uint32_t polygon) { return polygon == 2 || polygon == 3; });
+  return scene;
+}
+
+constexpr auto kOfCeiling = [](std::uint32_t polygon) { return polygon == 2 || polygon == 3; };
+
+/// Of the first channel, what the floor's elements find; the ceiling's find nothing.
+double found_by_floor(FakeMachine& machine) {
   const Outcome all = gather_all(machine, 8);
   double floor = 0;
   for (const std::uint32_t patch : {0U, 1U}) {
     for (const Gathered& e : all.at({patch, 0})) floor += static_cast<double>(e.found[0]) / e.points;
   }
-  const double expected = 0.19982 * static_cast<double>(kReflectance) * kEven[0];
-  EXPECT_NEAR(floor, expected, 0.01 * expected);  // 32 elements, each of 384 rays that keep apart
   for (const std::uint32_t patch : {2U, 3U}) {
     for (const Gathered& e : all.at({patch, 0})) EXPECT_EQ(e.found, Flux{}) << "it does not see itself";
+  }
+  return floor;
+}
+
+// Directions follow the cosine: of the light of a cube's ceiling, its floor finds what the form factor between them
+// says (0.19982, of parallel unit squares at distance 1).
+TEST(FinalGather, FindsByTheFormFactor) {
+  FakeMachine machine(1);
+  begin_evenly(machine, cube(), kOfCeiling);
+  const double expected = 0.19982 * static_cast<double>(kReflectance) * kEven[0];
+  EXPECT_NEAR(found_by_floor(machine), expected, 0.01 * expected);  // 32 elements, each of 384 rays that keep apart
+}
+
+// Light that a ceiling emits is found likewise where rays are to look for it, and nowhere else.
+TEST(FinalGather, FindsWhatLargeEmittersEmit) {
+  for (const std::uint32_t gathers_emission : {0U, 1U}) {
+    TestScene scene = cube();
+    scene.gathers_emission = gathers_emission;
+    FakeMachine machine(1);
+    machine.load(scene, Stage::radiosity, 64, 1, [](PeStores& stores) {
+      light_evenly(stores, [](std::uint32_t) { return false; });
+      for (const protocol::Patch& patch : stores.patches) {
+        if (kOfCeiling(stores.facets[patch.first_facet].polygon)) stores.sides[patch.side[0]].emits = {1e12F, 0, 0};
+      }
+    });
+    machine.message(0, MessageKind::begin);
+    machine.run();
+    const double expected = gathers_emission * 0.19982e12;
+    EXPECT_NEAR(found_by_floor(machine), expected, 0.01 * expected);  // as above
   }
 }
 
@@ -301,6 +332,48 @@ TEST(FinalGather, LeavesTheFluxAlone) {
     EXPECT_EQ(after[s].shot, before[s].shot);
     EXPECT_EQ(after[s].emission, before[s].emission);
   }
+}
+
+/// Of all elements after each side of an evenly lit room has shot once, and all have gathered.
+struct LightOfAll {
+  double apart = 0, found = 0;
+};
+
+LightOfAll gather_after_shots(float dense_shot, float mean_radiosity) {
+  TestScene scene = closed_room(2, {3, 2, 2});
+  scene.points = 3;
+  scene.dense_shot = dense_shot;
+  scene.mean_radiosity = mean_radiosity;
+  FakeMachine machine(2);
+  begin_evenly(machine, scene, kAll);
+  std::uint32_t number = 0;
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
+    for (const protocol::Candidate& c : machine.select(p, 100, 0))
+      machine.shoot(p, {c.amount, c.patch, c.side, c.kind, number++}, 100);
+  }
+  LightOfAll all;
+  for (const auto& [place, elements] : gather_all(machine, 4)) {
+    for (const Gathered& element : elements) all.found += static_cast<double>(element.found[0]) / element.points;
+  }
+  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
+    for (const Element& element : machine.store<Element>(p, machine.stores[p].layout.elements))
+      all.apart += static_cast<double>(element.apart[0]);
+  }
+  machine.stop();
+  return all;
+}
+
+// What dense shots of bright sides have brought is kept apart, and not found once more; shots of sides that are no
+// brighter than the mean are not.
+TEST(FinalGather, LeavesDenseShotsToTheirRecords) {
+  const LightOfAll none = gather_after_shots(0x1p100F, 1);
+  EXPECT_EQ(none.apart, 0);
+  const LightOfAll dense = gather_after_shots(0x1p-40F, 1);
+  EXPECT_GT(dense.apart, none.found / 2);
+  EXPECT_NEAR(dense.apart + dense.found, none.found, 0.02 * none.found);  // some 20,000 rays, all as bright within 2
+  const LightOfAll dark = gather_after_shots(0x1p-40F, 0x1p100F);
+  EXPECT_EQ(dark.apart, 0);
+  EXPECT_EQ(dark.found, none.found);
 }
 
 /// A block in the midst of a room, its outside the backs of its polygons, and a shell of another material around it.

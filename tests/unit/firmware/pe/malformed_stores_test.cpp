@@ -79,6 +79,26 @@ TEST(Malformed, FluxKeptApartIsOneOfThree) {
   }
 }
 
+// They say which shots are kept apart, where there is final gathering.
+TEST(Malformed, DenseShotsAndMeanRadiosityAreFiniteAndAboveZero) {
+  const auto fault = [](std::uint32_t apart, float dense_shot, float mean_radiosity) {
+    TestScene scene = small_scene();
+    scene.apart = apart;
+    scene.dense_shot = dense_shot;
+    scene.mean_radiosity = mean_radiosity;
+    FakeMachine machine(1);
+    return whole_fault_of([&] { machine.begin(scene, Stage::radiosity); });
+  };
+  expect_none(fault(protocol::kTurned, 1, 1), "both are");
+  for (const float bad :
+       {0.0F, -1.0F, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    const std::string what = std::to_string(bad);
+    expect_fault(fault(protocol::kTurned, bad, 1), FaultCode::bad_layout, protocol::LayoutField::dense_shot, what);
+    expect_fault(fault(protocol::kTurned, 1, bad), FaultCode::bad_layout, protocol::LayoutField::mean_radiosity, what);
+    expect_none(fault(protocol::kDirect, bad, bad), what);
+  }
+}
+
 // Gathering divides by the area where light comes to an element.
 TEST(Malformed, LitAreasAreNeitherTooSmallNorTooLarge) {
   const auto fault = [](float area) {

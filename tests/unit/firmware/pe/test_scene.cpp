@@ -97,6 +97,9 @@ class Builder {
     l.shot_points = l.emission_points = scene_.points;
     l.points_per_quantum = scene_.points_per_quantum;
     l.apart = scene_.apart;
+    l.dense_shot = scene_.dense_shot;
+    l.mean_radiosity = scene_.mean_radiosity;
+    l.gathers_emission = scene_.gathers_emission;
     l.pixel_scale = scene_.pixel_scale;
     l.least_weight = scene_.least_weight;
     l.layers = scene_.layers;
@@ -181,7 +184,7 @@ class Builder {
       for (std::uint32_t side = 0; side < 2; ++side) {
         if ((from.sides & (1U << side)) == 0) continue;
         patch.side[side] = static_cast<std::uint32_t>(out.sides.size());
-        out.sides.push_back({{}, {}, {}, static_cast<std::uint32_t>(out.elements.size()), 0});
+        out.sides.emplace_back().first_element = static_cast<std::uint32_t>(out.elements.size());
         out.elements.resize(out.elements.size() + elements);
       }
       out.patches.push_back(patch);

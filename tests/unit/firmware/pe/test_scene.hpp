@@ -37,6 +37,9 @@ struct TestScene {
   float pixel_scale = 0x1p20F;
   float least_weight = 0;
   std::uint32_t apart = protocol::kDirect;  ///< as protocol::StageLayout
+  float dense_shot = 0x1p100F;              ///< likewise; no shot is
+  float mean_radiosity = 1;                 ///< likewise
+  std::uint32_t gathers_emission = 0;       ///< likewise
   std::uint32_t layers = 0;
   bool stop_everywhere = false;  ///< rays stop in every cell, not only where a polygon stands
   bool copy_all = false;         ///< every PE holds all of these cells

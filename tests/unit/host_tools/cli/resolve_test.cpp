@@ -262,6 +262,62 @@ TEST(Resolve, PresetsSendNoShadowRaysToLargeEmitters) {
   EXPECT_TRUE(quality_of(scene, "fine").shadow_rays) << "a tenth";
 }
 
+/// A square metre that is diffuse, and of the other material so much.
+Scene scene_with_other_surface(const SceneMaterial& other, double square_metres) {
+  Scene scene = bare_scene();
+  scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 2 * square_metres, 0}};
+  scene.materials.resize(2);
+  scene.materials[1] = other;
+  scene.triangles.resize(2);
+  scene.triangles[0].position = {0, 1, 2};
+  scene.triangles[1].position = {0, 1, 3};
+  scene.triangles[1].material = 1;
+  return scene;
+}
+
+TEST(Resolve, PresetsHaveFinalGatheringWhereHardlyAnySurfaceTurnsLight) {
+  SceneMaterial mirror;
+  mirror.kind = SurfaceKind::mirror;
+  SceneMaterial glass;
+  glass.kind = SurfaceKind::glass;
+  SceneMaterial glossy;
+  glossy.specular = {0, 0.1, 0};
+  SceneMaterial pane = glass;
+  pane.thin = true;
+  for (const auto& [name, preset] : {std::pair{"draft", kPresets[0]}, {"normal", kPresets[1]}, {"fine", kPresets[2]}}) {
+    for (const Scene& scene : {scene_with_other_surface(mirror, 0.005), scene_with_other_surface(glass, 0.005),
+                               scene_with_other_surface(glossy, 0.005), scene_with_other_surface(pane, 1)}) {
+      const Quality quality = quality_of(scene, name);
+      EXPECT_EQ(quality.final_gather, preset.gathering.final_gather);
+      EXPECT_EQ(quality.shot_points, preset.gathering.shot_points);
+      EXPECT_EQ(quality.emission_records, preset.gathering.emission_records);
+    }
+    for (const SceneMaterial& turning : {mirror, glass, glossy}) {
+      const Quality quality = quality_of(scene_with_other_surface(turning, 0.02), name);
+      EXPECT_EQ(quality.final_gather, 0U);
+      EXPECT_EQ(quality.shot_points, preset.quality.shot_points);
+      EXPECT_EQ(quality.emission_records, preset.quality.emission_records);
+    }
+  }
+}
+
+// 0 asks for a preset's own records; any other number for that and no more.
+TEST(Resolve, FinalGatheringThatIsGivenChoosesThePresetsRecords) {
+  Scene scene = scene_with_other_surface({}, 1);
+  RenderOptions options;
+  options.given.set(&Quality::final_gather, 0);
+  EXPECT_EQ(resolve(options, scene).quality.shot_points, Quality{}.shot_points);
+  options.given.set(&Quality::final_gather, 64);
+  EXPECT_EQ(resolve(options, scene).quality.final_gather, 64U);
+  EXPECT_EQ(resolve(options, scene).quality.shot_points, kPresets[1].gathering.shot_points);
+  scene.defaults.given.set(&Quality::final_gather, 0);
+  EXPECT_EQ(resolve(options, scene).quality.final_gather, 64U) << "the user outweighs the scene";
+  EXPECT_EQ(quality_of(scene, "fine").shot_points, kPresets[2].quality.shot_points);
+  EXPECT_EQ(quality_of(scene, "fine").final_gather, 0U);
+  scene.defaults.given.set(&Quality::final_gather, kPresets[1].gathering.final_gather / 4);
+  EXPECT_EQ(quality_of(scene, "fine").final_gather, kPresets[2].gathering.final_gather / 4);
+}
+
 // Clusters are not refined, so they do not grow with elements that are; a length that is given is theirs, too.
 TEST(Resolve, ClustersAreAsFineAsPatches) {
   EXPECT_EQ(quality_of(bare_scene(), "normal").cluster_factor, 1.0);

@@ -53,16 +53,19 @@ Quality small_quality() {
   return quality;
 }
 
-// Of one machine after the other: it never falls, begins at nothing and ends with all.
+// Of one machine after the other: it never falls, begins at nothing and ends with all; also where the radiosity stage
+// turns out to take far longer (radiosity_records).
 TEST(Progress, TheWholeNeverFalls) {
-  for (const double refine : {0.0, 1.0}) {
+  for (const auto& [refine, radiosity_records] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1e6}, {1.0, 1e6}}) {
     for (const bool given : {false, true}) {
       Quality quality = small_quality();
       quality.refine = refine;
       Course course(quality, given);
       double last = 0;
-      const auto look = [&](RenderStage stage, double fraction) {
-        const double share = course.share({stage, fraction, 0, 0, 0, 0});
+      const auto look = [&, records = radiosity_records](RenderStage stage, double fraction) {
+        RenderProgress progress{stage, fraction, 0, 0, 0, 0};
+        progress.radiosity_records = records;
+        const double share = course.share(progress);
         EXPECT_GE(share, last);
         EXPECT_LE(share, 1);
         last = share;

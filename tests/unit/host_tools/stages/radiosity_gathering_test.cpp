@@ -36,9 +36,12 @@ TEST(RadiosityPhase, GathersWhenNothingIsLeftToShoot) {
   RadiosityPhase phase(gathering_settings());
   phase.start(port);
   port.take();
+  EXPECT_EQ(phase.gathered(), 0) << "not begun";
   offer_nothing(phase, port);
   EXPECT_FALSE(phase.done());
+  EXPECT_LT(phase.gathered(), 1);
   expect_gatherings(finish_round(phase, port));
+  EXPECT_EQ(phase.gathered(), 1);
   EXPECT_TRUE(phase.done());
   ASSERT_EQ(phase.rounds().size(), 1U);
   EXPECT_EQ(phase.rounds().back().shooters, 2U);
