@@ -61,11 +61,15 @@ Preset preset_of(const SceneDefaults& defaults) {
   return preset;
 }
 
-/// Whether presets have final gathering: where hardly any surface turns light, unless they are told not to.
+/// Whether presets have final gathering: where hardly any surface turns light, unless they are told not to, or only so
+/// many shots are wanted as make a first look.
 bool presets_gather(const GivenSettings& scenes, const GivenSettings& users, const Scene& scene) {
-  const auto given = users.get(&Quality::final_gather);
-  const auto wanted = given ? given : scenes.get(&Quality::final_gather);
-  return wanted != 0U && turning_share(scene) <= kMostTurningShare;
+  const auto given = [&](auto member) {
+    const auto by_user = users.get(member);
+    return by_user ? by_user : scenes.get(member);
+  };
+  if (given(&Quality::final_gather) == 0U || given(&Quality::max_shots).value_or(0) > 0) return false;
+  return turning_share(scene) <= kMostTurningShare;
 }
 
 /// A preset makes the scene's own lengths shorter or longer; one that is given holds.

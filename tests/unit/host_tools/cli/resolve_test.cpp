@@ -198,7 +198,7 @@ Quality quality_of(const Scene& scene, const char* preset) {
 TEST(Resolve, APresetIsAllThatABareSceneGets) {
   for (const Preset& preset : kPresets) {
     Quality should;
-    apply(preset, should);
+    apply(with_final_gathering(preset), should);
     const Quality is = quality_of(bare_scene(), preset.name.data());
     EXPECT_EQ(is.samples, should.samples);
     EXPECT_EQ(is.hemicube, should.hemicube);
@@ -316,6 +316,21 @@ TEST(Resolve, FinalGatheringThatIsGivenChoosesThePresetsRecords) {
   EXPECT_EQ(quality_of(scene, "fine").final_gather, 0U);
   scene.defaults.given.set(&Quality::final_gather, kPresets[1].gathering.final_gather / 4);
   EXPECT_EQ(quality_of(scene, "fine").final_gather, kPresets[2].gathering.final_gather / 4);
+}
+
+// Who wants so many shots and no more looks at what they bring.
+TEST(Resolve, PresetsGatherNothingBehindAFewShots) {
+  Scene scene = scene_with_other_surface({}, 1);
+  RenderOptions options;
+  options.given.set(&Quality::max_shots, 10);
+  EXPECT_EQ(resolve(options, scene).quality.final_gather, 0U);
+  options.given.set(&Quality::final_gather, 48);
+  EXPECT_EQ(resolve(options, scene).quality.final_gather, 48U) << "asked for";
+  scene.defaults.given.set(&Quality::max_shots, 10);
+  EXPECT_EQ(quality_of(scene, "fine").final_gather, 0U);
+  RenderOptions no_limit;
+  no_limit.given.set(&Quality::max_shots, 0);
+  EXPECT_EQ(resolve(no_limit, scene).quality.final_gather, kPresets[1].gathering.final_gather);
 }
 
 // Clusters are not refined, so they do not grow with elements that are; a length that is given is theirs, too.
