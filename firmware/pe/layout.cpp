@@ -62,8 +62,9 @@ void check_radiosity(Niu& niu, const StageLayout& l) {
                      l.apart == (std::uint32_t{protocol::kDirect} | protocol::kTurned);
   require(niu, apart, LayoutField::apart, l.apart);
   if (!gathers(l)) return;
-  require(niu, finite_positive(l.dense_shot), LayoutField::dense_shot, bits(l.dense_shot));
-  require(niu, finite_positive(l.mean_radiosity), LayoutField::mean_radiosity, bits(l.mean_radiosity));
+  require(niu, finite_positive(l.dense_shot), LayoutField::dense_shot, static_cast<std::uint32_t>(bits(l.dense_shot)));
+  require(niu, finite_positive(l.mean_radiosity), LayoutField::mean_radiosity,
+          static_cast<std::uint32_t>(bits(l.mean_radiosity)));
 }
 
 /// What tells a sample's place in the picture, whoever makes its ray.
