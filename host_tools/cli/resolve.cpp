@@ -61,15 +61,17 @@ Preset preset_of(const SceneDefaults& defaults) {
   return preset;
 }
 
-/// Whether presets have final gathering: where hardly any surface turns light, unless they are told not to, or only so
-/// many shots are wanted as make a first look.
+/// Whether presets have final gathering: where hardly any surface turns light. Who says how many records or shots there
+/// are to be, or that elements are not to gather, has a preset without.
 bool presets_gather(const GivenSettings& scenes, const GivenSettings& users, const Scene& scene) {
   const auto given = [&](auto member) {
     const auto by_user = users.get(member);
     return by_user ? by_user : scenes.get(member);
   };
-  if (given(&Quality::final_gather) == 0U || given(&Quality::max_shots).value_or(0) > 0) return false;
-  return turning_share(scene) <= kMostTurningShare;
+  const bool shots_given =
+      given(&Quality::shot_points) || given(&Quality::emission_records) || given(&Quality::max_shots).value_or(0) > 0;
+  const bool wanted = given(&Quality::final_gather).value_or(shots_given ? 0 : 1) != 0;
+  return wanted && turning_share(scene) <= kMostTurningShare;
 }
 
 /// A preset makes the scene's own lengths shorter or longer; one that is given holds.

@@ -13,7 +13,8 @@ namespace torolux {
 
 /// Where elements look for light themselves, shots send fewer records.
 struct FinalGathering {
-  std::uint32_t shot_points, emission_records, final_gather;  ///< as Quality
+  std::uint32_t shot_points, emission_records,
+      final_gather;  ///< as Quality; 0 rays: so many records that they win nothing
 };
 
 struct Preset {
@@ -45,7 +46,7 @@ inline constexpr std::array<Preset, 3> kPresets{{
       .shot_points = 20,
       .emission_records = 16'000'000,
       .unshot = 0.0005},
-     {10, 4'000'000, 1024}},
+     {20, 16'000'000, 0}},
 }};
 
 /// Absent: there is none of this name.

@@ -36,7 +36,7 @@ inline constexpr std::array<Setting, 6> kSettings = {{
     {"good",
      "",
      {.samples = 64, .patch_factor = 0.7, .refine = 0.25, .emission_records = 8'000'000, .unshot = 0.001},
-     {8, 2'000'000, 768}},
+     {16, 8'000'000, 0}},
     kPresets[2],
 }};
 

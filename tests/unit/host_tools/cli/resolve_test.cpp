@@ -312,22 +312,26 @@ TEST(Resolve, FinalGatheringThatIsGivenChoosesThePresetsRecords) {
   EXPECT_EQ(resolve(options, scene).quality.shot_points, kPresets[1].gathering.shot_points);
   scene.defaults.given.set(&Quality::final_gather, 0);
   EXPECT_EQ(resolve(options, scene).quality.final_gather, 64U) << "the user outweighs the scene";
-  EXPECT_EQ(quality_of(scene, "fine").shot_points, kPresets[2].quality.shot_points);
-  EXPECT_EQ(quality_of(scene, "fine").final_gather, 0U);
+  EXPECT_EQ(quality_of(scene, "draft").shot_points, kPresets[0].quality.shot_points);
+  EXPECT_EQ(quality_of(scene, "draft").final_gather, 0U);
   scene.defaults.given.set(&Quality::final_gather, kPresets[1].gathering.final_gather / 4);
-  EXPECT_EQ(quality_of(scene, "fine").final_gather, kPresets[2].gathering.final_gather / 4);
+  EXPECT_EQ(quality_of(scene, "draft").final_gather, kPresets[0].gathering.final_gather / 4);
 }
 
-// Who wants so many shots and no more looks at what they bring.
-TEST(Resolve, PresetsGatherNothingBehindAFewShots) {
-  Scene scene = scene_with_other_surface({}, 1);
-  RenderOptions options;
-  options.given.set(&Quality::max_shots, 10);
-  EXPECT_EQ(resolve(options, scene).quality.final_gather, 0U);
-  options.given.set(&Quality::final_gather, 48);
-  EXPECT_EQ(resolve(options, scene).quality.final_gather, 48U) << "asked for";
-  scene.defaults.given.set(&Quality::max_shots, 10);
-  EXPECT_EQ(quality_of(scene, "fine").final_gather, 0U);
+// Who wants so many shots, or so many records of each, looks at what they bring.
+TEST(Resolve, PresetsGatherNothingBehindShotsThatAreGiven) {
+  for (const auto member : {&Quality::max_shots, &Quality::shot_points, &Quality::emission_records}) {
+    Scene scene = scene_with_other_surface({}, 1);
+    RenderOptions options;
+    options.given.set(member, 10);
+    EXPECT_EQ(resolve(options, scene).quality.final_gather, 0U);
+    EXPECT_EQ(resolve(options, scene).quality.hemicube, Quality{}.hemicube);
+    options.given.set(&Quality::final_gather, 48);
+    EXPECT_EQ(resolve(options, scene).quality.final_gather, 48U) << "asked for";
+    scene.defaults.given.set(member, 10);
+    EXPECT_EQ(quality_of(scene, "draft").final_gather, 0U);
+  }
+  const Scene scene = scene_with_other_surface({}, 1);
   RenderOptions no_limit;
   no_limit.given.set(&Quality::max_shots, 0);
   EXPECT_EQ(resolve(no_limit, scene).quality.final_gather, kPresets[1].gathering.final_gather);
