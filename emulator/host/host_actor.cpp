@@ -91,7 +91,7 @@ void HostActor::queue_for(std::uint16_t destination, BlockIndex index) {
 
 void HostActor::start(HostClient& client) {
   client_ = &client;
-  program_->start(*this);
+  in_program([this] { program_->start(*this); });
 }
 
 void HostActor::go_on_with(HostProgram& program, Cycles now) {
@@ -132,7 +132,7 @@ void HostActor::step() {
 
 void HostActor::tell_program(const Block& block) {
   if (block.source != protocol::kHost) {
-    program_->on_message(*this, block.source, block.message_kind, block.payload());
+    in_program([&] { program_->on_message(*this, block.source, block.message_kind, block.payload()); });
     ++messages_read_;
     return;
   }
@@ -140,7 +140,7 @@ void HostActor::tell_program(const Block& block) {
   std::memcpy(&read, block.payload().data(), sizeof read);
   std::array<PixelSums, kMostPixelsRead> sums{};
   std::memcpy(sums.data(), &block.payload()[sizeof read], read.count * sizeof(PixelSums));
-  program_->on_pixels(*this, read, std::span(sums).first(read.count));
+  in_program([&] { program_->on_pixels(*this, read, std::span(sums).first(read.count)); });
 }
 
 bool HostActor::is_barrier(BlockIndex block) const {

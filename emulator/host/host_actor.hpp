@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "emulator/clock_seconds.hpp"
 #include "emulator/description/description.hpp"
 #include "emulator/host/host_clock.hpp"
 #include "emulator/host/host_program.hpp"
@@ -88,6 +89,7 @@ class HostActor final : public HostPort {
   /// Broadcasts and reads, and what waits for them.
   std::size_t waiting_for_all() const { return behind_.size(); }
   const HostClock& clock() const { return clock_; }
+  double program_seconds() const { return program_seconds_; }  ///< wall time that the program took
   std::uint64_t records_diverted(unsigned pe) const { return lines_[pe].diverted; }
   /// All of it that a run changes; not the program's own.
   template <class Archive>
@@ -115,6 +117,13 @@ class HostActor final : public HostPort {
   bool reads_next() const { return pool_[behind_.front()].destination == protocol::kFrameBuffer; }
   bool is_barrier(BlockIndex block) const;
   void tell_program(const Block& block);
+  /// Calls it, and counts the time.
+  template <class Call>
+  void in_program(Call call) {
+    const double begin = clock_seconds(CLOCK_MONOTONIC);
+    call();
+    program_seconds_ += clock_seconds(CLOCK_MONOTONIC) - begin;
+  }
   BlockIndex take_broadcast();
   void use_control_buffer(Line& line);
   void update(unsigned pe);
@@ -137,6 +146,7 @@ class HostActor final : public HostPort {
   std::deque<BlockIndex> inbox_;
   bool stepping_ = false;  // a host_step is scheduled
   std::uint64_t messages_read_ = 0;
+  double program_seconds_ = 0;
   std::uint32_t numbers_ = 0;
   unsigned next_pe_ = 0;  // round robin
 };

@@ -66,6 +66,8 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   Cycles now() const { return now_; }
   /// Time that the calling thread has slept for PEs [s of wall time].
   double slept_seconds() const { return slept_; }
+  /// Time in the host's program [s of wall time].
+  double program_seconds() const { return host_.program_seconds(); }
   /// A number that depends on every event so far: equal runs have equal ones.
   std::uint64_t trace_hash() const { return trace_hash_; }
 

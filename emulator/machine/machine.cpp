@@ -27,12 +27,6 @@ namespace {
 /// The calls of `progress` need not be further apart than asked for because one came a little early.
 constexpr double kEarly = 0.95;
 
-double clock_seconds(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 /// CPU time of ended child processes [s].
 double children_seconds() {
   rusage usage{};
@@ -85,11 +79,14 @@ struct Machine::Parts {
 
   void fill_in_figures() { emulation->fill_in(figures); }
   /// The emulator's own CPU time is the calling thread's, but for PEs that it ran; all other is the engine's. A clock
-  /// of CPU time is too slow to be read each time: of what the thread had, PEs had the same share as of wall time.
+  /// of CPU time is too slow to be read each time: of what the thread had, PEs and the host's program had the same
+  /// shares as of wall time.
   void measure(MachineFigures& out) const {
     const double awake = clock_seconds(CLOCK_MONOTONIC) - begin_wall - emulation->slept_seconds();
     const double own_share = awake > 0 ? std::max(0.0, 1 - engine->help_seconds() / awake) : 1;
-    out.scheduler_seconds = own_share * (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler);
+    const double of_thread = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin_scheduler;
+    out.scheduler_seconds = own_share * of_thread;
+    out.program_seconds = awake > 0 ? emulation->program_seconds() / awake * of_thread : 0;
     out.engine_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_process - out.scheduler_seconds +
                          children_seconds() - begin_children + engine->seconds_elsewhere();
   }

@@ -124,6 +124,7 @@ struct MachineFigures {
   Cycles frame_buffer_message_cycles = 0;     ///< summed over messages: in the queue or being added
   std::uint64_t pixels_added = 0;
   double scheduler_seconds = 0;      ///< host CPU time that the emulator itself used
+  double program_seconds = 0;        ///< of it, of the host's program
   double engine_seconds = 0;         ///< host CPU time of the engine (all its processes or threads)
   TimeLineFigures time_line;         ///< of a run
   std::vector<StageFigures> stages;  ///< of a run: stages of the host's program, one behind the other

@@ -2,9 +2,9 @@
 // Virtual time: which event may happen, when to wait for which PE, and what it means if nothing can happen any more.
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <thread>
 
+#include "emulator/clock_seconds.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/machine/emulation.hpp"
 #include "emulator/pause.hpp"
@@ -22,12 +22,6 @@ constexpr std::uint32_t kHelpEvents = 256;
 /// Looks at a PE that is about to get there before the scheduler sleeps.
 constexpr int kLooks = 50;
 
-double wall_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E37'79B9'7F4A'7C15U;
   return hash ^ (hash >> 29U);
@@ -37,7 +31,7 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
 
 void Emulation::attend_now_and_then() {
   until_attend_ = kAttendEvents;
-  const double seconds = wall_seconds();
+  const double seconds = clock_seconds(CLOCK_MONOTONIC);
   if (seconds - last_attended_ < attend_seconds_) return;
   last_attended_ = seconds;
   if (attend_) attend_(now_);
@@ -63,9 +57,9 @@ void Emulation::await(unsigned pe, Cycles wanted) {
     if (niu.refresh(events_, pool_, times_)) return;
     torolux::pause();
   }
-  const double begin = wall_seconds();
+  const double begin = clock_seconds(CLOCK_MONOTONIC);
   niu.sleep_until_bound(wanted);
-  slept_ += wall_seconds() - begin;
+  slept_ += clock_seconds(CLOCK_MONOTONIC) - begin;
   attend_now_and_then();
 }
 

@@ -11,6 +11,7 @@ namespace torolux {
 
 struct EmulatorCost {
   double scheduler_seconds = 0;  ///< host CPU time of the one thread that handles all events, without PEs that it ran
+  double program_seconds = 0;    ///< of it, of the host's program
   double pe_seconds = 0;         ///< host CPU time of the PEs
   double wall_seconds = 0;
   std::uint64_t packets = 0;  ///< on the torus
@@ -18,6 +19,7 @@ struct EmulatorCost {
 
   /// Of all host CPU time.
   double share() const { return scheduler_seconds / (scheduler_seconds + pe_seconds); }
+  double program_share() const { return program_seconds / (scheduler_seconds + pe_seconds); }
 };
 
 /// job.repetitions times; that with the least CPU time of the emulator counts. Throws as render does; progress as by

@@ -156,8 +156,8 @@ void print_cost(const std::string& pes, const EmulatorCost& cost) {
   const double links = static_cast<double>(cost.hops) / std::max(1.0, static_cast<double>(cost.packets));
   std::cout << left("  " + pes + " PEs", kLabel) << right(significant(cost.scheduler_seconds, 4), 10)
             << right(significant(cost.pe_seconds, 4), 10) << right(percent(cost.share()), 9)
-            << right(grouped(cost.packets), 14) << right(significant(links, 3), 8)
-            << right(significant(nanoseconds, 4), 13) << "\n"
+            << right(percent(cost.program_share()), 10) << right(grouped(cost.packets), 14)
+            << right(significant(links, 3), 8) << right(significant(nanoseconds, 4), 13) << "\n"
             << std::flush;
 }
 
@@ -177,7 +177,7 @@ int run_for_each_size(const BenchOptions& options, const char* heading, Measure 
 }
 
 int run_bench_emulator(const BenchOptions& options) {
-  return run_for_each_size(options, "emulator s     PEs s    share       packets   links  ns a packet",
+  return run_for_each_size(options, "emulator s     PEs s    share   program       packets   links  ns a packet",
                            [](const RenderBenchJob& job, const std::string& pes) {
                              const EmulatorCost cost = bench_emulator(job, go_on);
                              if (!interrupted()) print_cost(pes, cost);

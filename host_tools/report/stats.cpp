@@ -81,6 +81,7 @@ std::string stats_json(const RunDescription& run, const RenderFigures& figures) 
   json["wall_seconds"] = figures.wall_seconds;
   json["host"] = {{"threads", run.machine.threads},
                   {"scheduler_seconds", machine.scheduler_seconds},
+                  {"program_seconds", machine.program_seconds},
                   {"engine_seconds", machine.engine_seconds}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -102,6 +102,7 @@ std::string run_stats_json(const MachineSetup& setup, const ProgramFiles& inputs
   json["wall_seconds"] = wall_seconds;
   json["host"] = {{"threads", setup.threads},
                   {"scheduler_seconds", figures.scheduler_seconds},
+                  {"program_seconds", figures.program_seconds},
                   {"engine_seconds", figures.engine_seconds}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

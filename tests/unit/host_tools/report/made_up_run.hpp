@@ -46,6 +46,7 @@ inline RenderFigures made_up_figures() {
   machine.frame_buffer_busy_cycles = 79;
   machine.pixels_added = 80;
   machine.scheduler_seconds = 1.5;
+  machine.program_seconds = 0.5;
   machine.engine_seconds = 160.25;
   machine.pes.resize(2);
   PeFigures& first = machine.pes[0];

@@ -57,6 +57,7 @@ TEST(Stats, DependOnTheComputerInTwoPlacesOnly) {
   run.machine.threads = 1;
   figures.wall_seconds = 1;
   figures.machine.scheduler_seconds = 2;
+  figures.machine.program_seconds = 1;
   figures.machine.engine_seconds = 3;
   json after = json::parse(stats_json(run, figures));
   EXPECT_NE(before, after);
