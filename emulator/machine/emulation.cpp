@@ -64,6 +64,7 @@ Emulation::Emulation(const MachineSetup& setup, const std::vector<NiuChannel*>& 
   cycles_per_pixel_ = setup.description.frame_buffer.cycles_per_pixel;
   events_.watch(this);
   torus_.watch_hops(setup.hop_watcher);
+  if (setup.watcher != nullptr || setup.until != 0) torus_.keep_to_time();
   for (const std::string_view name : program.record_kinds()) kinds_.push_back({std::string(name)});
   lend_to_near_pes();
   stages_.push_back({"run", network_figures(0)});
@@ -89,6 +90,7 @@ void Emulation::handle(const Event& event) {
       command(event.actor, PendingCommand(event, pool_));
       break;
     case EventKind::arrive:
+    case EventKind::advanced:
     case EventKind::head:
     case EventKind::tail:
     case EventKind::line:

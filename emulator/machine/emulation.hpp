@@ -86,7 +86,7 @@ class Emulation final : private TorusClient, private BusClient, private HostClie
   void note(HostGauge gauge, double value) override;
   void note_host_busy();
   void count_kinds(const Block& block);
-  MachineFigures network_figures(Cycles now) const;
+  MachineFigures network_figures(Cycles now);
   void fill_in_stages(MachineFigures& all, unsigned pe, const ProcessorMark& end) const;
   template <class Archive>
   void archive(Archive& archive);

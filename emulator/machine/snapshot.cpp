@@ -61,6 +61,7 @@ void Emulation::let_go() {
 }
 
 void Emulation::save(SnapshotWriter& archive) {
+  torus_.settle(now_);
   this->archive(archive);
 }
 

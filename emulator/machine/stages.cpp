@@ -183,7 +183,7 @@ void Emulation::note_host_busy() {
 }
 
 /// What the network's side has counted up to now.
-MachineFigures Emulation::network_figures(Cycles now) const {
+MachineFigures Emulation::network_figures(Cycles now) {
   MachineFigures figures;
   figures.now = now;
   figures.pes.resize(pes_);

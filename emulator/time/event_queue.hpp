@@ -17,6 +17,7 @@ using Cycles = std::uint64_t;  ///< virtual time
 enum class EventKind : std::uint8_t {
   command,        ///< actor: PE, port, block: PendingCommand. It takes effect
   arrive,         ///< actor: router, port: input, block: a packet's head has come
+  advanced,       ///< actor: router, port: input, block: Advance. The same of one that has gone ahead without events
   head,           ///< actor: router, port: input. Its next packet may ask for an output
   tail,           ///< actor: router, port: input, block: the tail of a packet with a bad CRC has come
   line,           ///< actor: first router of a ring, port: output, block: 1 raised, 0 not; all of the ring see it
@@ -34,6 +35,11 @@ enum class EventKind : std::uint8_t {
   host_step,      ///< the host takes its next message
   pixels_done,    ///< the frame buffer controller has added a message's pixels
 };
+
+/// Whether it tells how a packet travels: what comes of that are its deliveries.
+constexpr bool is_inside_torus(EventKind kind) {
+  return kind >= EventKind::arrive && kind <= EventKind::arbitrate;
+}
 
 struct Event {
   Cycles time;

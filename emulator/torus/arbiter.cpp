@@ -75,8 +75,9 @@ void Torus::look_for_starving(unsigned router, std::size_t output, Cycles now) {
     out.starving = static_cast<std::uint8_t>(input);
   }
   if (out.starving == kNobody) return;
-  out.may_enter = buffer_;
+  out.may_enter = static_cast<std::uint16_t>(buffer_);
   lines_.begin(router, static_cast<Port>(output), now);
+  settle(now);  // who goes ahead into a ring may be held back by then
 }
 
 void Torus::cease_starving(unsigned router, std::size_t output, Cycles now) {
@@ -102,7 +103,7 @@ void Torus::grant(Router& here, unsigned router, std::size_t input, std::size_t 
   withdraw(here, router, input, output, now);
   if (out.stalled_at != kNotYet) here.seldom[output].stalled += now - out.stalled_at;
   out.stalled_at = kNotYet;
-  out.next_input = static_cast<std::uint8_t>(input + 1 == kPorts ? 0 : input + 1);
+  out.next_input = after(input);
   in.free_at = tail;
   if (input == index_of(Port::local)) {
     LinkFigures& figures = here.injection;
@@ -153,21 +154,10 @@ inline Cycles Torus::send(Output& out, unsigned router, std::size_t output, Bloc
   ++out.packets;
   out.flits += block.flits;
   if (hop_watcher_ != nullptr) hop_watcher_->leaves(router, output, block, start, start + hop_cycles_);
+  if (may_advance_ && advance(out, router, output, index, start)) return start + block.flits;
   events_.push(start + hop_cycles_, source(router), EventKind::arrive, static_cast<std::uint16_t>(next),
                static_cast<std::uint8_t>(input), index);
   return start + block.flits;
-}
-
-/// The output that it will ask for at the next router, and what is needed there a few events from now, fetched into the
-/// caches meanwhile.
-inline void Torus::look_ahead(unsigned next, std::size_t input, Block& block) {
-  const Port port = shape_.route(places_[next], places_[block.destination]);
-  block.output = static_cast<std::uint8_t>(port);
-  Router& there = routers_[next];
-  __builtin_prefetch(&there.inputs[input], 1);
-  __builtin_prefetch(&there.outputs[index_of(port)], 1);
-  if (port == Port::local) return client_.coming(next);
-  __builtin_prefetch(&return_time(next, index_of(port), 0), 1);
 }
 
 /// A copy that is not good: at the other end its head goes on like any, until its tail shows what it is.

@@ -27,6 +27,8 @@ class RingLines {
 
   /// Whether the line of the ring that this output belongs to is seen to be raised.
   bool seen(unsigned router, Port output) const { return raised_ != 0 && lines_[line(router, output)].seen; }
+  /// Whether none is seen to be raised, or will be for what has happened so far.
+  bool quiet() const { return raised_ == 0 && on_their_way_ == 0; }
   void begin(unsigned router, Port output, Cycles now) {
     if (lines_[line(router, output)].starving++ == 0) tell(router, output, true, now);
   }
@@ -35,6 +37,7 @@ class RingLines {
   }
   /// Kind line. Returns whether it is raised.
   bool handle(const Event& event) {
+    --on_their_way_;
     lines_[line(event.actor, static_cast<Port>(event.port))].seen = event.block != 0;
     count_raised();
     return event.block != 0;
@@ -42,7 +45,7 @@ class RingLines {
   /// All of it that a run changes.
   template <class Archive>
   void archive(Archive& archive) {
-    archive(lines_);
+    archive(lines_, on_their_way_);
     count_raised();
   }
 
@@ -61,6 +64,7 @@ class RingLines {
   void tell(unsigned router, Port output, bool raised, Cycles now) {
     const unsigned first = along_x(output) ? router / shape_.columns() * shape_.columns() : router % shape_.columns();
     const Cycles around = Cycles{link_cycles_} * (along_x(output) ? shape_.columns() : shape_.rows());
+    ++on_their_way_;
     // One source for each ring, so that changes of one cycle arrive in the order in which they were made.
     events_.push(now + around, first_source_ + first, EventKind::line, static_cast<std::uint16_t>(first),
                  static_cast<std::uint8_t>(output), raised ? 1 : 0);
@@ -71,7 +75,8 @@ class RingLines {
   EventQueue& events_;
   std::uint32_t first_source_;
   std::vector<Line> lines_;
-  std::ptrdiff_t raised_ = 0;  // lines seen to be; mostly none, and which is whose need not be worked out
+  std::uint64_t on_their_way_ = 0;  // changes that are not seen yet
+  std::ptrdiff_t raised_ = 0;       // lines seen to be; mostly none, and which is whose need not be worked out
 };
 
 }  // namespace torolux

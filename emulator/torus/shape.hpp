@@ -64,6 +64,11 @@ class TorusShape {
     if (from.y != to.y) return step(from.y, to.y, rows_) ? Port::south : Port::north;
     return Port::local;
   }
+  /// The same for one that has come there by this output of the router before: it goes on as long as it has to.
+  Port route_on(Port output, Place from, Place to) const {
+    const bool along_x = output == Port::east || output == Port::west;
+    return (along_x ? from.x != to.x : from.y != to.y) ? output : route(from, to);
+  }
   Port route(unsigned router, unsigned destination) const { return route(place(router), place(destination)); }
 
   /// Links between two PEs.

@@ -27,12 +27,13 @@ Torus::Torus(TorusShape shape, const MachineDescription::Torus& parameters, cons
       routers_(shape.routers()),
       neighbours_(shape.routers()),
       places_(shape.routers()),
-      return_times_(std::size_t{shape.routers()} * kLinks * buffer_) {
+      return_times_(std::size_t{shape.routers()} * kLinks * buffer_),
+      may_advance_(parameters.link_error_rate == 0 && jitter.none()) {
   for (unsigned router = 0; router < shape.routers(); ++router) {
     places_[router] = shape.place(router);
     for (std::size_t port = 0; port < kLinks; ++port) {
       neighbours_[router][port] = static_cast<std::uint16_t>(shape.neighbour(router, static_cast<Port>(port)));
-      routers_[router].outputs[port].slots = buffer_;
+      routers_[router].outputs[port].slots = static_cast<std::uint16_t>(buffer_);
     }
   }
   packet_figures_.by_hops.resize(shape.diameter() + 1);
@@ -42,7 +43,9 @@ Torus::Torus(TorusShape shape, const MachineDescription::Torus& parameters, cons
 void Torus::handle(const Event& event) {
   switch (event.kind) {
     case EventKind::arrive:
-      return arrive(event);
+      return arrive(event.actor, event.port, event.block, event.time);
+    case EventKind::advanced:
+      return end_advance(event);
     case EventKind::head: {
       const Input& input = routers_[event.actor].inputs[event.port];
       // What it was for may have been dropped; what came after that asks by itself.
@@ -79,11 +82,11 @@ void Torus::inject(unsigned pe, BlockIndex block, Cycles now) {
   if (input.queue.size() == 1) head(pe, index_of(Port::local), now);
 }
 
-void Torus::arrive(const Event& event) {
-  Input& input = routers_[event.actor].inputs[event.port];
-  input.queue.push(pool_, event.block);
+void Torus::arrive(unsigned router, std::size_t port, BlockIndex block, Cycles now) {
+  Input& input = routers_[router].inputs[port];
+  input.queue.push(pool_, block);
   input.high_water = std::max(input.high_water, input.queue.size());
-  if (input.queue.size() == 1) head(event.actor, event.port, event.time);
+  if (input.queue.size() == 1) head(router, port, now);
 }
 
 /// The tail of a copy with a bad CRC has come. Is the copy still here, then it is dropped; else it is on its way,

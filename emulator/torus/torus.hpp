@@ -12,6 +12,7 @@
 #include "emulator/description/description.hpp"
 #include "emulator/time/event_queue.hpp"
 #include "emulator/time/jitter.hpp"
+#include "emulator/torus/advance.hpp"
 #include "emulator/torus/block.hpp"
 #include "emulator/torus/figures.hpp"
 #include "emulator/torus/hop_watcher.hpp"
@@ -52,7 +53,15 @@ class Torus {
 
   const TorusShape& shape() const { return shape_; }
   /// Null: nobody follows packets. Outlives this.
-  void watch_hops(HopWatcher* watcher) { hop_watcher_ = watcher; }
+  void watch_hops(HopWatcher* watcher) {
+    hop_watcher_ = watcher;
+    if (watcher != nullptr) keep_to_time();
+  }
+  /// Each hop is an event from now on: for who looks at links in between. What happens at the PEs is the same.
+  void keep_to_time() { may_advance_ = false; }
+  /// Packets that have gone ahead of time are where they are before the arbitrations of `now`. New events may come of
+  /// it, from `now` on.
+  void settle(Cycles now);
   std::uint32_t flits(std::uint32_t bytes) const { return flits_of(bytes, flit_bytes_); }
   /// Appends a packet (destination, flits, number set) to the outgoing queue of a PE. The limit on it is the NIU's.
   void inject(unsigned pe, BlockIndex block, Cycles now);
@@ -64,7 +73,7 @@ class Torus {
   }
   /// The NIU has become able to accept more.
   void try_ejection(unsigned pe, Cycles now) { ask(pe, index_of(Port::local), now); }
-  /// Kinds arrive, head, tail, line, arbitrate.
+  /// Kinds arrive, advanced, head, tail, line, arbitrate.
   void handle(const Event& event);
 
   std::uint64_t link_retries() const { return faults_.retries(); }
@@ -78,8 +87,8 @@ class Torus {
   }
   /// Granted to an outgoing link so far, as in LinkFigures.
   std::uint64_t link_flits(unsigned router, std::size_t port) const { return routers_[router].outputs[port].flits; }
-  /// Of each router; what lasts still counts up to `now`.
-  std::vector<RouterFigures> router_figures(Cycles now) const;
+  /// Of each router; what lasts still counts up to `now`. Settles.
+  std::vector<RouterFigures> router_figures(Cycles now);
   const PacketFigures& packet_figures() const { return packet_figures_; }
   /// Throws MachineFailure unless on each link: free slots + slots held + slots on their way back = the buffer's.
   void check_slots() const;
@@ -88,7 +97,7 @@ class Torus {
   /// All of it that a run changes.
   template <class Archive>
   void archive(Archive& archive) {
-    archive(faults_, lines_, routers_, return_times_, packet_figures_, inside_);
+    archive(faults_, lines_, routers_, return_times_, packet_figures_, inside_, advances_);
   }
 
  private:
@@ -106,15 +115,17 @@ class Torus {
   };
   struct alignas(64) Output {
     Cycles free_at = 0;
-    Cycles scheduled = kNotYet;       // next arbitration
-    Cycles stalled_at = kNotYet;      // since when it has been free and wanted, but nothing could go
-    std::uint32_t slots = 0;          // free ones at the other end, as far as known here
-    std::uint32_t held = 0;           // slots there: packets granted to it and not granted onwards
-    std::uint8_t waiting = 0;         // inputs that ask for it, a bit each
-    std::uint8_t next_input = 0;      // round robin, among packets of one age
-    std::uint8_t starving = kNobody;  // the input that has waited too long to enter this ring
-    std::uint32_t may_enter = 0;
-    std::uint32_t first_return = 0, returns = 0;
+    Cycles scheduled = kNotYet;   // next arbitration
+    Cycles stalled_at = kNotYet;  // since when it has been free and wanted, but nothing could go
+    Cycles advanced_until = 0;    // before this what a packet has made of it ahead of time may be taken back
+    std::uint16_t advance = 0;    // of which
+    std::uint16_t slots = 0;      // free ones at the other end, as far as known here
+    std::uint16_t held = 0;       // slots there: packets granted to it and not granted onwards
+    std::uint16_t may_enter = 0;
+    std::uint16_t first_return = 0, returns = 0;
+    std::uint8_t waiting = 0;              // inputs that ask for it, a bit each
+    std::uint8_t next_input = 0;           // round robin, among packets of one age
+    std::uint8_t starving = kNobody;       // the input that has waited too long to enter this ring
     std::uint64_t packets = 0, flits = 0;  // as in LinkFigures
   };
   static_assert(sizeof(Input) == 64 && sizeof(Output) == 64);
@@ -131,7 +142,7 @@ class Torus {
     alignas(64) LinkFigures injection;
   };
 
-  void arrive(const Event& event);
+  void arrive(unsigned router, std::size_t port, BlockIndex block, Cycles now);
   void tail(const Event& event);
   void line(const Event& event);
   void head(unsigned router, std::size_t input, Cycles now);
@@ -153,9 +164,19 @@ class Torus {
   void grant(Router& here, unsigned router, std::size_t input, std::size_t output, Cycles now);
   Cycles send(Output& out, unsigned router, std::size_t output, BlockIndex index, Cycles start);
   void look_ahead(unsigned next, std::size_t input, Block& block);
+  bool will_go(const Output& out, std::size_t input, std::size_t output, Cycles now, Cycles time) const;
+  bool advance(Output& out, unsigned router, std::size_t output, BlockIndex index, Cycles now);
+  void take_back(std::uint16_t number, Cycles now);
+  void end_advance(const Event& event);
   void send_copy(unsigned router, std::size_t output, BlockIndex index, Cycles start);
   void eject(Router& here, unsigned router, BlockIndex index, Cycles tail);
   void free_slot(unsigned router, std::size_t input, Cycles when, Cycles now);
+  /// A packet's tail leaves the other end of an output at `when`.
+  void give_back_slot(Output& out, unsigned router, std::size_t output, Cycles when) {
+    --out.held;
+    return_time(router, output, std::uint32_t{out.first_return} + out.returns) = when + slot_return_cycles_;
+    ++out.returns;
+  }
   void collect_returns(unsigned router, std::size_t output, Output& out, Cycles now) {
     while (out.returns != 0 && return_time(router, output, out.first_return) <= now) {
       ++out.slots;
@@ -164,6 +185,10 @@ class Torus {
     }
   }
 
+  /// The input whose turn it is after this one's.
+  static std::uint8_t after(std::size_t input) {
+    return static_cast<std::uint8_t>(input + 1 == kPorts ? 0 : input + 1);
+  }
   static bool goes_on(std::size_t input, std::size_t output) {
     return static_cast<Port>(input) == opposite(static_cast<Port>(output));
   }
@@ -196,6 +221,8 @@ class Torus {
   std::vector<Cycles> return_times_;       // rings of buffer_ entries, one per router and link
   PacketFigures packet_figures_;
   std::size_t inside_ = 0;
+  bool may_advance_;  // not where links fail or jitter: then no hop is sure before its time
+  Advances advances_;
   HopWatcher* hop_watcher_ = nullptr;
 };
 
@@ -217,6 +244,7 @@ inline void Torus::request(unsigned router, std::size_t input, const Block& bloc
   Input& in = here.inputs[input];
   const std::size_t output = block.output;
   Output& out = here.outputs[output];
+  if (now < out.advanced_until) take_back(out.advance, now);
   const auto bit = static_cast<std::uint8_t>(1U << input);
   if ((out.waiting & bit) != 0) return;
   in.output = static_cast<std::uint8_t>(output);
@@ -236,9 +264,7 @@ inline void Torus::free_slot(unsigned router, std::size_t input, Cycles when, Cy
   const unsigned upstream = neighbours_[router][input];
   const std::size_t output = index_of(opposite(static_cast<Port>(input)));
   Output& out = routers_[upstream].outputs[output];
-  --out.held;
-  return_time(upstream, output, out.first_return + out.returns) = when + slot_return_cycles_;
-  ++out.returns;
+  give_back_slot(out, upstream, output, when);
   if (out.waiting != 0) {
     schedule(upstream, output, out, std::max({now, out.free_at, return_time(upstream, output, out.first_return)}));
   }
@@ -253,6 +279,18 @@ inline void Torus::withdraw(Router& here, unsigned router, std::size_t input, st
     out.stalled_at = kNotYet;
   }
   if (out.starving == input) cease_starving(router, output, now);
+}
+
+/// The output that it will ask for at the next router, and what is needed there a few events from now, fetched into the
+/// caches meanwhile.
+inline void Torus::look_ahead(unsigned next, std::size_t input, Block& block) {
+  const Port port = shape_.route_on(opposite(static_cast<Port>(input)), places_[next], places_[block.destination]);
+  block.output = static_cast<std::uint8_t>(port);
+  Router& there = routers_[next];
+  __builtin_prefetch(&there.inputs[input], 1);
+  __builtin_prefetch(&there.outputs[index_of(port)], 1);
+  if (port == Port::local) return client_.coming(next);
+  __builtin_prefetch(&return_time(next, index_of(port), 0), 1);
 }
 
 }  // namespace torolux

@@ -7,7 +7,8 @@
 
 namespace torolux {
 
-std::vector<RouterFigures> Torus::router_figures(Cycles now) const {
+std::vector<RouterFigures> Torus::router_figures(Cycles now) {
+  settle(now);
   std::vector<RouterFigures> result(routers_.size());
   const auto figures_of = [&](const Router& here, std::size_t port) {
     const Output& out = here.outputs[port];
@@ -41,7 +42,7 @@ void Torus::check_slots() const {
   for (unsigned router = 0; router < shape_.routers(); ++router) {
     for (std::size_t port = 0; port < kLinks; ++port) {
       const Output& out = routers_[router].outputs[port];
-      if (out.held > buffer_ || out.slots + out.returns + out.held != buffer_) {  // the sum may wrap
+      if (out.held > buffer_ || std::uint32_t{out.slots} + out.returns + out.held != buffer_) {  // the sum may wrap
         throw MachineFailure("router " + std::to_string(router) + ", link " + std::to_string(port) + ": " +
                              std::to_string(out.slots) + " slots free, " + std::to_string(out.returns) +
                              " on their way back, " + std::to_string(out.held) + " held; the buffer has " +

@@ -71,6 +71,7 @@ class Traffic final : private TorusClient {
             "deadlock at cycle " + std::to_string(now_) + ": " + std::to_string(torus_.packets_inside()) +
             " packets are in the torus, and nothing can happen any more\n" + torus_.report(kMostReported));
       }
+      note_borders(events_.next_time());
       handle(events_.pop());
       if (--until_ask != 0) continue;
       until_ask = kAskEvents;
@@ -119,9 +120,12 @@ class Traffic final : private TorusClient {
     if (one.next != kNever) events_.push(one.next, node, EventKind::command, static_cast<std::uint16_t>(node), 0, 0);
   }
 
+  /// What links have carried when measuring begins and ends. next: of the next event; there may then be earlier ones.
+  void note_borders(Cycles next) {
+    if (at_begin_.empty() && next >= begin_) at_begin_ = torus_.router_figures(begin_);
+    if (at_end_.empty() && next >= end_) at_end_ = torus_.router_figures(end_);
+  }
   void handle(const Event& event) {
-    if (now_ < begin_ && event.time >= begin_) at_begin_ = torus_.router_figures(begin_);
-    if (now_ < end_ && event.time >= end_) at_end_ = torus_.router_figures(end_);
     now_ = event.time;
     if (event.kind == EventKind::command) {
       // Port 1: a place in the outgoing queue has come free.

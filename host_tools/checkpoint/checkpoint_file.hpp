@@ -12,7 +12,7 @@
 namespace torolux {
 
 /// Rises with every change of what any class puts into its archive.
-inline constexpr std::uint16_t kCheckpointVersion = 4;
+inline constexpr std::uint16_t kCheckpointVersion = 5;
 
 /// Written beside `file` and renamed by `finish`: what was there before stays until then.
 class CheckpointWriter {

@@ -28,6 +28,7 @@ TEST(TorusShape, RoutesAreShortestAndDimensionOrdered) {
           EXPECT_FALSE(turned && !along_y) << "back to x after y";
           turned = along_y;
           at = shape.neighbour(at, port);
+          EXPECT_EQ(shape.route_on(port, shape.place(at), shape.place(to)), shape.route(at, to));
           ASSERT_LE(++hops, columns + rows);
         }
         EXPECT_EQ(at, to);
