@@ -21,7 +21,8 @@ double in_measure(double value, double was, double is) {
 
 /// Even where it must be; at least 1.
 std::uint64_t in_measure(std::uint64_t value, std::uint64_t was, std::uint64_t is, const auto& count) {
-  if (was == is || was == 0) return value;
+  if (was == is) return value;
+  if (was == 0) return value == 0 ? is : value;
   if (is == 0) return is;
   const double most = static_cast<double>(count.even ? count.most - 1 : count.most);
   const double wanted = static_cast<double>(value) * static_cast<double>(is) / static_cast<double>(was);

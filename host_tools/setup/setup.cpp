@@ -104,7 +104,8 @@ void choose_dense_shots(const Scene& scene, std::uint32_t gather_rays, RenderSet
   }
   const double normalised = area * mesh.space.scale * mesh.space.scale;
   const double absorbing = std::max(area - reflecting, area * 0.01);
-  setup.parameters.dense_shot = static_cast<float>(static_cast<double>(gather_rays) * mesh.elements / normalised);
+  const std::uint32_t rays = std::max(gather_rays, protocol::hemicube_pixels(setup.parameters.hemicube));  // a point's
+  setup.parameters.dense_shot = static_cast<float>(static_cast<double>(rays) * mesh.elements / normalised);
   setup.parameters.mean_radiosity = static_cast<float>(std::max(emitted * reflecting / absorbing / normalised, 1.0));
 }
 

@@ -49,15 +49,17 @@ std::array<double, 3> parts_to_come(const Mesh& mesh, const Solution& solution) 
 }
 
 /// Where light from emitters and reflected light cannot be told apart: what is to come of both together beside what
-/// came of both.
-std::array<double, 3> foreseen_part(const Mesh& mesh, const Solution& solution) {
+/// came of both. emission_found: beside what rays found, which is what was emitted, and all that reflects what came.
+std::array<double, 3> foreseen_part(const Mesh& mesh, const Solution& solution, bool emission_found) {
   const std::array<double, 3> parts = parts_to_come(mesh, solution);
+  const Flux unshot = unshot_flux(mesh, solution);
   const Flux entered = sky_entered(solution);
   std::array<double, 3> foreseen{};
   for (std::size_t c = 0; c < 3; ++c) {
     const auto reflected = static_cast<double>(solution.reflected_shot[c]);
     const double all = reflected + static_cast<double>(solution.emitted_shot[c] + entered[c]);
-    foreseen[c] = all > 0 ? 1 + parts[c] * reflected / all : 1;
+    const double came = emission_found ? all + static_cast<double>(unshot[c]) : all;
+    foreseen[c] = came > 0 ? (all + parts[c] * reflected) / came : 1;
   }
   return foreseen;
 }
@@ -77,7 +79,7 @@ std::vector<Flux> times(std::vector<Flux> flux, const std::array<double, 3>& fac
 }  // namespace
 
 std::vector<Flux> foreseen_flux(const Mesh& mesh, const Solution& solution, bool without_direct) {
-  if (has_gathered(solution)) return times(incident_flux(solution, false), foreseen_part(mesh, solution));
+  if (has_gathered(solution)) return times(incident_flux(solution, false), foreseen_part(mesh, solution, false));
   const std::array<double, 3> parts = parts_to_come(mesh, solution);
   std::vector<Flux> flux = incident_flux(solution, without_direct);
   for (std::size_t e = 0; e < flux.size(); ++e) {
@@ -88,7 +90,7 @@ std::vector<Flux> foreseen_flux(const Mesh& mesh, const Solution& solution, bool
   return flux;
 }
 
-PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool without_direct) {
+PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool without_direct, bool emission_found) {
   const double of_record = flux_of_record(solution);
   if (!has_gathered(solution)) {
     PictureLight light{foreseen_flux(mesh, solution, without_direct), {}};
@@ -96,7 +98,7 @@ PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool with
     return light;
   }
   // Of what lights the surfaces that rays have met.
-  const std::array<double, 3> foreseen = foreseen_part(mesh, solution);
+  const std::array<double, 3> foreseen = foreseen_part(mesh, solution, emission_found);
   PictureLight light;
   light.flux.reserve(solution.elements.size());
   light.of_record.reserve(solution.elements.size());

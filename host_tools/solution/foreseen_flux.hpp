@@ -24,7 +24,7 @@ struct PictureLight {
 };
 
 /// without_direct: shadow rays bring what comes straight from emitters. Of elements that have gathered, what their
-/// points found, and what was kept apart; else foreseen_flux.
-PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool without_direct);
+/// points found, and what was kept apart; else foreseen_flux. emission_found: their rays found what emitters emit, too.
+PictureLight picture_light(const Mesh& mesh, const Solution& solution, bool without_direct, bool emission_found);
 
 }  // namespace torolux

@@ -104,7 +104,8 @@ std::unique_ptr<Phase> RenderProgram::phase_for(Step step) {
     case Step::load_ray_tracing: {
       // The plan is a matter of the mesh, and like that not charged (docs/costs.md): it is made here, as late as it can
       // be, to spare memory.
-      const PictureLight light = picture_light(setup.mesh, *job_.solution, setup.parameters.emitters > 0);
+      const PictureLight light = picture_light(setup.mesh, *job_.solution, setup.parameters.emitters > 0,
+                                               setup.parameters.gathers_emission != 0);
       irradiance_ = make_vertex_irradiance(IrradiancePlan(setup.mesh), light.flux, setup.units.watts_per_quantum,
                                            setup.units.unit_radiance, light.of_record);
       return loading(Stage::ray_tracing);

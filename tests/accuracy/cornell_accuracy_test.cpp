@@ -56,10 +56,12 @@ struct PresetBound {
   double walls;  ///< greatest error of a wall's mean radiosity
   double block;  ///< and of one of the short block's sides, which are dark
 };
-// Of `normal` and `fine` the issue's; it asks nothing of `draft` and of the block's sides. Seen: cells 5.1, 1.6, 0.8 %;
-// walls 3.4, 0.6, 0.5 %; the block's sides 16, 3.2, 0.9 %: dark as they are, few records come to them.
+// Of `normal` and `fine` the issue's; it asks nothing of `draft` and of the block's sides. Seen: cells 7.1, 1.9, 0.5 %;
+// walls 3.4, 0.6, 0.5 %; the block's sides 16, 3.2, 0.9 %: dark as they are, few records come to them. Cells are what
+// shots brought; where elements gather, shots have a quarter of the records and may have twice the noise of before (of
+// `draft` 4.3 %).
 constexpr std::array<PresetBound, 3> kBounds{
-    {{"draft", 0.07, 0.05, 0.25}, {"normal", 0.04, 0.02, 0.045}, {"fine", 0.015, 0.02, 0.02}}};
+    {{"draft", 0.09, 0.05, 0.25}, {"normal", 0.04, 0.02, 0.045}, {"fine", 0.015, 0.02, 0.02}}};
 
 class CornellAccuracy : public testing::TestWithParam<PresetBound> {};
 

@@ -131,5 +131,21 @@ TEST(FinalGather, LeavesAFurnaceLessNoise) {
   EXPECT_LT(error(run_case(furnace)), 0.3 * shot);
 }
 
+// What is left unshot is estimated; rays that find emission must not have that estimated once more. Half a percent: the
+// estimate is exact where all walls are alike, and what is left is noise of 10^5 records.
+TEST(FinalGather, IsAsBrightWhereMuchIsUnshot) {
+  RenderCase furnace = native_case(data_dir() / "scenes" / "furnace");
+  furnace.quality.shot_points = 4;
+  furnace.quality.hemicube = 4;
+  furnace.quality.emission_records = 125'000;
+  furnace.quality.unshot = 0.1;
+  furnace.quality.shadow_rays = false;
+  furnace.quality.final_gather = 96;
+  double sum = 0;
+  const RenderResult result = run_case(furnace);
+  for (const auto& pixel : result.picture.pixels) sum += static_cast<double>(pixel[0] + pixel[1] + pixel[2]) / 3;
+  EXPECT_NEAR(sum / static_cast<double>(result.picture.pixels.size()), 2.0, 0.01);
+}
+
 }  // namespace
 }  // namespace torolux::test

@@ -84,7 +84,7 @@ TEST(Main, HelpOfRenderIsComplete) {
                              "--strict",
                              "--missing-materials"})
     EXPECT_THAT(help, HasSubstr(option));
-  for (const char* text : {"[512x512]", "[4x4]", "[balanced; --scheme paper: skewed]", "[16]", "[0.002]", "[32]",
+  for (const char* text : {"[512x512]", "[4x4]", "[balanced; --scheme paper: skewed]", "[16;", "[0.002]", "[32]",
                            "degrees", "scene units"})
     EXPECT_THAT(help, HasSubstr(text));
   std::istringstream lines(help);

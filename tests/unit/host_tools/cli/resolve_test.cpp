@@ -204,6 +204,7 @@ TEST(Resolve, APresetIsAllThatABareSceneGets) {
     EXPECT_EQ(is.hemicube, should.hemicube);
     EXPECT_EQ(is.shot_points, should.shot_points);
     EXPECT_EQ(is.emission_records, should.emission_records);
+    EXPECT_EQ(is.final_gather, should.final_gather);
     EXPECT_EQ(is.unshot, should.unshot);
     EXPECT_EQ(is.refine, should.refine);
     EXPECT_TRUE(is.shadow_rays);
@@ -239,6 +240,19 @@ TEST(Resolve, APresetChangesWhatTheSceneSaysInTheSameMeasure) {
   scene.defaults.quality = PlacedText{"fine", ""};
   EXPECT_EQ(quality_of(scene, "fine").samples, 64U);
   EXPECT_EQ(quality_of(scene, "normal").samples, 16U);
+}
+
+// `fine` has no final gathering, so a scene that names it says nothing of that for other presets, unless by itself.
+TEST(Resolve, ASceneAtFineIsGatheredAtOtherPresets) {
+  Scene scene = bare_scene();
+  scene.defaults.quality = PlacedText{"fine", ""};
+  EXPECT_EQ(quality_of(scene, "fine").final_gather, 0U);
+  for (const Preset& preset : kPresets) {
+    EXPECT_EQ(quality_of(scene, preset.name.data()).final_gather, preset.gathering.final_gather);
+    EXPECT_EQ(quality_of(scene, preset.name.data()).emission_records, preset.gathering.emission_records);
+  }
+  scene.defaults.given.set(&Quality::final_gather, 64);
+  EXPECT_EQ(quality_of(scene, "normal").final_gather, 64U);
 }
 
 TEST(Resolve, PresetsSendNoShadowRaysToLargeEmitters) {

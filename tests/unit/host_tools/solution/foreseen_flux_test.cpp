@@ -61,9 +61,9 @@ TEST(ForeseenFlux, IsWhatCameWhereAllIsShotOrNothingWas) {
 // Without gathering a picture shows what is foreseen, with the noise of records.
 TEST(PictureLight, IsWhatIsForeseenWhereNothingGathered) {
   Room room(kEmitted / 2);
-  EXPECT_TRUE(picture_light(room.mesh, room.solution, true).of_record.empty()) << "no records were counted";
+  EXPECT_TRUE(picture_light(room.mesh, room.solution, true, false).of_record.empty()) << "no records were counted";
   room.solution.tally.rays = 1000;
-  const PictureLight light = picture_light(room.mesh, room.solution, true);
+  const PictureLight light = picture_light(room.mesh, room.solution, true, false);
   EXPECT_EQ(light.flux, foreseen_flux(room.mesh, room.solution, true));
   EXPECT_EQ(light.of_record, std::vector<double>(light.flux.size(), flux_of_record(room.solution)));
 }
@@ -79,17 +79,17 @@ TEST(PictureLight, IsWhatPointsFoundAndWhatIsKeptApart) {
   element.apart = grey(3000);
   element.gathered = grey(20'000);
   element.points = 5;
-  const PictureLight light = picture_light(room.mesh, solution, true);
+  const PictureLight light = picture_light(room.mesh, solution, true, false);
   EXPECT_EQ(light.flux[room.element], grey(3000 + 20'000 / 5));
-  EXPECT_EQ(picture_light(room.mesh, solution, false).flux, light.flux) << "all of it is in both";
+  EXPECT_EQ(picture_light(room.mesh, solution, false, false).flux, light.flux) << "all of it is in both";
   element.apart = {};
-  const double of_rays = picture_light(room.mesh, solution, true).of_record[room.element];
+  const double of_rays = picture_light(room.mesh, solution, true, false).of_record[room.element];
   EXPECT_LT(of_rays, 4000.0 / 400) << "rays look evenly around";
   element.apart = grey(4000);
-  const double of_both = picture_light(room.mesh, solution, true).of_record[room.element];
+  const double of_both = picture_light(room.mesh, solution, true, false).of_record[room.element];
   EXPECT_DOUBLE_EQ(of_both, (of_rays + flux_of_record(solution)) / 2);
   element.points = 0;
-  EXPECT_EQ(picture_light(room.mesh, solution, true).flux[room.element], grey(4000)) << "who has not gathered";
+  EXPECT_EQ(picture_light(room.mesh, solution, true, false).flux[room.element], grey(4000)) << "who has not gathered";
 }
 
 // What is still unshot would light what rays have met, by the part of light that comes by reflection.
@@ -101,8 +101,21 @@ TEST(PictureLight, ForeseesWhatIsUnshot) {
   element.points = 1;
   // Of all that came so far: emission once, and half of what was shot.
   element.gathered = grey(kEmitted * 3 / 4);
-  EXPECT_NEAR(static_cast<double>(picture_light(room.mesh, room.solution, true).flux[room.element][0]),
+  EXPECT_NEAR(static_cast<double>(picture_light(room.mesh, room.solution, true, false).flux[room.element][0]),
               static_cast<double>(kEmitted), 10);
+}
+
+// Where rays found emission beside all that reflects what came, the rest comes beside both: emission once, half of one
+// and a half of it, and in the end as much reflected as emitted.
+TEST(PictureLight, ForeseesTheRestBesideEmissionThatRaysFound) {
+  Room room(kEmitted);
+  room.solution.tally.rays = room.solution.tally.gather_rays = 1000;
+  SolvedElement& element = room.solution.elements[room.element];
+  element.apart = {};
+  element.points = 1;
+  element.gathered = grey(kEmitted + kEmitted * 3 / 4);
+  EXPECT_NEAR(static_cast<double>(picture_light(room.mesh, room.solution, true, true).flux[room.element][0]),
+              2.0 * kEmitted, 10);
 }
 
 }  // namespace
