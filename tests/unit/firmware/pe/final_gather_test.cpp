@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -374,6 +376,25 @@ TEST(FinalGather, LeavesDenseShotsToTheirRecords) {
   const LightOfAll dark = gather_after_shots(0x1p-40F, 0x1p100F);
   EXPECT_EQ(dark.apart, 0);
   EXPECT_EQ(dark.found, none.found);
+}
+
+/// The greatest power of two for which shots are kept apart: it is less than the limit, and half of it or more.
+float most_for_apart(const std::function<double(float)>& apart_with) {
+  int kept = -60;
+  for (int not_kept = 100; not_kept - kept > 1;) {
+    const int middle = (kept + not_kept) / 2;
+    (apart_with(std::ldexp(1.0F, middle)) > 0 ? kept : not_kept) = middle;
+  }
+  return std::ldexp(1.0F, kept);
+}
+
+// How many records make a shot dense depends on how much brighter its side is than the mean, by the square: where it is
+// at most twice as bright, a quarter and less of what a far brighter one has counts, so twice the limit is not reached.
+TEST(FinalGather, WeighsDenseShotsByHowBrightTheSideIs) {
+  const float limit = most_for_apart([](float dense_shot) { return gather_after_shots(dense_shot, 1).apart; });
+  const float radiosity = most_for_apart([](float mean) { return gather_after_shots(0x1p-60F, mean).apart; });
+  EXPECT_GT(gather_after_shots(limit / 2, 1).apart, 0);
+  EXPECT_EQ(gather_after_shots(limit / 2, radiosity).apart, 0);
 }
 
 /// A block in the midst of a room, its outside the backs of its polygons, and a shell of another material around it.
