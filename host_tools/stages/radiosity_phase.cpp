@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PEs' messages drive it: candidates are sorted and the first of them shoot, points are dealt to PEs that want work,
-// credits granted and recalled. A round is over when all are home.
+// PEs' messages drive it: candidates are sorted and the first of them shoot, their points are dealt, credits granted
+// and recalled. A round is over when all are home.
 #include "host_tools/stages/radiosity_phase.hpp"
 
 #include <algorithm>
@@ -19,12 +19,6 @@ using protocol::Flux;
 using protocol::MessageKind;
 using protocol::ShotKind;
 
-/// Points, or parts of points, that a PE has at a time: while the next one is on its way, it works on the other. When
-/// no more are left than there are PEs, each has one: at the end nobody waits for what another has in store.
-constexpr std::uint32_t kSupply = 2;
-/// Points are dealt in parts when fewer are left for each PE.
-constexpr std::uint64_t kPointsUndivided = 2;
-static_assert(kSupply <= protocol::kPointPlaces);
 /// A round's shots have at least 3/4 of what the least of the last round's had, mostly: PEs need not name those with
 /// less.
 constexpr std::int64_t kExpectedFactor = 3;
@@ -68,9 +62,7 @@ void check_candidate(PeNumber source, const Candidate& candidate) {
 
 RadiosityPhase::RadiosityPhase(RadiositySettings settings)
     : settings_(std::move(settings)),
-      shots_of_(settings_.pes + 1),
-      deals_(settings_.pes),
-      supplied_(settings_.pes),
+      dealer_(settings_.pes, settings_.points_travel, settings_.sky),
       credits_(settings_.credits, settings_.pes) {}
 
 void RadiosityPhase::start(HostPort& port) {
@@ -189,10 +181,9 @@ void RadiosityPhase::gather_or_end(HostPort& port) {
     candidate.patch = of.patch;
     candidate.side = of.side;
     candidate.kind = ShotKind::gathering;
-    shots_of_[of.pe].push_back({candidate, number++, of.points});
+    dealer_.add(of.pe, candidate, number++, of.points);
   }
   port.work(HostWork::entry, settings_.gatherings.size());
-  list_owners();
   begin_dealing(port);
 }
 
@@ -200,21 +191,17 @@ double RadiosityPhase::gathered() const {
   if (!gathers_ || settings_.gatherings.empty()) return 0;
   double points = 0;
   for (const FinalGather& of : settings_.gatherings) points += of.points;
-  return 1 - static_cast<double>(points_left_) / points;
+  return 1 - static_cast<double>(dealer_.points_left()) / points;
 }
 
 void RadiosityPhase::begin_dealing(HostPort& port) {
   state_ = State::shooting;
-  rounds_.back().pes = static_cast<std::uint32_t>(owners_.size());
-  wanting_.clear();
-  for (std::uint32_t i = 0; i < kSupply; ++i) {
-    for (unsigned pe = 0; pe < settings_.pes; ++pe) wanting_.push_back(static_cast<PeNumber>(pe));
-  }
+  rounds_.back().pes = dealer_.begin();
   // Credits wait at the PEs until the points have been made; with those that have nothing to do, until the recall.
   const bool granted = settings_.points_travel && credits_.grant_all(port);
-  deal(port);
+  dealer_.deal(port);
   for (unsigned pe = 0; pe < settings_.pes && !granted; ++pe) {
-    if (supplied_[pe] > 0) credits_.grant_share(port, static_cast<PeNumber>(pe));
+    if (dealer_.supplies(static_cast<PeNumber>(pe))) credits_.grant_share(port, static_cast<PeNumber>(pe));
   }
   credits_.note(port);
 }
@@ -236,157 +223,38 @@ void RadiosityPhase::add_shots() {
                              " quanta have been shot");
       }
     }
-    shots_of_[candidates_[i].pe].push_back(
-        {candidate, static_cast<std::uint32_t>(shots_ + i),
-         protocol::points_of_shot(candidate.kind, flux, settings_.points_per_quantum, settings_.shot_points,
-                                  settings_.emission_points)});
-  }
-  list_owners();
-}
-
-/// Of the shots that are to be dealt.
-void RadiosityPhase::list_owners() {
-  owners_.clear();
-  points_left_ = 0;
-  turn_ = 0;
-  for (const auto& shots : shots_of_) {
-    for (const RoundShot& shot : shots) points_left_ += shot.points;
-  }
-  for (unsigned pe = 0; pe < settings_.pes; ++pe) {
-    if (!shots_of_[pe].empty()) owners_.push_back(static_cast<PeNumber>(pe));
+    const std::uint32_t points = protocol::points_of_shot(candidate.kind, flux, settings_.points_per_quantum,
+                                                          settings_.shot_points, settings_.emission_points);
+    dealer_.add(candidates_[i].pe, candidate, static_cast<std::uint32_t>(shots_ + i), points);
   }
 }
 
-/// They are the host's to deal: of nothing in the scene, and all of them in the first round.
+/// All of them in the first round.
 void RadiosityPhase::add_sky_shots() {
-  for (std::uint32_t i = 0; i < settings_.sky.size(); ++i) {
-    const SkyShot& sky = settings_.sky[i];
+  for (const SkyShot& sky : settings_.sky) {
     for (std::size_t c = 0; c < 3; ++c) sky_shot_[c] += sky.flux[c];
-    Candidate opening{};
-    opening.number = i;
-    shots_of_[sky_owner()].push_back({opening, 0, sky.points});
-    points_left_ += sky.points;
   }
-  owners_.push_back(sky_owner());
-}
-
-void RadiosityPhase::send_sky_point(HostPort& port, const RoundShot& shot, PeNumber to, bool divide) const {
-  const SkyShot& sky = settings_.sky[shot.candidate.number];
-  const std::uint32_t number = sky.points - shot.points;
-  protocol::PointRecord point{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto upto = [&](std::int64_t n) {
-      const std::int64_t each = sky.flux[c] / sky.points;
-      return each * n + sky.flux[c] % sky.points * n / sky.points;
-    };
-    point.flux[c] = upto(std::int64_t{number} + 1) - upto(number);
-  }
-  point.polygon = shot.candidate.number;
-  point.key = sky.key;
-  point.kind = protocol::RecordKind::point;
-  point.number_low = static_cast<std::uint8_t>(number);
-  point.number_high = static_cast<std::uint8_t>(number >> 8U);
-  const std::uint32_t part = divide ? shot.part + 1U : 0U;
-  point.flags =
-      static_cast<std::uint8_t>(std::uint32_t{protocol::kDirect} | protocol::kSky | (part << protocol::kPartShift));
-  port.send_records(to, std::as_bytes(std::span(&point, 1)), sizeof point);
+  dealer_.add_sky();
 }
 
 void RadiosityPhase::take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done) {
-  if (done.points > supplied_[source]) {
-    throw MachineFailure("PE " + std::to_string(source) + " has done more than it was dealt");
-  }
+  dealer_.take_done(source, done.points);
   rounds_.back().records += done.records;
   rounds_.back().last_shot_done = port.now();
-  supplied_[source] -= done.points;
-  under_way_ -= done.points;
-  // Who has nothing left comes first.
-  for (std::uint32_t i = 0; i < done.points; ++i) {
-    if (supplied_[source] == 0) {
-      wanting_.push_front(source);
-    } else {
-      wanting_.push_back(source);
-    }
-  }
-  deal(port);
-}
-
-/// A point to each PE that wants one, as long as there are points; their owners make them in turn.
-void RadiosityPhase::deal(HostPort& port) {
-  while (!wanting_.empty() && !owners_.empty()) {
-    port.work(HostWork::entry, 1);
-    const PeNumber to = wanting_.front();
-    const bool ends = points_left_ * protocol::kPointParts <= settings_.pes;
-    if (ends && supplied_[to] > 0 && settings_.points_travel) break;
-    wanting_.pop_front();
-    turn_ = turn_ < owners_.size() ? turn_ : 0;
-    const PeNumber at_home = shots_of_[to].empty() ? sky_owner() : to;
-    const PeNumber owner = settings_.points_travel ? owners_[turn_++] : at_home;
-    if (!shots_of_[owner].empty()) deal_point(port, owner, to);
-  }
-  for (const PeNumber owner : std::exchange(dealing_, {})) send_deal(port, owner);
-}
-
-void RadiosityPhase::deal_point(HostPort& port, PeNumber owner, PeNumber to) {
-  RoundShot& shot = shots_of_[owner].front();
-  const bool of_sky = owner == sky_owner();
-  if (!shot.begun && !of_sky) begin_shot(port, owner, shot);
-  const bool divide = shot.part > 0 || (settings_.points_travel && points_left_ < kPointsUndivided * settings_.pes);
-  const std::uint32_t parts = divide ? protocol::kPointParts : 1U;
-  if (of_sky) {
-    send_sky_point(port, shot, to, divide);
-  } else {
-    add_to_deal(port, owner, to, parts);
-  }
-  ++supplied_[to];
-  ++under_way_;
-  shot.part = (shot.part + 1U) % parts;
-  if (shot.part == 0) {
-    --points_left_;
-    --shot.points;
-  }
-  const bool last = shot.points == 0;
-  if (!of_sky && (last || deals_[owner].count == protocol::Deal::kMost)) send_deal(port, owner);
-  if (!last) return;
-  shots_of_[owner].pop_front();
-  if (shots_of_[owner].empty()) std::erase(owners_, owner);
-}
-
-void RadiosityPhase::add_to_deal(HostPort& port, PeNumber owner, PeNumber to, std::uint32_t parts) {
-  protocol::Deal& deal = deals_[owner];
-  if (deal.count > 0 && deal.parts != parts) send_deal(port, owner);
-  if (deal.count == 0) dealing_.push_back(owner);
-  deal.parts = parts;
-  deal.pe[deal.count++] = to;
-}
-
-void RadiosityPhase::send_deal(HostPort& port, PeNumber owner) {
-  protocol::Deal& deal = deals_[owner];
-  if (deal.count == 0) return;
-  const std::size_t bytes = offsetof(protocol::Deal, pe) + deal.count * sizeof(PeNumber);
-  port.send_message(owner, static_cast<std::uint16_t>(MessageKind::deal),
-                    std::as_bytes(std::span(&deal, 1)).first(bytes));
-  deal.count = 0;
-}
-
-void RadiosityPhase::begin_shot(HostPort& port, PeNumber owner, RoundShot& shot) {
-  const Candidate& candidate = shot.candidate;
-  torolux::send(port, owner, MessageKind::shoot,
-                protocol::Shoot{candidate.amount, candidate.patch, candidate.side, candidate.kind, shot.number});
-  shot.begun = true;
+  dealer_.deal(port);
 }
 
 /// Whoever has no work keeps its credits for what is dealt to it next: each way home and out again is two messages. But
 /// at the end they are all needed at home, and before it where others wait for some.
 void RadiosityPhase::recall_if_due(HostPort& port) {
-  const bool all_made = owners_.empty() && under_way_ == 0 && !credits_.all_home();
+  const bool all_made = dealer_.all_done() && !credits_.all_home();
   if (recalled_ || !(all_made || credits_.are_short())) return;
   recalled_ = true;
   port.broadcast(static_cast<std::uint16_t>(MessageKind::recall), {});
 }
 
 void RadiosityPhase::end_round_if_over(HostPort& port) {
-  if (!owners_.empty() || under_way_ > 0 || !credits_.all_home()) return;
+  if (!dealer_.all_done() || !credits_.all_home()) return;
   shots_ += candidates_.size();
   candidates_.clear();
   rounds_.back().end = port.now();

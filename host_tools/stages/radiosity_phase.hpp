@@ -2,13 +2,13 @@
 // The radiosity stage as the host conducts it: rounds of selection and shots until little is unshot.
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include "host_tools/layout/light_units.hpp"
 #include "host_tools/mesh/mesh.hpp"
 #include "host_tools/stages/credit_pool.hpp"
 #include "host_tools/stages/phase.hpp"
+#include "host_tools/stages/point_dealer.hpp"
 #include "host_tools/stages/radiosity_settings.hpp"
 #include "host_tools/stages/rounds.hpp"
 
@@ -38,23 +38,14 @@ class RadiosityPhase : public Phase {
  private:
   template <class Archive>
   void archive(Archive& archive) {
-    archive(state_, candidates_, answers_, unshot_, selected_unshot_, threshold_, expected_, shots_of_, owners_, turn_,
-            deals_, dealing_, wanting_, supplied_, under_way_, points_left_, gathers_, recalled_, credits_, shots_,
-            rounds_, emitted_shot_, reflected_shot_, sky_shot_);
+    archive(state_, candidates_, answers_, unshot_, selected_unshot_, threshold_, expected_, dealer_, gathers_,
+            recalled_, credits_, shots_, rounds_, emitted_shot_, reflected_shot_, sky_shot_);
   }
 
   enum class State { selecting, shooting, done };
   struct Chosen {
     PeNumber pe;
     protocol::Candidate candidate;
-  };
-  /// A shot of this round at its owner.
-  struct RoundShot {
-    protocol::Candidate candidate;
-    std::uint32_t number;    ///< of the shot, over the stage
-    std::uint32_t points;    ///< left to be dealt
-    std::uint32_t part = 0;  ///< of the next one, where it is dealt in parts
-    bool begun = false;      ///< its owner has been told; of the sky there is nobody to be told
   };
 
   void begin_selection(HostPort& port);
@@ -63,18 +54,10 @@ class RadiosityPhase : public Phase {
   void take_candidates(HostPort& port, PeNumber source, std::span<const std::byte> contents);
   void begin_round(HostPort& port);
   void add_shots();
-  void list_owners();
   void begin_dealing(HostPort& port);
   void gather_or_end(HostPort& port);
   void take_work_done(HostPort& port, PeNumber source, const protocol::WorkDone& done);
-  void deal(HostPort& port);
-  void deal_point(HostPort& port, PeNumber owner, PeNumber to);
-  void add_to_deal(HostPort& port, PeNumber owner, PeNumber to, std::uint32_t parts);
-  void send_deal(HostPort& port, PeNumber owner);
-  void begin_shot(HostPort& port, PeNumber owner, RoundShot& shot);
-  PeNumber sky_owner() const { return static_cast<PeNumber>(settings_.pes); }
   void add_sky_shots();
-  void send_sky_point(HostPort& port, const RoundShot& shot, PeNumber to, bool divide) const;
   void recall_if_due(HostPort& port);
   void end_round_if_over(HostPort& port);
 
@@ -86,18 +69,9 @@ class RadiosityPhase : public Phase {
   std::int64_t selected_unshot_ = 0;  ///< of all, at the last one
   std::int64_t threshold_ = 0;        ///< of the selection: PEs name only sides with more
   std::int64_t expected_ = 0;         ///< so much have this round's shots, if they are like those of the last one
-  std::vector<std::deque<RoundShot>> shots_of_;  ///< with points left, by owner; behind the PEs the sky's, whose points
-                                                 ///< the host makes
-  std::vector<PeNumber> owners_;                 ///< of those, in the order of PEs, the sky last
-  std::size_t turn_ = 0;                         ///< of owners_: who makes the next point
-  std::vector<protocol::Deal> deals_;            ///< being filled, by owner
-  std::vector<PeNumber> dealing_;                ///< owners whose deal is being filled
-  std::deque<PeNumber> wanting_;                 ///< PEs that could do with a point more, longest ago first
-  std::vector<std::uint32_t> supplied_;          ///< points that a PE has been dealt and not finished
-  std::uint64_t under_way_ = 0;                  ///< of those, in all
-  std::uint64_t points_left_ = 0;                ///< to be dealt
-  bool gathers_ = false;                         ///< rounds are over, and elements gather
-  bool recalled_ = false;                        ///< PEs without work send their credits home
+  PointDealer dealer_;
+  bool gathers_ = false;   ///< rounds are over, and elements gather
+  bool recalled_ = false;  ///< PEs without work send their credits home
   CreditPool credits_;
   std::uint64_t shots_ = 0;
   std::vector<RoundFigures> rounds_;
