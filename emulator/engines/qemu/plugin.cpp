@@ -1,42 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The plugin inside each PE's QEMU: counts cycles and instructions of what is translated, and implements the HINT.
-#include <sys/mman.h>
-#include <sys/stat.h>
+#include "emulator/engines/qemu/plugin.hpp"
+
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
-#include <deque>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <thread>
 #include <utility>
 
 #include "emulator/engines/isa/instruction_class.hpp"
-#include "emulator/engines/qemu/counters.hpp"
-#include "emulator/engines/qemu/hint_log.hpp"
-#include "emulator/engines/qemu/hint_meeting.hpp"
-#include "emulator/engines/qemu/places.hpp"
-#include "emulator/engines/qemu/plugin_api.hpp"
-#include "emulator/engines/qemu/plugin_share.hpp"
 #include "emulator/engines/qemu/stack_registers.hpp"
-#include "emulator/niu/channel.hpp"
 #include "emulator/niu/ending.hpp"
 #include "emulator/niu/futex.hpp"
-#include "emulator/niu/processor_side.hpp"
 #include "firmware/protocol/hints.hpp"
 #include "firmware/protocol/machine.hpp"
-#include "firmware/protocol/niu_window.hpp"
-
-extern "C" {
-__attribute__((visibility("default"))) extern const int qemu_plugin_version;
-const int qemu_plugin_version = 1;
-__attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc,
-                                                               char** argv);
-}
 
 namespace torolux {
 namespace {
@@ -46,76 +26,6 @@ constexpr std::uint32_t kWaitForInterrupt = 0x1050'0073;
 
 /// While it waits for the emulator it shows that it is alive.
 constexpr std::chrono::microseconds kLongestSleep{50'000};
-
-class Plugin {
- public:
-  Plugin(PluginShare& share, NiuChannel& channel, std::span<std::byte> memory, NiuProcessorSide side)
-      : share_(share),
-        channel_(channel),
-        memory_(memory),
-        window_(*reinterpret_cast<protocol::NiuWindow*>(&memory[share.window_offset])),
-        side_(side),
-        patience_ends_(end_of_patience(channel)),
-        retrying_(share.resumes != 0),
-        retry_clock_(share.resumed_clock),
-        retry_instructions_(share.resumed_instructions) {}
-
-  void translated(qemu_plugin_tb* block);
-  void begin(const BlockPlace& block);
-  void count(const CountedPlace& place);
-  void hint(const HintPlace& place);
-  [[noreturn]] void wait_for_interrupt(const WaitPlace& place);
-  void read_counter(const CounterPlace& place);
-  void behind_counter(std::uint32_t address);
-
-  // At most one of these is there.
-  std::optional<HintRecorder> recorder;
-  std::optional<HintReplayer> replayer;
-  /// Where the emulator does what HINTs do.
-  HintMeeting* meeting = nullptr;
-
- private:
-  void count_block(qemu_plugin_tb* block);
-  void count_each(qemu_plugin_tb* block);
-  void look_for_rare(qemu_plugin_insn* instruction, const HintPlace& rest, std::uint32_t address);
-  void look_behind_counter(qemu_plugin_tb* block, std::uint32_t address);
-  NiuProcessorSide::Result answer(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
-  NiuProcessorSide::Result meet(std::int32_t immediate, std::uint64_t clock, std::uint64_t instructions);
-  bool watches_loops() const { return meeting == nullptr && !replayer; }
-  [[noreturn]] void give_up(std::uint64_t clock, const NiuFault& fault);
-  [[noreturn]] void end();
-  void tell_stack();
-  void end_where_it_stands(const HintPlace& place);
-  bool begins_block(const HintPlace& place) const { return place.instructions_left + 1 == block_.instructions; }
-
-  PluginShare& share_;
-  NiuChannel& channel_;
-  std::span<const std::byte> memory_;
-  protocol::NiuWindow& window_;
-  NiuProcessorSide side_;
-  /// By address and length: translated again, a block is the same.
-  std::map<std::pair<std::uint32_t, std::size_t>, BlockPlace> blocks_;
-  // Each time one is translated: they are rare.
-  std::deque<WaitPlace> waits_;
-  std::deque<CounterPlace> counters_;
-  struct CounterValue {
-    std::uint32_t next;
-    unsigned destination;
-    std::uint32_t value;
-  };
-  std::optional<CounterValue> counter_value_;  // read, and not yet in its register
-  // PE clock = counted cycles - cycle_offset_; the same for instructions. Modulo 2^64: waiting makes it "negative".
-  std::uint64_t cycle_offset_ = 0;
-  std::uint64_t instruction_offset_ = 0;
-  std::uint64_t patience_ends_;  // counted cycles; with no HINT until then it is an endless loop
-  // While the NIU driver repeats a HINT: clock and count at its first execution, to which they are set back.
-  bool retrying_;
-  std::uint64_t retry_clock_;
-  std::uint64_t retry_instructions_;
-  std::uint32_t last_counted_ = 0;      // address
-  BlockPlace block_{};                  // that runs
-  std::optional<std::int32_t> ending_;  // a HINT of this immediate has ended the PE, and is executed once more
-};
 
 std::unique_ptr<Plugin> plugin;
 
@@ -151,6 +61,13 @@ void on_block_behind_counter(unsigned /*vcpu*/, void* user_data) {
 
 void on_translated(qemu_plugin_id_t /*id*/, qemu_plugin_tb* block) {
   plugin->translated(block);
+}
+
+}  // namespace
+
+void run_plugin(qemu_plugin_id_t id, std::unique_ptr<Plugin> one) {
+  plugin = std::move(one);
+  qemu_plugin_register_vcpu_tb_trans_cb(id, on_translated);
 }
 
 void Plugin::translated(qemu_plugin_tb* block) {
@@ -373,80 +290,4 @@ void Plugin::hint(const HintPlace& place) {
   share_.hints.fetch_add(1, std::memory_order_relaxed);
 }
 
-std::optional<std::span<std::byte>> map_descriptor(int descriptor) {
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0 || status.st_size <= 0) {
-    return std::nullopt;
-  }
-  const auto bytes = static_cast<std::size_t>(status.st_size);
-  void* mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
-  if (mapped == MAP_FAILED) {
-    return std::nullopt;
-  }
-  return std::span(static_cast<std::byte*>(mapped), bytes);
-}
-
-/// Nothing on success, else what is wrong.
-const char* install(qemu_plugin_id_t id, const qemu_info_t& info, std::string_view argument) {
-  if (info.version.min > qemu_plugin_version || info.version.cur < qemu_plugin_version) {
-    return "this QEMU does not speak version 1 of the plugin interface";
-  }
-  if (std::string_view(info.target_name) != "riscv32" || !info.system_emulation || info.system.max_vcpus != 1) {
-    return "needed: qemu-system-riscv32 with one hart";
-  }
-  constexpr std::string_view kShare = "share=";
-  if (!argument.starts_with(kShare)) {
-    return "expected the argument share=DESCRIPTOR";
-  }
-  const auto share_memory = map_descriptor(std::atoi(argument.substr(kShare.size()).data()));
-  if (!share_memory || share_memory->size() < sizeof(PluginShare)) {
-    return "the shared memory cannot be mapped";
-  }
-  auto& share = *reinterpret_cast<PluginShare*>(share_memory->data());
-  if (share.version != kPluginShareVersion || share.channel_layout != niu_channel_layout()) {
-    return "plugin and emulator are not from the same build";
-  }
-  const auto channel = map_descriptor(share.channel_descriptor);
-  const auto local = map_descriptor(share.local_descriptor);
-  if (!channel || !local || channel->size() < niu_channel_bytes() || local->size() < share.local_memory_bytes) {
-    return "channel or local memory cannot be mapped";
-  }
-  const std::span<std::byte> memory = local->first(share.local_memory_bytes);
-  plugin = std::make_unique<Plugin>(share, *niu_channel_at(channel->data()), memory,
-                                    NiuProcessorSide(*niu_channel_at(channel->data()), memory, share.window_offset));
-  if (share.log_use != HintLogUse::none) {
-    const auto log = map_descriptor(share.log_descriptor);
-    if (!log || log->size() < sizeof(HintLogHead)) {
-      return "the log of HINTs cannot be mapped";
-    }
-    if (share.log_use == HintLogUse::record) {
-      plugin->recorder.emplace(*log, memory, share.window_offset);
-    } else {
-      plugin->replayer.emplace(*log, memory);
-    }
-  }
-  if (share.meeting_descriptor >= 0) {
-    const auto meeting = map_descriptor(share.meeting_descriptor);
-    if (!meeting || meeting->size() < sizeof(HintMeeting)) {
-      return "the meeting place for HINTs cannot be mapped";
-    }
-    plugin->meeting = reinterpret_cast<HintMeeting*>(meeting->data());
-  }
-  qemu_plugin_register_vcpu_tb_trans_cb(id, on_translated);
-  return nullptr;
-}
-
-}  // namespace
 }  // namespace torolux
-
-int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, char** argv) {
-  const char* problem = torolux::install(id, *info, argc == 1 ? argv[0] : "");
-  if (problem != nullptr) {
-    const std::string_view prefix = "torolux plugin: ";
-    const std::string_view text = problem;
-    (void)!write(STDERR_FILENO, prefix.data(), prefix.size());
-    (void)!write(STDERR_FILENO, text.data(), text.size());
-    return 1;
-  }
-  return 0;
-}
