@@ -2,7 +2,7 @@
 // Proves that files as other programs write them are read as what they mean: the scene is the one of a plain file, and
 // what was passed over or read otherwise is told, once, with file and line; and that only what bears on the picture is
 // refused. Each case is named for the program that is known to write it, where one is.
-#include "tests/unit/host_tools/scene/scene_text.hpp"
+#include "tests/unit/host_tools/scene/plain_room.hpp"
 
 namespace torolux {
 namespace {
@@ -10,17 +10,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::StartsWith;
-
-const std::string kLibrary = "newmtl wall\nKd 0.5 0.25 0.75\nnewmtl lamp\nKd 0 0 0\nKe 8 8 8\n";
-const std::string kPoints = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\n";
-const std::string kFaces = "usemtl wall\nf 1 2 3 4\nusemtl lamp\nf 5 6 7\n";
-const std::string kObj = "mtllib room.mtl\n" + kPoints + kFaces;
-
-Scene load(const Texts& texts) {
-  return load_texts(texts, texts.count("room.toml") > 0 ? "room.toml" : "room.obj");
-}
 
 struct Stranger {
   const char* name;
@@ -28,38 +18,6 @@ struct Stranger {
   std::string mtl;
   std::vector<std::string> told;  ///< the beginnings of all notes but that on the camera
 };
-
-std::vector<std::string> notes(const Scene& scene) {
-  std::vector<std::string> told = scene.warnings;
-  std::erase_if(told, [](const std::string& note) { return note.find("names no camera") != std::string::npos; });
-  return told;
-}
-
-/// Everything that a picture depends on.
-void expect_same(const Scene& scene, const Scene& plain) {
-  EXPECT_EQ(scene.positions, plain.positions);
-  EXPECT_EQ(scene.normals, plain.normals);
-  EXPECT_EQ(scene.texture_points, plain.texture_points);
-  ASSERT_EQ(scene.triangles.size(), plain.triangles.size());
-  for (std::size_t i = 0; i < plain.triangles.size(); ++i) {
-    EXPECT_EQ(scene.triangles[i].position, plain.triangles[i].position);
-    EXPECT_EQ(scene.triangles[i].normal, plain.triangles[i].normal);
-    EXPECT_EQ(scene.triangles[i].texture_points, plain.triangles[i].texture_points);
-    SceneMaterial material = scene.materials[scene.triangles[i].material];
-    const SceneMaterial& expected = plain.materials[plain.triangles[i].material];
-    material.name = expected.name;
-    // tinyobjloader's decimal numbers are off by an ulp or two, toml++'s are not.
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(material.diffuse[c], expected.diffuse[c], 1e-12);
-    material.diffuse = expected.diffuse;
-    EXPECT_EQ(material, expected) << "triangle " << i;
-  }
-}
-
-void expect_told(const Scene& scene, const std::vector<std::string>& beginnings) {
-  const std::vector<std::string> told = notes(scene);
-  ASSERT_EQ(told.size(), beginnings.size()) << testing::PrintToString(told);
-  for (std::size_t i = 0; i < told.size(); ++i) EXPECT_THAT(told[i], StartsWith(beginnings[i]));
-}
 
 class ReadAsPlain : public testing::TestWithParam<Stranger> {};
 
@@ -78,12 +36,6 @@ TEST_P(ReadAsPlain, AndTold) {
   } else {
     EXPECT_THROW(load_scene_from(files, "room.obj", strict), InputError);
   }
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
 }
 
 std::string utf16(const std::string& ascii, bool high_first) {
@@ -326,79 +278,6 @@ TEST(Strangers, OverridesTakeTheFaultsOfWhatTheyReplace) {
   Texts emitting = texts;
   emitting["room.toml"] = "[[mesh]]\nfile = 'room.obj'\n[material.wall]\nemission = 3\n";
   EXPECT_THAT(refusal(emitting, "room.toml"), StartsWith("room.mtl:"));
-}
-
-struct Found {
-  const char* name;
-  std::string written;
-  std::string file;
-  std::string told;  ///< "": nothing
-};
-
-class FoundLibrary : public testing::TestWithParam<Found> {};
-
-TEST_P(FoundLibrary, UnderWhatIsWritten) {
-  const Scene plain = load({{"room.obj", kObj}, {"room.mtl", kLibrary}});
-  const Scene scene =
-      load({{"room.obj", "mtllib " + GetParam().written + "\n" + kPoints + kFaces}, {GetParam().file, kLibrary}});
-  expect_same(scene, plain);
-  if (GetParam().told.empty()) {
-    EXPECT_THAT(notes(scene), IsEmpty());
-  } else {
-    EXPECT_THAT(notes(scene), ElementsAre(AllOf(StartsWith("room.obj:1: "), HasSubstr(GetParam().told))));
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Names, FoundLibrary,
-    testing::Values(Found{"backslashes", "lib\\room.mtl", "lib/room.mtl", ""},
-                    Found{"with_blanks", "my room.mtl", "my room.mtl", ""},
-                    Found{"with_hash", "room #2.mtl", "room #2.mtl", ""}, Found{"dot", "./room.mtl", "room.mtl", ""},
-                    Found{"quoted", "\"my room.mtl\"", "my room.mtl", "is 'my room.mtl'"},
-                    Found{"quoted_single", "'room.mtl'", "room.mtl", "is 'room.mtl'"},
-                    Found{"comment", "room.mtl # of the room", "room.mtl", "is 'room.mtl'"},
-                    Found{"case", "ROOM.MTL", "room.mtl", "'ROOM.MTL' is 'room.mtl'"},
-                    Found{"case_of_folders", "Lib/Room.mtl", "LIB/room.mtl", "is 'LIB/room.mtl'"},
-                    Found{"windows_path", "C:\\Users\\me\\my scene\\room.mtl", "room.mtl", "is 'room.mtl'"},
-                    Found{"unix_path", "/home/me/scene/room.mtl", "room.mtl", "is 'room.mtl'"},
-                    Found{"path_and_case", "D:/scene/Room.MTL", "room.mtl", "is 'room.mtl'"},
-                    Found{"drive_alone", "C:room.mtl", "room.mtl", "is 'room.mtl'"},
-                    Found{"quoted_path", "\"C:\\a b\\room.mtl\"", "room.mtl", "is 'room.mtl'"}),
-    [](const auto& test) { return std::string(test.param.name); });
-
-TEST(Strangers, SeveralLibrariesInQuotationMarks) {
-  const Texts texts{{"room.obj", "mtllib \"a b.mtl\" c.mtl\n" + kPoints + kFaces},
-                    {"a b.mtl", "newmtl wall\nKd 0.5 0.25 0.75\n"},
-                    {"c.mtl", "newmtl lamp\nKd 0 0 0\nKe 8 8 8\n"}};
-  expect_same(load(texts), load({{"room.obj", kObj}, {"room.mtl", kLibrary}}));
-}
-
-TEST(Strangers, FilesThatDifferByCaseAloneAreNotGuessed) {
-  const Texts texts{
-      {"room.obj", replaced(kObj, "room.mtl", "Room.mtl")}, {"room.mtl", kLibrary}, {"ROOM.mtl", kLibrary}};
-  EXPECT_THAT(refusal(texts, "room.obj"), AllOf(StartsWith("room.obj:1: "), HasSubstr("'ROOM.mtl' and 'room.mtl'")));
-}
-
-TEST(Strangers, ALibraryThatIsNowhereIsRefusedWhereItIsMissed) {
-  const Texts nowhere{{"room.obj", kObj}};
-  EXPECT_THAT(refusal(nowhere, "room.obj"),
-              AllOf(StartsWith("room.obj:1: there is no material library 'room.mtl', and material 'wall'"),
-                    HasSubstr("--missing-materials white")));
-  Texts given = nowhere;
-  given["room.toml"] =
-      "[[mesh]]\nfile = 'room.obj'\n[material.wall]\ndiffuse = [0.5, 0.25, 0.75]\n[material.lamp]\nemission = 8\n";
-  const Scene scene = load(given);
-  expect_same(scene, load({{"room.obj", kObj}, {"room.mtl", kLibrary}}));
-  expect_told(scene, {"room.obj:1: there is no material library 'room.mtl'"});
-  MemoryFiles files(nowhere);
-  SceneOptions white;
-  white.missing_materials = MissingMaterials::white;
-  const Scene plain = load_scene_from(files, "room.obj", white);
-  EXPECT_EQ(plain.materials[1].diffuse, (Vec3d{0.99, 0.99, 0.99}));
-  expect_told(plain,
-              {"room.obj:1: there is no material library",
-               "room.obj:9: a material that is not defined is white, diffuse with reflectance 0.99: 'wall' (and 1 "
-               "more)"});
 }
 
 }  // namespace
