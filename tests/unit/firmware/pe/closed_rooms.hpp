@@ -10,7 +10,7 @@
 
 #include "firmware/pe/intersect.hpp"
 #include "firmware/pe/traverse.hpp"
-#include "tests/unit/firmware/pe/test_scene.hpp"
+#include "tests/unit/firmware/pe/test_stores.hpp"
 
 namespace torolux::test {
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/unit/firmware/pe/gathering_room.hpp"
 #include "tests/unit/firmware/pe/radiosity_room.hpp"
 
 namespace torolux::test {
@@ -22,111 +23,6 @@ using protocol::kTurned;
 using protocol::MessageKind;
 using protocol::ShotKind;
 using protocol::Stage;
-
-constexpr float kReflectance = 0.6F;
-/// Flux of an area of 1.
-constexpr std::array<double, 3> kEven = {0x1p44, 0x1p42, 0x1p40};
-
-struct Gathered {
-  Flux flux;  ///< incident, by shots
-  Flux found;
-  std::uint32_t points;
-  bool operator==(const Gathered&) const = default;
-};
-/// By global patch and side, of each element.
-using Outcome = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Gathered>>;
-
-std::vector<Gathered> gathered_by(const FakeMachine& machine, std::uint16_t pe, const protocol::Patch& patch,
-                                  std::uint32_t side) {
-  const protocol::StageLayout& layout = machine.stores[pe].layout;
-  const auto elements = machine.store<Element>(pe, layout.elements);
-  const std::uint32_t first = machine.stores[pe].sides[patch.side[side]].first_element;
-  std::vector<Gathered> out;
-  for (std::uint32_t e = 0; e < patch.elements; ++e) {
-    const Element& element = elements[first + e];
-    out.push_back({element.flux, element.gathered, element.points});
-  }
-  return out;
-}
-
-/// The number, which seeds the random numbers, is the same wherever the patch is. Returns how many rays were made.
-std::uint32_t gather_side(FakeMachine& machine, std::uint16_t pe, std::uint32_t patch, std::uint32_t side,
-                          std::uint32_t points, std::uint32_t credits = 100) {
-  const std::uint32_t number = 1000 + 2 * machine.stores[pe].patches[patch].number + side;
-  return machine.shoot(pe, {{points, 0, 0}, patch, side, ShotKind::gathering, number}, credits);
-}
-
-/// All sides look around, with so many points for each element.
-Outcome gather_all(FakeMachine& machine, std::uint32_t points, std::uint32_t credits = 100) {
-  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
-    const auto& patches = machine.stores[p].patches;
-    for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
-      for (std::uint32_t side = 0; side < 2; ++side) {
-        if (patches[patch].side[side] == protocol::kNoSide) continue;
-        gather_side(machine, p, patch, side, points * patches[patch].elements, credits);
-      }
-    }
-  }
-  Outcome out;
-  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) {
-    for (const protocol::Patch& patch : machine.stores[p].patches) {
-      for (std::uint32_t side = 0; side < 2; ++side) {
-        if (patch.side[side] != protocol::kNoSide) out[{patch.number, side}] = gathered_by(machine, p, patch, side);
-      }
-    }
-  }
-  return out;
-}
-
-std::uint64_t gather_rays(FakeMachine& machine) {
-  std::uint64_t sum = 0;
-  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) sum += machine.tally(p).gather_rays;
-  return sum;
-}
-
-/// Elements get flux by their area, those of these polygons' sides only.
-template <class IsLit>
-void light_evenly(PeStores& stores, const IsLit& is_lit) {
-  for (const protocol::Patch& patch : stores.patches) {
-    for (const std::uint32_t side : patch.side) {
-      if (side == protocol::kNoSide) continue;
-      protocol::PatchSide& of = stores.sides[side];
-      of.incident = {1, 1, 1};  // not dark
-      for (std::uint32_t f = patch.first_facet; f < patch.first_facet + patch.facets; ++f) {
-        const protocol::Facet& facet = stores.facets[f];
-        if (!is_lit(facet.polygon)) continue;
-        Element& element = stores.elements[of.first_element + facet.element];
-        for (std::size_t c = 0; c < 3; ++c)
-          element.flux[c] = static_cast<std::int64_t>(kEven[c] * static_cast<double>(facet.lit_area));
-        add_to(of.incident, element.flux);
-      }
-    }
-  }
-}
-
-constexpr auto kAll = [](std::uint32_t) { return true; };
-
-template <class IsLit>
-void begin_evenly(FakeMachine& machine, const TestScene& scene, const IsLit& is_lit, std::uint32_t niu_slots = 64) {
-  machine.load(scene, Stage::radiosity, niu_slots, 1, [&](PeStores& stores) { light_evenly(stores, is_lit); });
-  for (std::uint16_t p = 0; p < machine.pes.size(); ++p) machine.message(p, MessageKind::begin);
-  machine.run();
-}
-
-/// A closed room, its walls cut into patches and elements of different sizes.
-TestScene closed_room(std::uint32_t pes, std::array<std::uint32_t, 3> cells) {
-  TestScene s;
-  s.pes = pes;
-  s.cells = cells;
-  s.apart = kTurned;
-  s.materials = {diffuse_material(kReflectance)};
-  add_room(s, {0.1F, 0, 0}, {1, 0.75F, 0.5F}, 2, 0);
-  for (std::size_t i = 0; i < s.polygons.size(); ++i) {
-    s.polygons[i].patch_level = i % 3 == 0 ? 1 : 0;
-    s.polygons[i].element_level = static_cast<std::uint8_t>(1 + i % 2);
-  }
-  return s;
-}
 
 /// found / points is so much of the element's own flux times the reflectance.
 void expect_found(const Gathered& element, double part, double tolerance) {
@@ -166,7 +62,7 @@ constexpr auto kOfCeiling = [](std::uint32_t polygon) { return polygon == 2 || p
 
 /// Of the first channel, what the floor's elements find; the ceiling's find nothing.
 double found_by_floor(FakeMachine& machine) {
-  const Outcome all = gather_all(machine, 8);
+  const GatheredBySide all = gather_all(machine, 8);
   double floor = 0;
   for (const std::uint32_t patch : {0U, 1U}) {
     for (const Gathered& e : all.at({patch, 0})) floor += static_cast<double>(e.found[0]) / e.points;
@@ -214,7 +110,7 @@ struct Machine {
 };
 
 /// A room with mirror, glass and glossy floor, and a pane below the lamp, after some shots.
-Outcome gather_in_room(const Machine& m) {
+GatheredBySide gather_in_room(const Machine& m) {
   TestScene scene = room_with_balls(m.pes, m.cells);
   scene.apart = kTurned;
   scene.stop_everywhere = m.stop_everywhere;
@@ -227,7 +123,7 @@ Outcome gather_in_room(const Machine& m) {
   begin_room(machine, scene, m.slots);
   RoomOutcome shots;
   shoot_best(machine, 6, m.credits, shots);
-  Outcome out = gather_all(machine, 2, m.credits);
+  GatheredBySide out = gather_all(machine, 2, m.credits);
   machine.stop();
   return out;
 }
@@ -235,7 +131,7 @@ Outcome gather_in_room(const Machine& m) {
 // Found flux is added up in integers, and rays do not change when they are handed over: the machine makes no
 // difference, to the quantum, nor whether points are dealt whole or in parts.
 TEST(FinalGather, SameSumsWhateverTheMachine) {
-  const Outcome one = gather_in_room({1, {1, 1, 1}, 64, 1'000'000, false, false, true, 64, 1});
+  const GatheredBySide one = gather_in_room({1, {1, 1, 1}, 64, 1'000'000, false, false, true, 64, 1});
   std::int64_t found = 0;
   for (const auto& [place, elements] : one) {
     for (const Gathered& element : elements) found += element.found[0];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scenes for tests of the firmware, and their stores laid out by hand for any number of PEs: independent of what
-// the host tools do.
+// Small scenes for tests of the firmware.
 #pragma once
 
 #include <array>
@@ -58,6 +57,9 @@ struct TestScene {
   }
 };
 
+/// Of a triangle.
+float area_of(const std::array<protocol::Vec3f, 3>& corner);
+
 protocol::Material diffuse_material(float reflectance, float emission = 0);
 protocol::Material mirror_material(float reflectance);
 protocol::Material glass_material(float refractive_index, float transmittance = 1);
@@ -67,48 +69,6 @@ protocol::Material glossy_material(float diffuse, float specular, float exponent
 
 /// Makes all polygons of one material the scene's emitters, each chosen with the same chance.
 void aim_at(TestScene& scene, std::uint16_t material);
-
-/// The stores of one PE.
-struct PeStores {
-  protocol::StageLayout layout{};  ///< its stores' addresses are not set
-  std::vector<protocol::CellWord> cell_words;
-  std::vector<protocol::CellEntry> cell_entries;
-  std::vector<protocol::Subspace> subspaces;
-  std::vector<protocol::ListedPolygon> polygon_list;
-  std::vector<protocol::Polygon> polygons;
-  std::vector<protocol::Material> materials;
-  std::vector<protocol::Vec3f> normals;
-  std::vector<std::uint32_t> nodes;  ///< uniform trees
-  std::vector<protocol::PatchReference> references;
-  std::vector<protocol::PatchPart> parts;
-  std::vector<protocol::Patch> patches;
-  std::vector<protocol::PatchSide> sides;
-  std::vector<protocol::Element> elements;
-  std::vector<protocol::Facet> facets;
-  std::vector<protocol::HemicubeEntry> hemicube;
-  std::vector<protocol::CornerIrradiance> irradiance;  ///< all `irradiance_value`
-  std::vector<protocol::KeptSurface> kept;
-  std::vector<protocol::Texture> textures;  ///< none, as those that follow
-  std::vector<protocol::Texel> texels;
-  std::vector<protocol::TexturePoint> texture_points;
-  std::vector<protocol::SamplePlace> sample_places;
-  std::vector<float> filter;
-  std::vector<protocol::Emitter> emitters;  ///< ray tracing stage
-  std::vector<protocol::SkyEntry> sky;      ///< none, as the openings
-  std::vector<protocol::SkyOpening> sky_openings;
-  std::vector<protocol::Lamp> lamps;  ///< none, as their values and chances
-  std::vector<float> lamp_values;
-  std::vector<std::uint32_t> lamp_chances;
-
-  /// Spans over these vectors, for handlers called directly.
-  pe::Scene scene();
-};
-
-/// By PE. irradiance_value: irradiance / pi at every vertex.
-std::vector<PeStores> build_stores(const TestScene& scene, protocol::Stage stage, float irradiance_value = 1);
-
-/// Exact delta form factors, normalised (see stores.hpp).
-std::vector<protocol::HemicubeEntry> hemicube_table(std::uint32_t n);
 
 /// Two triangles for each of n * n cells of a wall. a, b: edge vectors; the front is where a x b points.
 void add_wall(TestScene& scene, const protocol::Vec3f& corner, const protocol::Vec3f& a, const protocol::Vec3f& b,
