@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "emulator/clock_seconds.hpp"
 #include "emulator/engines/engine_names.hpp"
 #include "emulator/errors.hpp"
 #include "emulator/niu/network_side.hpp"
@@ -23,12 +24,6 @@ using ranks::bytes_of_archive;
 using ranks::read_archive;
 
 namespace {
-
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// That this process may use: launchers often allow it one of a computer's.
 unsigned allowed_cores() {
@@ -54,7 +49,7 @@ PeBlock::PeBlock(BlockSetup setup)
       is_active_(setup_.place.numbers.size()),
       is_told_(setup_.place.numbers.size()),
       is_awaiting_(setup_.place.numbers.size()),
-      begin_cpu_(cpu_seconds()) {
+      begin_cpu_(clock_seconds(CLOCK_PROCESS_CPUTIME_ID)) {
   const MachineSetup& machine = setup_.machine;
   const unsigned pes = machine.columns * machine.rows;
   for (unsigned index = 0; index < setup_.place.numbers.size(); ++index) index_of_[setup_.place.numbers[index]] = index;
@@ -221,7 +216,7 @@ void PeBlock::forget_news() {
 }
 
 std::vector<std::byte> PeBlock::figures() {
-  double seconds = cpu_seconds() - begin_cpu_;
+  double seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin_cpu_;
   std::uint64_t kept = 0;
   for (const ProcessorEnd& end : ends_) kept += end.arrivals().unnamed();
   return bytes_of_archive([&](SnapshotWriter& writer) {

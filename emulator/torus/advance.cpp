@@ -25,7 +25,7 @@ bool Torus::advance(Output& out, unsigned router, std::size_t output, BlockIndex
   Output* before = &out;
   unsigned from = router;
   unsigned to = neighbours_[router][output];
-  std::size_t input = index_of(opposite(static_cast<Port>(output)));
+  std::size_t input = opposite_link(output);
   Cycles time = now + hop_cycles_;
   std::uint16_t number = 0;
   std::uint8_t count = 0;
@@ -54,14 +54,14 @@ bool Torus::advance(Output& out, unsigned router, std::size_t output, BlockIndex
     ahead.next_input = after(input);
     ahead.free_at = in.free_at = time + block.flits;
     in.high_water = std::max(in.high_water, 1U);
-    give_back_slot(*before, from, index_of(opposite(static_cast<Port>(input))), time + block.flits);
+    give_back_slot(*before, from, opposite_link(input), time + block.flits);
     before->advance = ahead.advance = number;
     before->advanced_until = ahead.advanced_until = time + 1;
     ++block.hops;
     before = &ahead;
     from = to;
     to = neighbours_[to][next];
-    input = index_of(opposite(static_cast<Port>(next)));
+    input = opposite_link(next);
     time += hop_cycles_;
     look_ahead(to, input, block);
   }
@@ -96,8 +96,7 @@ void Torus::take_back(std::uint16_t number, Cycles now) {
     Input& in = routers_[hop.router].inputs[hop.input];
     in.free_at = hop.input_free_at;
     if (hop.input_was_unused) in.high_water = 0;
-    Output& before =
-        routers_[neighbours_[hop.router][hop.input]].outputs[index_of(opposite(static_cast<Port>(hop.input)))];
+    Output& before = routers_[neighbours_[hop.router][hop.input]].outputs[opposite_link(hop.input)];
     ++before.held;
     --before.returns;
     before.advanced_until = 0;

@@ -133,7 +133,7 @@ void Torus::grant(Router& here, unsigned router, std::size_t input, std::size_t 
 inline Cycles Torus::send(Output& out, unsigned router, std::size_t output, BlockIndex index, Cycles start) {
   Block& block = pool_[index];
   const unsigned next = neighbours_[router][output];
-  const std::size_t input = index_of(opposite(static_cast<Port>(output)));
+  const std::size_t input = opposite_link(output);
   --out.slots;
   ++out.held;
   look_ahead(next, input, block);

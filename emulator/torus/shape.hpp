@@ -23,6 +23,11 @@ constexpr Port opposite(Port port) {
   return kOpposite[index_of(port)];
 }
 
+/// The same of its number.
+constexpr std::size_t opposite_link(std::size_t port) {
+  return index_of(opposite(static_cast<Port>(port)));
+}
+
 /// Routers are numbered row by row, as PEs are; east raises x, south raises y.
 class TorusShape {
  public:

@@ -194,7 +194,7 @@ class Torus {
   }
   /// Of inputs that wait for an output, one bit each.
   static bool anyone_enters(std::uint8_t waiting, std::size_t output) {
-    return (waiting & ~(1U << index_of(opposite(static_cast<Port>(output))))) != 0;
+    return (waiting & ~(1U << opposite_link(output))) != 0;
   }
   Cycles router_delay(const Block& block) const {
     return jitter_.delay(Jitter::What::router, block.number, block.hops);
@@ -262,7 +262,7 @@ inline void Torus::ask(unsigned router, std::size_t output, Cycles now) {
 /// The slot of a packet that has left is known to be free upstream a little later.
 inline void Torus::free_slot(unsigned router, std::size_t input, Cycles when, Cycles now) {
   const unsigned upstream = neighbours_[router][input];
-  const std::size_t output = index_of(opposite(static_cast<Port>(input)));
+  const std::size_t output = opposite_link(input);
   Output& out = routers_[upstream].outputs[output];
   give_back_slot(out, upstream, output, when);
   if (out.waiting != 0) {

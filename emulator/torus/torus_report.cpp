@@ -24,7 +24,7 @@ std::vector<RouterFigures> Torus::router_figures(Cycles now) {
     RouterFigures& figures = result[router];
     for (std::size_t port = 0; port < kLinks; ++port) {
       figures.links[port] = figures_of(here, port);
-      const std::size_t other = index_of(opposite(static_cast<Port>(port)));
+      const std::size_t other = opposite_link(port);
       figures.links[port].queue_high_water = routers_[neighbours_[router][port]].inputs[other].high_water;
     }
     figures.ejection = figures_of(here, index_of(Port::local));

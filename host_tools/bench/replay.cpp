@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Records, replays.
 #include "host_tools/bench/replay.hpp"
-#include "emulator/engines/engine_names.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -10,6 +9,8 @@
 #include <map>
 #include <thread>
 
+#include "emulator/clock_seconds.hpp"
+#include "emulator/engines/engine_names.hpp"
 #include "emulator/engines/qemu/hint_log.hpp"
 #include "emulator/engines/qemu/qemu_engine.hpp"
 #include "emulator/engines/translated/run/translated_image.hpp"
@@ -44,12 +45,6 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Runs one PE from its start to the end of its log.
 using ReplayPe = std::function<void(HintReplayer& niu, const PeMemory& memory)>;
 
@@ -60,11 +55,11 @@ EngineSpeed replay_here(Recording& recording, unsigned threads, const ReplayPe& 
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t pe = next++; pe < pes.size(); pe = next++) {
-      const double begin = thread_seconds();
+      const double begin = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
       HintReplayer niu(recording.logs[pe].bytes(), pes[pe].local.bytes().first(pes[pe].local_memory_bytes));
       replay(niu, pes[pe]);
       if (!niu.at_end()) throw MachineFailure("PE " + std::to_string(pe) + " did not repeat what it did on QEMU");
-      cpu_seconds[pe] = thread_seconds() - begin;
+      cpu_seconds[pe] = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - begin;
     }
   };
   const auto begin = std::chrono::steady_clock::now();

@@ -33,8 +33,7 @@ Flux unshot_flux(const Mesh& mesh, const Solution& solution) {
 }
 
 /// So much more reflected light is to come, beside what has been shot.
-std::array<double, 3> parts_to_come(const Mesh& mesh, const Solution& solution) {
-  const Flux unshot = unshot_flux(mesh, solution);
+std::array<double, 3> parts_to_come(const Flux& unshot, const Solution& solution) {
   const Flux entered = sky_entered(solution);
   std::array<double, 3> parts{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -51,8 +50,8 @@ std::array<double, 3> parts_to_come(const Mesh& mesh, const Solution& solution) 
 /// Where light from emitters and reflected light cannot be told apart: what is to come of both together beside what
 /// came of both. emission_found: beside what rays found, which is what was emitted, and all that reflects what came.
 std::array<double, 3> foreseen_part(const Mesh& mesh, const Solution& solution, bool emission_found) {
-  const std::array<double, 3> parts = parts_to_come(mesh, solution);
   const Flux unshot = unshot_flux(mesh, solution);
+  const std::array<double, 3> parts = parts_to_come(unshot, solution);
   const Flux entered = sky_entered(solution);
   std::array<double, 3> foreseen{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -80,7 +79,7 @@ std::vector<Flux> times(std::vector<Flux> flux, const std::array<double, 3>& fac
 
 std::vector<Flux> foreseen_flux(const Mesh& mesh, const Solution& solution, bool without_direct) {
   if (has_gathered(solution)) return times(incident_flux(solution, false), foreseen_part(mesh, solution, false));
-  const std::array<double, 3> parts = parts_to_come(mesh, solution);
+  const std::array<double, 3> parts = parts_to_come(unshot_flux(mesh, solution), solution);
   std::vector<Flux> flux = incident_flux(solution, without_direct);
   for (std::size_t e = 0; e < flux.size(); ++e) {
     const SolvedElement& element = solution.elements[e];

@@ -25,7 +25,6 @@ class Watched {
 
   TorusDriver driver;
   std::vector<Delivered> delivered;
-  std::uint64_t events = 0;
 };
 
 /// By chance: rings of any length, the smallest buffers, short and long packets, between one packet in flight and far
@@ -110,24 +109,22 @@ TEST(TorusAdvance, AloneItNeedsNoEventsOnItsWay) {
   EXPECT_EQ(far.delivered.at(0), Delivered(100 + 11 * 4 + 7, 0, 10, 0, 10));
 }
 
-// The first is on its way from PE 0 past PE 3, ahead of time, when PE 3 offers one for the same link in the same cycle
-// in which it comes there; the older one goes first.
+/// One from PE 0 past PE 3, offered at 100, and one from PE 3 for the same link, on a ring.
+std::vector<Delivered> two_on_a_link(Cycles other_offered) {
+  Watched ring(16, 1, {});
+  ring.driver.send(0, 6, 8, 100);
+  ring.driver.send(3, 6, 8, other_offered);
+  ring.driver.run();
+  return ring.delivered;
+}
+
+// The first is on its way, ahead of time, when PE 3 offers the other in the same cycle in which it comes there; the
+// older one goes first. A cycle earlier the other goes first, and the first, which comes a cycle later, waits.
 TEST(TorusAdvance, IsTakenBackWhereSomebodyComesInBetween) {
-  Watched one(16, 1, {});
-  one.driver.send(0, 6, 8, 100);
-  one.driver.send(3, 6, 8, 112);
-  one.driver.run();
-  ASSERT_EQ(one.delivered.size(), 2U);
-  EXPECT_EQ(one.delivered[0], Delivered(100 + 7 * 4 + 7, 0, 6, 0, 6));
-  EXPECT_EQ(one.delivered[1], Delivered(112 + 8 + 4 * 4 + 7, 3, 6, 0, 3));
-  // A cycle earlier it goes first, and the other, which comes a cycle later, waits.
-  Watched other(16, 1, {});
-  other.driver.send(0, 6, 8, 100);
-  other.driver.send(3, 6, 8, 111);
-  other.driver.run();
-  ASSERT_EQ(other.delivered.size(), 2U);
-  EXPECT_EQ(other.delivered[0], Delivered(111 + 4 * 4 + 7, 3, 6, 0, 3));
-  EXPECT_EQ(other.delivered[1], Delivered(111 + 8 + 4 * 4 + 7, 0, 6, 0, 6));
+  EXPECT_EQ(two_on_a_link(112),
+            (std::vector{Delivered(100 + 7 * 4 + 7, 0, 6, 0, 6), Delivered(112 + 8 + 4 * 4 + 7, 3, 6, 0, 3)}));
+  EXPECT_EQ(two_on_a_link(111),
+            (std::vector{Delivered(111 + 4 * 4 + 7, 3, 6, 0, 3), Delivered(111 + 8 + 4 * 4 + 7, 0, 6, 0, 6)}));
 }
 
 // A stream in the first column leaves PE 32, in the second row, no way into its ring; when that has waited long enough,

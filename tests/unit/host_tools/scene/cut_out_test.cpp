@@ -3,11 +3,9 @@
 // neighbours meet in the same positions; and a picture's alpha or map_d does that to faces.
 #include "host_tools/scene/cut_out.hpp"
 
-#include <png.h>
-
 #include <random>
 
-#include "tests/unit/host_tools/scene/scene_text.hpp"
+#include "tests/unit/host_tools/scene/texture_text.hpp"
 
 namespace torolux {
 namespace {
@@ -112,19 +110,6 @@ TEST(CutOut, FineImagesAreAveraged) {
   for (std::size_t i = 0; i < halved.there.size(); ++i)
     EXPECT_EQ(halved.there[i], i % kMostMaskEdge < kMostMaskEdge / 2);
   EXPECT_EQ(cut_out_mask(std::vector<std::uint8_t>{127, 128}, 2, 1).there, (std::vector<bool>{false, true}));
-}
-
-std::string png(std::uint32_t width, std::uint32_t height, const void* pixels, png_uint_32 format) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = width;
-  image.height = height;
-  image.format = format;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::string bytes(size, '\0');
-  EXPECT_NE(png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, 0, nullptr), 0);
-  bytes.resize(size);
-  return bytes;
 }
 
 /// A unit square whose texture points are its corners; its material has this image.

@@ -92,30 +92,27 @@ TEST(PictureLight, IsWhatPointsFoundAndWhatIsKeptApart) {
   EXPECT_EQ(picture_light(room.mesh, solution, true, false).flux[room.element], grey(4000)) << "who has not gathered";
 }
 
-// What is still unshot would light what rays have met, by the part of light that comes by reflection.
-TEST(PictureLight, ForeseesWhatIsUnshot) {
+/// Of an element whose one point found so much, where half of the light that was shot is to be shot again.
+double shown_of(std::int64_t found, bool emission_found) {
   Room room(kEmitted);
   room.solution.tally.rays = room.solution.tally.gather_rays = 1000;
   SolvedElement& element = room.solution.elements[room.element];
   element.apart = {};
   element.points = 1;
-  // Of all that came so far: emission once, and half of what was shot.
-  element.gathered = grey(kEmitted * 3 / 4);
-  EXPECT_NEAR(static_cast<double>(picture_light(room.mesh, room.solution, true, false).flux[room.element][0]),
-              static_cast<double>(kEmitted), 10);
+  element.gathered = grey(found);
+  return static_cast<double>(picture_light(room.mesh, room.solution, true, emission_found).flux[room.element][0]);
+}
+
+// What is still unshot would light what rays have met, by the part of light that comes by reflection. Of all that came
+// so far: emission once, and half of what was shot.
+TEST(PictureLight, ForeseesWhatIsUnshot) {
+  EXPECT_NEAR(shown_of(kEmitted * 3 / 4, false), static_cast<double>(kEmitted), 10);
 }
 
 // Where rays found emission beside all that reflects what came, the rest comes beside both: emission once, half of one
 // and a half of it, and in the end as much reflected as emitted.
 TEST(PictureLight, ForeseesTheRestBesideEmissionThatRaysFound) {
-  Room room(kEmitted);
-  room.solution.tally.rays = room.solution.tally.gather_rays = 1000;
-  SolvedElement& element = room.solution.elements[room.element];
-  element.apart = {};
-  element.points = 1;
-  element.gathered = grey(kEmitted + kEmitted * 3 / 4);
-  EXPECT_NEAR(static_cast<double>(picture_light(room.mesh, room.solution, true, true).flux[room.element][0]),
-              2.0 * kEmitted, 10);
+  EXPECT_NEAR(shown_of(kEmitted + kEmitted * 3 / 4, true), 2.0 * kEmitted, 10);
 }
 
 }  // namespace
